@@ -1,0 +1,93 @@
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace tidemark {
+namespace {
+
+std::string_view name_of(Severity severity) {
+    switch (severity) {
+    case Severity::note: return "note";
+    case Severity::warning: return "warning";
+    case Severity::error: return "error";
+    }
+    return "error";
+}
+
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 0; i < a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (size_t j = 0; j < b.size(); ++j) {
+            const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+std::string to_string(const Diagnostic& diagnostic) {
+    std::string place = diagnostic.where.file;
+    if (diagnostic.where.line > 0) {
+        place += fmt::format(":{}", diagnostic.where.line);
+        if (diagnostic.where.column > 0)
+            place += fmt::format(":{}", diagnostic.where.column);
+    }
+    if (!place.empty())
+        place += ": ";
+    return fmt::format("{}{}: {}", place, name_of(diagnostic.severity), diagnostic.message);
+}
+
+int exit_code(ErrorCode code) {
+    switch (code) {
+    case ErrorCode::check_failed: return 1;
+    case ErrorCode::usage: return 2;
+    case ErrorCode::load: return 3;
+    case ErrorCode::write: return 4;
+    case ErrorCode::timed_out: return 5;
+    case ErrorCode::no_context: return 77;
+    }
+    return 1;
+}
+
+Error error_at(SourceLocation where, std::string message, ErrorCode code) {
+    Error error{code, {}, {}};
+    error.diagnostics.push_back({std::move(where), Severity::error, std::move(message)});
+    return error;
+}
+
+std::string to_string(const Error& error) {
+    std::string text;
+    if (!error.message.empty())
+        text = "tidemark: error: " + error.message;
+    for (const Diagnostic& diagnostic : error.diagnostics) {
+        if (!text.empty())
+            text += '\n';
+        text += to_string(diagnostic);
+    }
+    return text;
+}
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
+    const size_t limit = std::max<size_t>(1, word.size() / 3);
+    std::string best;
+    size_t best_distance = limit + 1;
+    for (const std::string& candidate : candidates) {
+        const size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+} // namespace tidemark

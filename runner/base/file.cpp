@@ -1,0 +1,140 @@
+#include "base/file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace tidemark {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int error_number) {
+    return std::generic_category().message(error_number);
+}
+
+/// Owns a POSIX file descriptor.
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (fd_ >= 0)
+            ::close(fd_);
+    }
+    int get() const { return fd_; }
+    /// Closes now and reports the error that a destructor could only swallow (0: none).
+    int close() {
+        const int fd = std::exchange(fd_, -1);
+        return ::close(fd) == 0 ? 0 : errno;
+    }
+
+private:
+    int fd_;
+};
+
+/// 0, or the errno of the first write that failed.
+int write_all(int fd, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            return errno;
+        bytes = bytes.subspan(size_t(written));
+    }
+    return 0;
+}
+
+tl::unexpected<Error> cannot_write(const fs::path& path, int error_number) {
+    return fail(ErrorCode::write, fmt::format("cannot write '{}': {}", path.string(), reason(error_number)));
+}
+
+} // namespace
+
+Result<std::string> read_file(const fs::path& path, size_t largest) {
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", path.string(), why));
+    };
+    std::error_code status_error;
+    const fs::file_status status = fs::status(path, status_error);
+    if (status.type() == fs::file_type::not_found)
+        return refuse("no such file");
+    if (status.type() == fs::file_type::directory)
+        return refuse("it is a directory");
+    if (status_error)
+        return refuse(status_error.message());
+    if (status.type() != fs::file_type::regular)
+        return refuse("it is not a regular file");
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.get() < 0)
+        return refuse(reason(errno));
+    std::string bytes;
+    char block[1 << 16];
+    for (;;) {
+        const ssize_t count = ::read(file.get(), block, sizeof block);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return refuse(reason(errno));
+        if (count == 0)
+            return bytes;
+        bytes.append(block, size_t(count));
+        if (bytes.size() > largest)
+            return refuse(fmt::format("it is larger than {} MiB", largest >> 20));
+    }
+}
+
+Result<std::string> read_text_file(const fs::path& path) {
+    return read_file(path).and_then([&](std::string bytes) -> Result<std::string> {
+        if (bytes.find('\0') != std::string::npos)
+            return fail(ErrorCode::load,
+                        fmt::format("'{}' is a binary file, not shader text", path.string()));
+        return bytes;
+    });
+}
+
+StagedFile::StagedFile(fs::path final_path) : final_(std::move(final_path)), temporary_(final_) {
+    temporary_.replace_filename(
+        fmt::format(".{}.part-{}{}", final_.stem().string(), ::getpid(), final_.extension().string()));
+}
+
+StagedFile::StagedFile(StagedFile&& other) noexcept
+    : final_(std::move(other.final_)), temporary_(std::exchange(other.temporary_, {})) {}
+
+StagedFile::~StagedFile() {
+    std::error_code ignored;
+    if (!temporary_.empty())
+        fs::remove(temporary_, ignored);
+}
+
+Result<void> StagedFile::commit() {
+    std::error_code error;
+    fs::rename(temporary_, final_, error);
+    if (error)
+        return cannot_write(final_, error.value());
+    temporary_.clear();
+    return {};
+}
+
+Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+    StagedFile staged(path);
+    Descriptor file(::open(staged.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0)
+        return cannot_write(path, errno);
+    if (const int error = write_all(file.get(), bytes))
+        return cannot_write(path, error);
+    if (const int error = file.close())
+        return cannot_write(path, error);
+    return staged.commit();
+}
+
+Result<void> write_file(const fs::path& path, std::string_view text) {
+    return write_file(path, std::as_bytes(std::span(text)));
+}
+
+} // namespace tidemark
