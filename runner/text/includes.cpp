@@ -1,0 +1,127 @@
+#include "text/includes.hpp"
+
+#include "base/file.hpp"
+#include "text/tokens.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::text {
+namespace fs = std::filesystem;
+namespace {
+
+/// One `#include` line: the directive's characters and the name between its quotes.
+struct Include {
+    size_t begin;
+    size_t end;
+    int line;
+    std::string name;
+    bool conditional; ///< stands under an #if
+};
+
+std::vector<Include> find_includes(std::string_view text) {
+    std::vector<Include> found;
+    const std::vector<Token> tokens = tokenize(text);
+    int depth = 0;
+    for (size_t i = 0; i + 1 < tokens.size(); ++i) {
+        if (!tokens[i].first_on_line || !tokens[i].is("#"))
+            continue;
+        const Token& keyword = tokens[i + 1];
+        if (keyword.text.starts_with("if"))
+            ++depth;
+        else if (keyword.is("endif"))
+            depth = std::max(0, depth - 1);
+        else if (keyword.is("include") && i + 2 < tokens.size() && tokens[i + 2].kind == TokenKind::string) {
+            const Token& name = tokens[i + 2];
+            found.push_back({tokens[i].begin, name.end(), tokens[i].line,
+                             std::string(name.text.substr(1, name.text.size() - 2)), depth > 0});
+        }
+    }
+    return found;
+}
+
+class Expander {
+public:
+    explicit Expander(const ReadText& read) : read_(read) {}
+
+    Result<void> expand(const fs::path& path) {
+        auto bytes = read_(path);
+        if (!bytes)
+            return fail(std::move(bytes.error()));
+        if (std::find(result_.files.begin(), result_.files.end(), path) == result_.files.end())
+            result_.files.push_back(path);
+        return paste(path, with_plain_line_ends(*std::move(bytes)));
+    }
+
+    ExpandedText take() { return std::move(result_); }
+
+private:
+    struct Level {
+        fs::path file;
+        int line = 0; ///< of the #include that is being followed
+    };
+
+    Result<void> paste(const fs::path& path, const std::string& text) {
+        chain_.push_back({path});
+        size_t copied = 0;
+        int line = 1;
+        for (const Include& include : find_includes(text)) {
+            result_.text.append(std::string_view(text).substr(copied, include.begin - copied), path.string(),
+                                line);
+            chain_.back().line = include.line;
+            if (auto followed = follow(path, include, text); !followed)
+                return followed;
+            copied = include.end;
+            line = include.line;
+        }
+        result_.text.append(std::string_view(text).substr(copied), path.string(), line);
+        chain_.pop_back();
+        if (result_.text.text().size() > k_largest_text)
+            return refuse(fmt::format("the includes add up to more than {} MiB", k_largest_text >> 20));
+        return {};
+    }
+
+    Result<void> follow(const fs::path& from, const Include& include, const std::string& text) {
+        const fs::path target = (from.parent_path() / include.name).lexically_normal();
+        for (const Level& level : chain_)
+            if (level.file == target)
+                return refuse(fmt::format("'{}' includes itself", include.name));
+        if (chain_.size() > 100)
+            return refuse("includes are nested more than 100 deep");
+        auto pasted = expand(target);
+        if (pasted || !pasted.error().diagnostics.empty())
+            return pasted;
+        if (include.conditional) { // perhaps for another host: whether it counts is the driver's to say
+            const std::string_view line =
+                std::string_view(text).substr(include.begin, include.end - include.begin);
+            result_.text.append(line, from.string(), include.line);
+            return {};
+        }
+        return refuse(pasted.error().message);
+    }
+
+    /// An error at the innermost #include, with one note for each file that led there.
+    tl::unexpected<Error> refuse(std::string message) const {
+        Error error = error_at({chain_.back().file.string(), chain_.back().line, 0}, std::move(message));
+        for (size_t i = chain_.size() - 1; i-- > 0;)
+            error.diagnostics.push_back(
+                {{chain_[i].file.string(), chain_[i].line, 0}, Severity::note, "included from here"});
+        return fail(std::move(error));
+    }
+
+    const ReadText& read_;
+    ExpandedText result_;
+    std::vector<Level> chain_;
+};
+
+} // namespace
+
+Result<ExpandedText> expand_includes(const fs::path& path, const ReadText& read) {
+    Expander expander(read);
+    if (auto done = expander.expand(path.lexically_normal()); !done)
+        return fail(std::move(done.error()));
+    return expander.take();
+}
+
+} // namespace tidemark::text

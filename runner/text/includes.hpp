@@ -1,0 +1,25 @@
+// `#include "…"`: pastes files into one MappedText. Reads files only through the function it is given.
+#pragma once
+
+#include "base/result.hpp"
+#include "text/mapped_text.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace tidemark::text {
+
+using ReadText = std::function<Result<std::string>(const std::filesystem::path&)>;
+
+struct ExpandedText {
+    MappedText text;
+    std::vector<std::filesystem::path> files; ///< every file read, the first one first, each once
+};
+
+/// `path` with every `#include "name"` (relative to the file that says it) replaced by that file's text, at
+/// each occurrence. An `#include <name>`, and one under an `#if` whose file does not exist, are left for
+/// the driver. Cycles and missing files are errors that name the chain of includes.
+Result<ExpandedText> expand_includes(const std::filesystem::path& path, const ReadText& read);
+
+} // namespace tidemark::text

@@ -1,0 +1,185 @@
+#include "text/tokens.hpp"
+
+namespace tidemark::text {
+namespace {
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+bool is_word(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || is_digit(c);
+}
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\v' || c == '\f' || c == '\r';
+}
+
+class Lexer {
+public:
+    explicit Lexer(std::string_view text) : text_(text) {}
+
+    std::vector<Token> run() {
+        tokens_.reserve(text_.size() / 4);
+        while (skip_to_token())
+            tokens_.push_back(next());
+        return std::move(tokens_);
+    }
+
+private:
+    char at(size_t offset) const { return offset < text_.size() ? text_[offset] : '\0'; }
+
+    /// A backslash before a line end joins the lines: both are blank to every reader.
+    bool at_line_joint() const { return at(position_) == '\\' && at(position_ + 1) == '\n'; }
+
+    /// Counts the line feed at `position_`. One inside a comment or behind a backslash begins no line for
+    /// the preprocessor.
+    void advance_line(bool begins_line) {
+        ++line_;
+        line_begin_ = position_ + 1;
+        first_on_line_ = first_on_line_ || begins_line;
+    }
+
+    bool skip_to_token() {
+        skipped_ = false;
+        while (position_ < text_.size()) {
+            if (at_line_joint()) {
+                ++position_;
+                advance_line(false);
+                ++position_;
+            } else if (is_blank(at(position_))) {
+                if (at(position_) == '\n')
+                    advance_line(true);
+                ++position_;
+            } else if (at(position_) == '/' && at(position_ + 1) == '/') {
+                skip_line_comment();
+            } else if (at(position_) == '/' && at(position_ + 1) == '*') {
+                skip_block_comment();
+            } else {
+                return true;
+            }
+            skipped_ = true;
+        }
+        return false;
+    }
+
+    void skip_line_comment() {
+        while (position_ < text_.size() && at(position_) != '\n') {
+            if (at_line_joint()) { // the comment goes on
+                ++position_;
+                advance_line(false);
+            }
+            ++position_;
+        }
+    }
+
+    void skip_block_comment() {
+        const size_t close = text_.find("*/", position_ + 2);
+        const size_t end = close == std::string_view::npos ? text_.size() : close + 2;
+        for (; position_ < end; ++position_)
+            if (at(position_) == '\n')
+                advance_line(false);
+    }
+
+    Token next() {
+        Token token;
+        token.begin = position_;
+        token.line = line_;
+        token.column = int(position_ - line_begin_) + 1;
+        token.first_on_line = first_on_line_;
+        token.glued = !skipped_;
+        token.kind = kind_here();
+        position_ = end_of(token.kind);
+        token.text = text_.substr(token.begin, position_ - token.begin);
+        first_on_line_ = false;
+        return token;
+    }
+
+    TokenKind kind_here() const {
+        const char c = at(position_);
+        if (is_digit(c) || (c == '.' && is_digit(at(position_ + 1))))
+            return TokenKind::number;
+        if (is_word(c))
+            return TokenKind::identifier;
+        if ((c == '"' || c == '\'') && closing_quote() != std::string_view::npos)
+            return TokenKind::string;
+        return TokenKind::punctuation;
+    }
+
+    /// The quote that ends the string here, on the same line.
+    size_t closing_quote() const {
+        const char quote = at(position_);
+        for (size_t i = position_ + 1; i < text_.size() && text_[i] != '\n'; ++i) {
+            if (text_[i] == '\\')
+                ++i;
+            else if (text_[i] == quote)
+                return i;
+        }
+        return std::string_view::npos;
+    }
+
+    size_t end_of(TokenKind kind) const {
+        size_t i = position_ + 1;
+        switch (kind) {
+        case TokenKind::identifier:
+            while (is_word(at(i)))
+                ++i;
+            return i;
+        case TokenKind::number: return end_of_number();
+        case TokenKind::string: return closing_quote() + 1;
+        case TokenKind::punctuation: return i;
+        }
+        return i;
+    }
+
+    /// `1..xxx` is `1.` and `.xxx`, `1.xx` is `1.` and `xx`; `0x1.` is `0x1` and `.`.
+    size_t end_of_number() const {
+        size_t i = position_;
+        if (at(i) == '0' && (at(i + 1) == 'x' || at(i + 1) == 'X')) {
+            i += 2;
+            while (is_word(at(i)))
+                ++i;
+            return i;
+        }
+        while (is_digit(at(i)))
+            ++i;
+        if (at(i) == '.')
+            ++i;
+        while (is_digit(at(i)))
+            ++i;
+        if (at(i) == 'e' || at(i) == 'E') {
+            const size_t digits = i + (at(i + 1) == '+' || at(i + 1) == '-' ? 2 : 1);
+            if (is_digit(at(digits))) {
+                i = digits;
+                while (is_digit(at(i)))
+                    ++i;
+            }
+        }
+        while (at(i) == 'u' || at(i) == 'U' || at(i) == 'f' || at(i) == 'F' || at(i) == 'l' || at(i) == 'L')
+            ++i;
+        return i;
+    }
+
+    std::string_view text_;
+    std::vector<Token> tokens_;
+    size_t position_ = 0;
+    size_t line_begin_ = 0;
+    int line_ = 1;
+    bool first_on_line_ = true;
+    bool skipped_ = true;
+};
+
+} // namespace
+
+std::vector<Token> tokenize(std::string_view text) {
+    return Lexer(text).run();
+}
+
+size_t end_of_directive(const std::vector<Token>& tokens, size_t first) {
+    size_t i = first + 1;
+    while (i < tokens.size() && !tokens[i].first_on_line)
+        ++i;
+    return i;
+}
+
+} // namespace tidemark::text
