@@ -1,0 +1,121 @@
+#include "glsl/overrides.hpp"
+
+#include "text/tokens.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+using text::Token;
+using text::TokenKind;
+
+/// A name that the text gives a value, and where that value stands.
+struct Definition {
+    std::string_view name;
+    size_t begin;
+    size_t end;
+    bool separate; ///< nothing stands between the name and an empty value: a blank must go first
+};
+
+/// The `#define` that the token `#` at `hash` begins; nothing for a macro with parameters.
+std::optional<Definition> read_macro(const std::vector<Token>& tokens, size_t hash) {
+    const size_t end = text::end_of_directive(tokens, hash);
+    if (hash + 2 >= end || !tokens[hash + 1].is("define"))
+        return std::nullopt;
+    const Token& name = tokens[hash + 2];
+    const bool has_value = hash + 3 < end;
+    if (has_value && tokens[hash + 3].is("(") && tokens[hash + 3].glued)
+        return std::nullopt;
+    if (!has_value)
+        return Definition{name.text, name.end(), name.end(), true};
+    return Definition{name.text, tokens[hash + 3].begin, tokens[end - 1].end(), false};
+}
+
+bool opens(const Token& token) {
+    return token.is("(") || token.is("[") || token.is("{");
+}
+
+bool closes(const Token& token) {
+    return token.is(")") || token.is("]") || token.is("}");
+}
+
+/// The declarators of `const TYPE name = value, name = value;` behind the token at `keyword`.
+void read_constants(const std::vector<Token>& tokens, size_t keyword, std::vector<Definition>& found) {
+    size_t i = keyword + 1;
+    while (i < tokens.size() && !tokens[i].is(";")) {
+        if (closes(tokens[i])) // `const` of a parameter
+            return;
+        if (!tokens[i].is("=")) {
+            ++i;
+            continue;
+        }
+        const Token& name = tokens[i - 1];
+        size_t end = i + 1;
+        for (int depth = 0; end < tokens.size(); ++end) {
+            const Token& token = tokens[end];
+            depth += opens(token) ? 1 : closes(token) ? -1 : 0;
+            if (depth < 0 || (depth == 0 && (token.is(",") || token.is(";"))))
+                break;
+        }
+        if (name.kind == TokenKind::identifier && end > i + 1)
+            found.push_back({name.text, tokens[i + 1].begin, tokens[end - 1].end(), false});
+        i = end;
+    }
+}
+
+std::vector<Definition> find_definitions(const std::vector<Token>& tokens) {
+    std::vector<Definition> found;
+    for (size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i].first_on_line && tokens[i].is("#")) {
+            if (const auto macro = read_macro(tokens, i))
+                found.push_back(*macro);
+            i = text::end_of_directive(tokens, i) - 1;
+        } else if (tokens[i].is("const")) {
+            read_constants(tokens, i, found);
+        }
+    }
+    return found;
+}
+
+Error no_such_definition(std::string_view name, std::vector<std::string> names) {
+    const std::string nearest = nearest_name(name, names);
+    const std::string hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                             : names.empty()  ? std::string("it defines none")
+                                              : fmt::format("it has {}", fmt::join(names, ", "));
+    return {ErrorCode::usage, fmt::format("the scene has no #define or const '{}': {}", name, hint), {}};
+}
+
+} // namespace
+
+Result<void> override_definition(scene::Scene& scene, std::string_view setting) {
+    const auto split = scene::split_setting(setting, "--define");
+    if (!split)
+        return fail(split.error());
+    const auto [name, value] = *split;
+    if (value.find_first_of("\n\r") != std::string_view::npos)
+        return fail(ErrorCode::usage, fmt::format("--define {}: the value must be one line", name));
+    std::vector<std::string> names;
+    bool replaced = false;
+    for (scene::Pass& pass : scene.passes) {
+        const auto tokens = text::tokenize(pass.text.text());
+        std::vector<text::Edit> edits;
+        for (const Definition& definition : find_definitions(tokens)) {
+            if (definition.name == name)
+                edits.push_back({definition.begin, definition.end,
+                                 (definition.separate ? " " : "") + std::string(value)});
+            else if (std::find(names.begin(), names.end(), definition.name) == names.end())
+                names.emplace_back(definition.name);
+        }
+        replaced = replaced || !edits.empty();
+        pass.text.apply(edits);
+    }
+    if (!replaced)
+        return fail(no_such_definition(name, std::move(names)));
+    return {};
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,376 @@
+#include "scene/directives.hpp"
+
+#include "text/tokens.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace tidemark::scene {
+namespace fs = std::filesystem;
+using text::Token;
+using text::TokenKind;
+namespace {
+
+/// What the grammar calls VALUE: numbers, and whether all of them were written as whole numbers.
+struct Value {
+    std::vector<double> numbers;
+    bool whole = true;
+};
+
+/// A cursor over the tokens of one text. Every `expect` either moves on or explains what it wanted.
+class DirectiveReader {
+public:
+    explicit DirectiveReader(const text::MappedText& text)
+        : text_(text), tokens_(text::tokenize(text.text())) {}
+
+    Result<Directives> read_all();
+    const std::vector<text::Edit>& edits() const { return edits_; }
+
+private:
+    using Status = Result<void>;
+
+    // Tokens
+    const Token* peek() const { return position_ < tokens_.size() ? &tokens_[position_] : nullptr; }
+    bool next_is(std::string_view wanted) const { return peek() && peek()->is(wanted); }
+    bool accept(std::string_view wanted) { return next_is(wanted) && ++position_; }
+    SourceLocation here() const;
+    tl::unexpected<Error> wanted(std::string_view what) const;
+    Status expect(std::string_view wanted_text);
+    Result<std::string> expect_string();
+
+    // Grammar
+    bool at_directive() const;
+    Status read_directive();
+    Status read_channel(std::string_view keyword, const SourceLocation& where);
+    Status read_channel_source(Channel& channel, const SourceLocation& where);
+    Status read_channel_parameter(Channel& channel);
+    Status read_knob(const SourceLocation& where);
+    Status read_knob_values(Knob& knob);
+    Status check_name_is_free(const Knob& knob) const;
+    Result<KnobRange> read_range(const Knob& knob);
+    Result<KnobValue> read_value(const Knob& knob);
+    Result<Value> read_literal();
+    Result<double> read_number(bool& whole);
+
+    const text::MappedText& text_;
+    std::vector<Token> tokens_;
+    size_t position_ = 0;
+    Directives directives_;
+    std::vector<text::Edit> edits_;
+};
+
+SourceLocation DirectiveReader::here() const {
+    // At the end of the text the last token is the best place there is to point at.
+    const Token& token = tokens_[std::min(position_, tokens_.size() - 1)];
+    return text_.lines().locate(token.line);
+}
+
+tl::unexpected<Error> DirectiveReader::wanted(std::string_view what) const {
+    const std::string found = peek() ? fmt::format("'{}'", peek()->text) : "the end of the file";
+    return fail(error_at(here(), fmt::format("expected {} but found {}", what, found)));
+}
+
+Result<void> DirectiveReader::expect(std::string_view wanted_text) {
+    if (!accept(wanted_text))
+        return wanted(fmt::format("'{}'", wanted_text));
+    return {};
+}
+
+Result<std::string> DirectiveReader::expect_string() {
+    if (!peek() || peek()->kind != TokenKind::string)
+        return wanted("a name in quotes");
+    const std::string_view quoted = tokens_[position_++].text;
+    std::string name;
+    for (size_t i = 1; i + 1 < quoted.size(); ++i) {
+        if (quoted[i] == '\\')
+            ++i;
+        name += quoted[i];
+    }
+    return name;
+}
+
+bool DirectiveReader::at_directive() const {
+    if (!next_is("#") || position_ + 1 >= tokens_.size() || !tokens_[position_ + 1].glued)
+        return false;
+    const std::string_view keyword = tokens_[position_ + 1].text;
+    return keyword.starts_with("iChannel") || keyword == "iUniform" || keyword == "iKeyboard" ||
+           keyword == "iVertex" || keyword == "iFirstPersonControls" || keyword == "StrictCompatibility";
+}
+
+Result<Directives> DirectiveReader::read_all() {
+    while (peek()) {
+        if (!at_directive()) {
+            ++position_;
+            continue;
+        }
+        const size_t begin = tokens_[position_].begin;
+        if (auto read = read_directive(); !read)
+            return fail(std::move(read.error()));
+        edits_.push_back({begin, tokens_[position_ - 1].end(), {}});
+    }
+    return std::move(directives_);
+}
+
+Result<void> DirectiveReader::read_directive() {
+    const SourceLocation where = here();
+    ++position_;
+    const std::string_view keyword = tokens_[position_++].text;
+    if (keyword.starts_with("iChannel"))
+        return read_channel(keyword, where);
+    if (keyword == "iUniform")
+        return read_knob(where);
+    if (keyword == "StrictCompatibility") // asks for what we always do: our own main() calls mainImage
+        return {};
+    return fail(error_at(where, fmt::format("#{} is not supported", keyword)));
+}
+
+Result<void> DirectiveReader::read_channel(std::string_view keyword, const SourceLocation& where) {
+    const std::string_view digits = keyword.substr(std::string_view("iChannel").size());
+    if (digits.size() != 1 || digits[0] < '0' || digits[0] >= '0' + k_channel_count)
+        return fail(error_at(where, fmt::format("#{}: the channels are iChannel0 to iChannel{}", keyword,
+                                                k_channel_count - 1)));
+    Channel& channel = directives_.channels[size_t(digits[0] - '0')];
+    if (!accept(":"))
+        return read_channel_source(channel, where);
+    if (auto colon = expect(":"); !colon)
+        return colon;
+    return read_channel_parameter(channel);
+}
+
+Result<void> DirectiveReader::read_channel_source(Channel& channel, const SourceLocation& where) {
+    auto name = expect_string();
+    if (!name)
+        return fail(std::move(name.error()));
+    // Parameters that stand before the source keep what they said.
+    if (channel.where.file.empty() && *name != "noise")
+        channel.sampling = Sampling{};
+    channel.where = where;
+    if (*name == "noise") {
+        channel.input = Noise{};
+        return {};
+    }
+    if (name->starts_with("file://"))
+        name->erase(0, std::string_view("file://").size());
+    if (name->find("://") != std::string::npos)
+        return fail(
+            error_at(where, fmt::format("'{}' is not a local file: tidemark downloads nothing", *name)));
+    channel.input = Picture{(fs::path(where.file).parent_path() / *name).lexically_normal()};
+    return {};
+}
+
+Result<void> DirectiveReader::read_channel_parameter(Channel& channel) {
+    struct MinFilter {
+        std::string_view name;
+        Filter filter;
+        Mipmaps mipmaps;
+    };
+    constexpr MinFilter k_min_filters[] = {
+        {"Nearest", Filter::nearest, Mipmaps::none},
+        {"NearestMipMapNearest", Filter::nearest, Mipmaps::nearest},
+        {"NearestMipMapLinear", Filter::nearest, Mipmaps::linear},
+        {"Linear", Filter::linear, Mipmaps::none},
+        {"LinearMipMapNearest", Filter::linear, Mipmaps::nearest},
+        {"LinearMipMapLinear", Filter::linear, Mipmaps::linear},
+    };
+    constexpr std::pair<std::string_view, Wrap> k_wraps[] = {
+        {"Repeat", Wrap::repeat}, {"Clamp", Wrap::clamp}, {"Mirror", Wrap::mirror}};
+
+    if (channel.where.file.empty()) {
+        channel.sampling = Sampling{};
+        channel.where = here();
+    }
+    const SourceLocation where = here();
+    const std::string parameter(peek() ? peek()->text : std::string_view{});
+    ++position_;
+    auto value = expect_string();
+    if (!value)
+        return fail(std::move(value.error()));
+    if (parameter == "MinFilter") {
+        for (const MinFilter& filter : k_min_filters)
+            if (filter.name == *value) {
+                channel.sampling.minify = filter.filter;
+                channel.sampling.mipmaps = filter.mipmaps;
+                return {};
+            }
+        return fail(
+            error_at(where, fmt::format("MinFilter \"{}\": give Nearest, Linear, or one of the two with "
+                                        "MipMapNearest or MipMapLinear behind it",
+                                        *value)));
+    }
+    if (parameter == "MagFilter") {
+        if (*value != "Nearest" && *value != "Linear")
+            return fail(error_at(where, fmt::format("MagFilter \"{}\": give Nearest or Linear", *value)));
+        channel.sampling.magnify = *value == "Nearest" ? Filter::nearest : Filter::linear;
+        return {};
+    }
+    if (parameter == "WrapMode") {
+        for (const auto& [name, wrap] : k_wraps)
+            if (name == *value) {
+                channel.sampling.wrap = wrap;
+                return {};
+            }
+        return fail(error_at(where, fmt::format("WrapMode \"{}\": give Repeat, Clamp or Mirror", *value)));
+    }
+    if (parameter == "Type") {
+        if (*value != "Texture2D")
+            return fail(error_at(where, fmt::format("Type \"{}\" is not supported: give Texture2D", *value)));
+        return {};
+    }
+    return fail(
+        error_at(where, fmt::format("unknown parameter '{}': give MinFilter, MagFilter, WrapMode or Type",
+                                    parameter)));
+}
+
+Result<void> DirectiveReader::read_knob(const SourceLocation& where) {
+    Knob knob;
+    knob.where = where;
+    const KnobTypeInfo* type = peek() ? find_knob_type(peek()->text) : nullptr;
+    if (!type)
+        return wanted("a type (float, vec2, vec3, vec4, color3, int, ivec2, ivec3 or ivec4)");
+    knob.type = type->type;
+    ++position_;
+    if (!peek() || peek()->kind != TokenKind::identifier)
+        return wanted("the name of the uniform");
+    knob.name = std::string(tokens_[position_++].text);
+    if (auto free = check_name_is_free(knob); !free)
+        return free;
+    if (auto values = read_knob_values(knob); !values)
+        return values;
+    directives_.knobs.push_back(std::move(knob));
+    return {};
+}
+
+Result<void> DirectiveReader::check_name_is_free(const Knob& knob) const {
+    const auto& knobs = directives_.knobs;
+    const auto same =
+        std::find_if(knobs.begin(), knobs.end(), [&](const Knob& other) { return other.name == knob.name; });
+    if (same == knobs.end())
+        return {};
+    Error error = error_at(knob.where, fmt::format("the knob '{}' is declared twice", knob.name));
+    error.diagnostics.push_back({same->where, Severity::note, "first declared here"});
+    return fail(std::move(error));
+}
+
+Result<void> DirectiveReader::read_knob_values(Knob& knob) {
+    const bool has_default = accept("=");
+    if (has_default) {
+        const auto value = read_value(knob);
+        if (!value)
+            return fail(value.error());
+        knob.value = *value;
+    }
+    if (accept("in")) {
+        const auto range = read_range(knob);
+        if (!range)
+            return fail(range.error());
+        knob.range = *range;
+    }
+    if (accept("step")) {
+        const auto step = read_value(knob);
+        if (!step)
+            return fail(step.error());
+        knob.step = *step;
+    } else if (info(knob.type).whole) {
+        knob.step = KnobValue{1, 1, 1, 1};
+    }
+    if (!has_default && !knob.range)
+        return fail(
+            error_at(knob.where, fmt::format("the knob '{}' needs a default (= VALUE) or a range (in {{ "
+                                             "LOW, HIGH }})",
+                                             knob.name)));
+    if (!has_default)
+        knob.value = knob.range->low;
+    return {};
+}
+
+Result<KnobRange> DirectiveReader::read_range(const Knob& knob) {
+    const SourceLocation where = here();
+    const std::string_view close = next_is("[") ? "]" : "}";
+    if (!accept("[") && !accept("{"))
+        return wanted("'{' or '['");
+    const auto low = read_value(knob);
+    if (!low)
+        return fail(low.error());
+    if (auto comma = expect(","); !comma)
+        return fail(comma.error());
+    const auto high = read_value(knob);
+    if (!high)
+        return fail(high.error());
+    if (auto closed = expect(close); !closed)
+        return fail(closed.error());
+    for (size_t i = 0; i < size_t(info(knob.type).components); ++i)
+        if ((*low)[i] > (*high)[i])
+            return fail(error_at(where, fmt::format("the range of '{}' runs backwards", knob.name)));
+    return KnobRange{*low, *high};
+}
+
+Result<KnobValue> DirectiveReader::read_value(const Knob& knob) {
+    const SourceLocation where = here();
+    const auto literal = read_literal();
+    if (!literal)
+        return fail(literal.error());
+    const KnobTypeInfo& type = info(knob.type);
+    const size_t components = size_t(type.components);
+    if (literal->numbers.size() != 1 && literal->numbers.size() != components)
+        return fail(error_at(
+            where, fmt::format("'{}' is a {}: it takes {} or one for all", knob.name, type.directive_name,
+                               components == 1 ? "one number" : fmt::format("{} numbers", components))));
+    if (type.whole && !literal->whole)
+        return fail(error_at(
+            where, fmt::format("'{}' is an {}: it takes whole numbers", knob.name, type.directive_name)));
+    KnobValue value{};
+    for (size_t i = 0; i < components; ++i)
+        value[i] = literal->numbers[literal->numbers.size() == 1 ? 0 : i];
+    return value;
+}
+
+Result<Value> DirectiveReader::read_literal() {
+    Value value;
+    const bool constructor = peek() && find_knob_type(peek()->text) != nullptr;
+    if (constructor) {
+        ++position_;
+        if (auto open = expect("("); !open)
+            return fail(open.error());
+    }
+    do {
+        const auto number = read_number(value.whole);
+        if (!number)
+            return fail(number.error());
+        value.numbers.push_back(*number);
+    } while (constructor && accept(","));
+    if (constructor)
+        if (auto close = expect(")"); !close)
+            return fail(close.error());
+    return value;
+}
+
+Result<double> DirectiveReader::read_number(bool& whole) {
+    const bool negative = next_is("-");
+    if (negative || next_is("+"))
+        ++position_;
+    if (!peek() || peek()->kind != TokenKind::number)
+        return wanted("a number");
+    const std::string_view digits = peek()->text;
+    double number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error != std::errc{} || end != digits.data() + digits.size())
+        return wanted("a decimal number");
+    ++position_;
+    whole = whole && digits.find_first_of(".eE") == std::string_view::npos;
+    return negative ? -number : number;
+}
+
+} // namespace
+
+Result<Directives> take_directives(text::MappedText& text) {
+    DirectiveReader reader(text);
+    auto directives = reader.read_all();
+    if (directives)
+        text.apply(reader.edits());
+    return directives;
+}
+
+} // namespace tidemark::scene

@@ -1,0 +1,148 @@
+#include "scene/knob.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+namespace tidemark::scene {
+namespace {
+
+constexpr std::array<KnobTypeInfo, 9> k_types{{
+    {KnobType::float1, "float", "float", 1, false},
+    {KnobType::vec2, "vec2", "vec2", 2, false},
+    {KnobType::vec3, "vec3", "vec3", 3, false},
+    {KnobType::vec4, "vec4", "vec4", 4, false},
+    {KnobType::color3, "color3", "vec3", 3, false},
+    {KnobType::int1, "int", "int", 1, true},
+    {KnobType::ivec2, "ivec2", "ivec2", 2, true},
+    {KnobType::ivec3, "ivec3", "ivec3", 3, true},
+    {KnobType::ivec4, "ivec4", "ivec4", 4, true},
+}};
+
+std::string_view trimmed(std::string_view text) {
+    const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+    while (!text.empty() && blank(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && blank(text.back()))
+        text.remove_suffix(1);
+    return text;
+}
+
+std::optional<double> parse_number(std::string_view text) {
+    text = trimmed(text);
+    if (text.starts_with('+'))
+        text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+        return std::nullopt;
+    return value;
+}
+
+std::optional<KnobValue> parse_hex_colour(std::string_view text) {
+    unsigned packed = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), packed, 16);
+    if (text.size() != 7 || error != std::errc{} || end != text.data() + text.size())
+        return std::nullopt;
+    return KnobValue{double(packed >> 16) / 255, double(packed >> 8 & 255) / 255, double(packed & 255) / 255,
+                     0};
+}
+
+/// The components between commas; nothing when one of them is no number or there are more than four.
+std::optional<std::vector<double>> parse_list(std::string_view text) {
+    std::vector<double> numbers;
+    while (true) {
+        const size_t comma = text.find(',');
+        const auto number = parse_number(text.substr(0, comma));
+        if (!number || numbers.size() == 4)
+            return std::nullopt;
+        numbers.push_back(*number);
+        if (comma == std::string_view::npos)
+            return numbers;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+/// What stands between the parentheses of `vec3(…)`; the text itself when it has no such form.
+std::string_view without_constructor(std::string_view text, const KnobTypeInfo& type) {
+    for (const std::string_view name : {type.directive_name, type.glsl_name}) {
+        std::string_view rest = text;
+        if (!rest.starts_with(name))
+            continue;
+        rest = trimmed(rest.substr(name.size()));
+        if (rest.starts_with('(') && rest.ends_with(')'))
+            return rest.substr(1, rest.size() - 2);
+    }
+    return text;
+}
+
+} // namespace
+
+const KnobTypeInfo& info(KnobType type) {
+    return k_types[size_t(type)];
+}
+
+const KnobTypeInfo* find_knob_type(std::string_view directive_name) {
+    const auto found = std::find_if(k_types.begin(), k_types.end(), [&](const KnobTypeInfo& candidate) {
+        return candidate.directive_name == directive_name;
+    });
+    return found == k_types.end() ? nullptr : &*found;
+}
+
+Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text) {
+    const KnobTypeInfo& type = info(knob.type);
+    const auto refuse = [&] {
+        std::string form = type.components == 1 ? (type.whole ? "a whole number" : "a number")
+                                                : fmt::format("{} numbers, as in 1,2", type.components);
+        if (knob.type == KnobType::color3)
+            form += " or #rrggbb";
+        return fail(ErrorCode::usage, fmt::format("'{}' is no value for {} ({}): give {}", text, knob.name,
+                                                  type.directive_name, form));
+    };
+    text = trimmed(text);
+    if (knob.type == KnobType::color3 && text.starts_with('#')) {
+        const auto colour = parse_hex_colour(text);
+        return colour ? Result<KnobValue>(*colour) : refuse();
+    }
+    const auto numbers = parse_list(without_constructor(text, type));
+    if (!numbers || (numbers->size() != 1 && numbers->size() != size_t(type.components)))
+        return refuse();
+    KnobValue value{};
+    for (size_t i = 0; i < size_t(type.components); ++i) {
+        value[i] = (*numbers)[numbers->size() == 1 ? 0 : i];
+        if (type.whole && (value[i] != std::trunc(value[i]) || std::abs(value[i]) > 2147483647.0))
+            return refuse();
+    }
+    return value;
+}
+
+Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name) {
+    const auto found =
+        std::find_if(knobs.begin(), knobs.end(), [&](const Knob& knob) { return knob.name == name; });
+    if (found != knobs.end())
+        return &*found;
+    if (knobs.empty())
+        return fail(ErrorCode::usage,
+                    fmt::format("the scene has no knob '{}': it declares none with #iUniform", name));
+    std::vector<std::string> names;
+    for (const Knob& knob : knobs)
+        names.push_back(knob.name);
+    const std::string nearest = nearest_name(name, names);
+    const std::string hint = nearest.empty() ? fmt::format("it has {}", fmt::join(names, ", "))
+                                             : fmt::format("did you mean '{}'?", nearest);
+    return fail(ErrorCode::usage, fmt::format("the scene has no knob '{}': {}", name, hint));
+}
+
+std::string to_string(const Knob& knob) {
+    const KnobTypeInfo& type = info(knob.type);
+    const std::span<const double> components(knob.value.data(), size_t(type.components));
+    if (type.components == 1)
+        return fmt::format("{}", components[0]);
+    return fmt::format("{}({})", type.glsl_name, fmt::join(components, ", "));
+}
+
+} // namespace tidemark::scene

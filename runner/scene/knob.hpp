@@ -1,0 +1,55 @@
+// A knob: a uniform that the scene declares with `#iUniform` for a person to turn.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::scene {
+
+enum class KnobType { float1, vec2, vec3, vec4, color3, int1, ivec2, ivec3, ivec4 };
+
+/// The type as the directive and as GLSL spell it, how many components it has, whether they are whole.
+struct KnobTypeInfo {
+    KnobType type;
+    std::string_view directive_name;
+    std::string_view glsl_name;
+    int components;
+    bool whole;
+};
+
+const KnobTypeInfo& info(KnobType type);
+const KnobTypeInfo* find_knob_type(std::string_view directive_name);
+
+/// One number for each component; those that the type lacks stay 0.
+using KnobValue = std::array<double, 4>;
+
+struct KnobRange {
+    KnobValue low;
+    KnobValue high;
+};
+
+struct Knob {
+    std::string name;
+    KnobType type = KnobType::float1;
+    KnobValue value{};
+    std::optional<KnobRange> range{}; ///< what a slider offers; a value may lie outside
+    std::optional<KnobValue> step{};
+    SourceLocation where{};
+};
+
+/// Reads `0.5`, `1,2,3`, `vec3(1, 2, 3)`, or, for a colour, `#rrggbb`. One number stands for all components.
+/// The error (ErrorCode::usage) says what the knob takes.
+Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text);
+
+/// The knob of that name, or an error with the nearest name there is.
+Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name);
+
+/// `float`, `vec3`: the value as a person writes it in GLSL.
+std::string to_string(const Knob& knob);
+
+} // namespace tidemark::scene
