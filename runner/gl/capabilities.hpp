@@ -1,0 +1,17 @@
+// What the current context is and how much it can do.
+#pragma once
+
+#include <string>
+
+namespace tidemark::gl {
+
+struct Capabilities {
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+    int largest_target = 0; ///< pixels on a side
+};
+
+Capabilities query_capabilities();
+
+} // namespace tidemark::gl

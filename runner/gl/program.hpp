@@ -1,0 +1,43 @@
+// A linked program and the uniforms the driver kept. Takes complete GLSL texts; reports the driver's log as
+// it is.
+#pragma once
+
+#include "gl/handle.hpp"
+
+#include <tl/expected.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::gl {
+
+/// An active uniform of the default block. Arrays carry their bare name and their length.
+struct Uniform {
+    std::string name;
+    GLenum type = 0;
+    int length = 1;
+    GLint location = -1;
+};
+
+struct Reflection {
+    std::vector<Uniform> uniforms;
+
+    const Uniform* find(std::string_view name) const;
+    bool has(std::string_view name) const { return find(name) != nullptr; }
+};
+
+class Program {
+public:
+    /// Compiles and links; the error is the driver's log.
+    static tl::expected<Program, std::string> link(std::string_view vertex, std::string_view fragment);
+
+    GLuint id() const { return handle_.id(); }
+    const Reflection& reflection() const { return reflection_; }
+
+private:
+    ProgramHandle handle_;
+    Reflection reflection_;
+};
+
+} // namespace tidemark::gl
