@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,5 +40,9 @@ private:
     ProgramHandle handle_;
     Reflection reflection_;
 };
+
+/// Gives `uniform` its value whatever its numeric type is: each element takes as many of `values` as its type
+/// has components (columns first), converted; what is missing is left as it was. Samplers take their unit.
+void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> values);
 
 } // namespace tidemark::gl

@@ -1,5 +1,7 @@
 #include "gl/render_target.hpp"
 
+#include <cassert>
+
 namespace tidemark::gl {
 
 std::optional<RenderTarget> make_render_target(Extent extent, GLenum internal_format) {
@@ -22,8 +24,8 @@ std::optional<RenderTarget> make_render_target(Extent extent, GLenum internal_fo
 void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::span<std::byte> pixels) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer.id());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadnPixels(0, 0, target.extent().width, target.extent().height, format, type, GLsizei(pixels.size()),
-                  pixels.data());
+    assert(pixels.size() >= target.extent().pixels());
+    glReadPixels(0, 0, target.extent().width, target.extent().height, format, type, pixels.data());
 }
 
 void blit_to_window(const RenderTarget& target, Extent window) {

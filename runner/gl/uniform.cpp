@@ -1,0 +1,99 @@
+#include "gl/program.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tidemark::gl {
+namespace {
+
+enum class Scalar { float32, int32, uint32, float64 };
+
+/// Which numbers a uniform of this type is made of; `columns` > 1 is a square matrix.
+struct Shape {
+    Scalar scalar;
+    int components;
+    int columns = 1;
+};
+
+Shape shape_of(GLenum type) {
+    switch (type) {
+    case GL_FLOAT: return {Scalar::float32, 1};
+    case GL_FLOAT_VEC2: return {Scalar::float32, 2};
+    case GL_FLOAT_VEC3: return {Scalar::float32, 3};
+    case GL_FLOAT_VEC4: return {Scalar::float32, 4};
+    case GL_FLOAT_MAT4: return {Scalar::float32, 4, 4};
+    case GL_UNSIGNED_INT: return {Scalar::uint32, 1};
+    case GL_UNSIGNED_INT_VEC2: return {Scalar::uint32, 2};
+    case GL_UNSIGNED_INT_VEC3: return {Scalar::uint32, 3};
+    case GL_UNSIGNED_INT_VEC4: return {Scalar::uint32, 4};
+    case GL_DOUBLE: return {Scalar::float64, 1};
+    case GL_DOUBLE_VEC2: return {Scalar::float64, 2};
+    case GL_DOUBLE_VEC3: return {Scalar::float64, 3};
+    case GL_DOUBLE_VEC4: return {Scalar::float64, 4};
+    case GL_DOUBLE_MAT4: return {Scalar::float64, 4, 4};
+    case GL_INT_VEC2:
+    case GL_BOOL_VEC2: return {Scalar::int32, 2};
+    case GL_INT_VEC3:
+    case GL_BOOL_VEC3: return {Scalar::int32, 3};
+    case GL_INT_VEC4:
+    case GL_BOOL_VEC4: return {Scalar::int32, 4};
+    default: return {Scalar::int32, 1}; // int, bool, and samplers by their unit
+    }
+}
+
+/// The longest value the host ever sets is one matrix.
+constexpr size_t k_most_numbers = 16;
+
+template <class T>
+std::array<T, k_most_numbers> converted(std::span<const double> values) {
+    std::array<T, k_most_numbers> numbers{};
+    std::transform(values.begin(), values.begin() + std::ptrdiff_t(std::min(values.size(), k_most_numbers)),
+                   numbers.begin(), [](double value) { return T(value); });
+    return numbers;
+}
+
+template <class T>
+using Setter = void (*)(GLuint, GLint, GLsizei, const T*);
+
+template <class T>
+void set_vector(GLuint program, const Uniform& uniform, int components, GLsizei count,
+                std::span<const double> values, const std::array<Setter<T>, 4>& setters) {
+    setters[size_t(components - 1)](program, uniform.location, count, converted<T>(values).data());
+}
+
+} // namespace
+
+void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> values) {
+    const Shape shape = shape_of(uniform.type);
+    const size_t per_element = size_t(shape.components * shape.columns);
+    const auto count = GLsizei(std::min(size_t(uniform.length), values.size() / per_element));
+    if (count == 0)
+        return;
+    const GLuint id = program.id();
+    if (shape.columns == 4 && shape.scalar == Scalar::float32)
+        return glProgramUniformMatrix4fv(id, uniform.location, count, GL_FALSE,
+                                         converted<float>(values).data());
+    if (shape.columns == 4)
+        return glProgramUniformMatrix4dv(id, uniform.location, count, GL_FALSE,
+                                         converted<double>(values).data());
+    switch (shape.scalar) {
+    case Scalar::float32:
+        return set_vector<float>(
+            id, uniform, shape.components, count, values,
+            {glProgramUniform1fv, glProgramUniform2fv, glProgramUniform3fv, glProgramUniform4fv});
+    case Scalar::float64:
+        return set_vector<double>(
+            id, uniform, shape.components, count, values,
+            {glProgramUniform1dv, glProgramUniform2dv, glProgramUniform3dv, glProgramUniform4dv});
+    case Scalar::uint32:
+        return set_vector<GLuint>(
+            id, uniform, shape.components, count, values,
+            {glProgramUniform1uiv, glProgramUniform2uiv, glProgramUniform3uiv, glProgramUniform4uiv});
+    case Scalar::int32:
+        return set_vector<GLint>(
+            id, uniform, shape.components, count, values,
+            {glProgramUniform1iv, glProgramUniform2iv, glProgramUniform3iv, glProgramUniform4iv});
+    }
+}
+
+} // namespace tidemark::gl

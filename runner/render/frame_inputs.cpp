@@ -1,0 +1,78 @@
+#include "render/frame_inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <ctime>
+
+namespace tidemark::render {
+namespace {
+
+/// Consumes a decimal number of at least one digit and then `separator`, unless that is 0.
+template <class T>
+bool take_number(std::string_view& text, T& number, char separator) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || number < 0)
+        return false;
+    text.remove_prefix(size_t(end - text.data()));
+    if (separator == 0)
+        return true;
+    if (!text.starts_with(separator))
+        return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+bool take_time_of_day(std::string_view& text, double& seconds) {
+    int hour = 0;
+    int minute = 0;
+    double second = 0;
+    if (!take_number(text, hour, ':') || !take_number(text, minute, ':') || !take_number(text, second, 0))
+        return false;
+    seconds = hour * 3600 + minute * 60 + second;
+    return hour < 24 && minute < 60 && second < 61;
+}
+
+} // namespace
+
+Result<Date> parse_date(std::string_view iso) {
+    Date date{0, 0, 0, 0};
+    std::string_view rest = iso;
+    bool good = take_number(rest, date.year, '-') && take_number(rest, date.month, '-') &&
+                take_number(rest, date.day, 0);
+    if (good && (rest.starts_with('T') || rest.starts_with(' '))) {
+        rest.remove_prefix(1);
+        good = take_time_of_day(rest, date.seconds);
+    }
+    const std::chrono::year_month_day day{std::chrono::year(date.year),
+                                          std::chrono::month(unsigned(date.month)),
+                                          std::chrono::day(unsigned(date.day))};
+    if (!good || !rest.empty() || !day.ok())
+        return fail(ErrorCode::usage,
+                    fmt::format("--date {}: give a date as in 2024-12-31 or 2024-12-31T23:59:58.5", iso));
+    --date.month;
+    return date;
+}
+
+Date local_date() {
+    const auto now = std::chrono::system_clock::now();
+    const std::time_t whole = std::chrono::system_clock::to_time_t(now);
+    const auto since_epoch = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
+    std::tm local{};
+    localtime_r(&whole, &local);
+    return {local.tm_year + 1900, local.tm_mon, local.tm_mday,
+            local.tm_hour * 3600 + local.tm_min * 60 + local.tm_sec +
+                double(since_epoch.count() % 1000) / 1000};
+}
+
+FrameInputs inputs_of_frame(int frame, double fps) {
+    FrameInputs inputs;
+    inputs.frame = frame;
+    inputs.time = double(frame) / fps;
+    inputs.time_delta = 1 / fps;
+    inputs.frame_rate = fps;
+    return inputs;
+}
+
+} // namespace tidemark::render

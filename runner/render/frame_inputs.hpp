@@ -1,0 +1,45 @@
+// What a frame depends on: the values of ShaderToy's uniforms. Where they come from (a window, a command
+// line, a recording) is somebody else's business; the same inputs give the same picture.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include <string_view>
+
+namespace tidemark::render {
+
+/// iDate: `month` counts from 0 as on ShaderToy; `seconds` since local midnight, with milliseconds.
+struct Date {
+    int year = 2024;
+    int month = 0;
+    int day = 1;
+    double seconds = 43200;
+
+    bool operator==(const Date&) const = default;
+};
+
+/// Reads `2024-12-31` or `2024-12-31T23:59:58.5` (months from 1, as people write them).
+Result<Date> parse_date(std::string_view iso);
+
+/// The clock on the wall.
+Date local_date();
+
+struct FrameInputs {
+    int frame = 0;                ///< iFrame
+    double time = 0;              ///< iTime, seconds
+    double time_delta = 1 / 60.0; ///< iTimeDelta, seconds
+    double frame_rate = 60;       ///< iFrameRate
+    glm::vec4 mouse{0};           ///< iMouse, whole pixels, ShaderToy's signs
+    Date date{};
+    glm::mat4 camera{1}; ///< iCamera, camera to world
+};
+
+inline constexpr double k_sample_rate = 44100; ///< iSampleRate
+
+/// Frame N of a recording at `fps` frames a second: iTime = N / fps, computed in double.
+FrameInputs inputs_of_frame(int frame, double fps);
+
+} // namespace tidemark::render

@@ -1,0 +1,25 @@
+#include "render/mouse.hpp"
+
+#include <cmath>
+
+namespace tidemark::render {
+
+void Mouse::press(double x, double y) {
+    down_ = true;
+    clicked_ = true;
+    move(x, y);
+    pressed_at_ = position_;
+}
+
+void Mouse::move(double x, double y) {
+    if (down_)
+        position_ = {float(std::floor(x)), float(std::floor(y))};
+}
+
+glm::vec4 Mouse::uniform() const {
+    // 0 - x rather than -x: a press at pixel 0 must not give a negative zero.
+    return {position_.x, position_.y, down_ ? pressed_at_.x : 0 - pressed_at_.x,
+            clicked_ ? pressed_at_.y : 0 - pressed_at_.y};
+}
+
+} // namespace tidemark::render

@@ -1,0 +1,77 @@
+#include "render/orbit_camera.hpp"
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace tidemark::render {
+namespace {
+
+constexpr double k_highest = 89.9;
+constexpr double k_nearest = 1e-3;
+constexpr double k_farthest = 1e6;
+constexpr double k_zoom_a_notch = 0.9;
+
+glm::dmat4 camera_to_world(const OrbitCamera& camera) {
+    glm::dmat4 matrix = glm::translate(glm::dmat4(1), camera.target);
+    matrix = glm::rotate(matrix, glm::radians(camera.azimuth), glm::dvec3(0, 1, 0));
+    matrix = glm::rotate(matrix, glm::radians(-camera.elevation), glm::dvec3(1, 0, 0));
+    return glm::translate(matrix, glm::dvec3(0, 0, camera.distance));
+}
+
+double wrapped(double degrees) {
+    const double turned = std::fmod(degrees, 360.0);
+    return turned < 0 ? turned + 360 : turned;
+}
+
+} // namespace
+
+void OrbitCamera::turn(double dx, double dy, double height) {
+    azimuth = wrapped(azimuth - dx / height * 180);
+    elevation = std::clamp(elevation - dy / height * 180, -k_highest, k_highest);
+}
+
+void OrbitCamera::zoom(double notches) {
+    distance = std::clamp(distance * std::pow(k_zoom_a_notch, notches), k_nearest, k_farthest);
+}
+
+void OrbitCamera::pan(double dx, double dy, double height) {
+    const glm::dmat4 frame = camera_to_world(*this);
+    const double scale = distance / height;
+    target -= (glm::dvec3(frame[0]) * dx + glm::dvec3(frame[1]) * dy) * scale;
+}
+
+glm::mat4 OrbitCamera::matrix() const {
+    return glm::mat4(camera_to_world(*this));
+}
+
+Result<OrbitCamera> parse_camera(std::string_view setting) {
+    double numbers[3] = {};
+    const char* at = setting.data();
+    const char* const end = at + setting.size();
+    bool good = true;
+    for (int i = 0; i < 3 && good; ++i) {
+        if (i > 0)
+            good = at != end && *at++ == ',';
+        const auto parsed = std::from_chars(at, end, numbers[i]);
+        good = good && parsed.ec == std::errc{} && std::isfinite(numbers[i]);
+        at = parsed.ptr;
+    }
+    if (!good || at != end || numbers[2] < k_nearest || numbers[2] > k_farthest)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--camera {}: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, "
+                        "a distance above 0)",
+                        setting));
+    OrbitCamera camera;
+    camera.azimuth = wrapped(numbers[0]);
+    camera.elevation = std::clamp(numbers[1], -k_highest, k_highest);
+    camera.distance = numbers[2];
+    return camera;
+}
+
+} // namespace tidemark::render

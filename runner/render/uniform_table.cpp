@@ -1,0 +1,87 @@
+#include "render/uniform_table.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace tidemark::render {
+namespace {
+
+/// The numbers of one uniform, in the order GL takes them.
+class Numbers {
+public:
+    Numbers(std::initializer_list<double> values) { append(values.begin(), values.end()); }
+    explicit Numbers(const scene::KnobValue& value) { append(value.begin(), value.end()); }
+    explicit Numbers(const glm::mat4& matrix) { append(&matrix[0][0], &matrix[0][0] + 16); }
+    explicit Numbers(const ChannelSizes& sizes) {
+        for (const Extent& size : sizes) {
+            const double depth = size.width > 0 ? 1 : 0;
+            const double numbers[] = {double(size.width), double(size.height), depth};
+            append(numbers, numbers + 3);
+        }
+    }
+
+    operator std::span<const double>() const { return {values_.data(), count_}; }
+
+private:
+    template <class Iterator>
+    void append(Iterator begin, Iterator end) {
+        for (; begin != end; ++begin)
+            values_[count_++] = double(*begin);
+    }
+
+    std::array<double, 16> values_{};
+    size_t count_ = 0;
+};
+
+} // namespace
+
+UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<scene::Knob>& knobs) {
+    constexpr std::pair<std::string_view, Source> k_names[] = {
+        {"iResolution", Source::resolution},
+        {"iTime", Source::time},
+        {"iTimeDelta", Source::time_delta},
+        {"iFrame", Source::frame},
+        {"iFrameRate", Source::frame_rate},
+        {"iMouse", Source::mouse},
+        {"iDate", Source::date},
+        {"iSampleRate", Source::sample_rate},
+        {"iChannelTime", Source::channel_time},
+        {"iChannelResolution", Source::channel_resolution},
+        {"iCamera", Source::camera},
+    };
+    for (const gl::Uniform& uniform : reflection.uniforms) {
+        for (const auto& [name, source] : k_names)
+            if (uniform.name == name)
+                entries_.push_back({uniform, source});
+        for (size_t i = 0; i < knobs.size(); ++i)
+            if (uniform.name == knobs[i].name)
+                entries_.push_back({uniform, Source::knob, i});
+    }
+}
+
+void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs, Extent resolution,
+                          const ChannelSizes& sizes, const std::vector<scene::Knob>& knobs) const {
+    const auto numbers_of = [&](const Entry& entry) -> Numbers {
+        switch (entry.source) {
+        case Source::resolution: return {double(resolution.width), double(resolution.height), 1};
+        case Source::time: return {inputs.time};
+        case Source::time_delta: return {inputs.time_delta};
+        case Source::frame: return {double(inputs.frame)};
+        case Source::frame_rate: return {inputs.frame_rate};
+        case Source::mouse: return {inputs.mouse.x, inputs.mouse.y, inputs.mouse.z, inputs.mouse.w};
+        case Source::date:
+            return {double(inputs.date.year), double(inputs.date.month), double(inputs.date.day),
+                    inputs.date.seconds};
+        case Source::sample_rate: return {k_sample_rate};
+        case Source::channel_time: return {0, 0, 0, 0}; // pictures and noise do not play
+        case Source::channel_resolution: return Numbers(sizes);
+        case Source::camera: return Numbers(inputs.camera);
+        case Source::knob: return Numbers(knobs[entry.knob].value);
+        }
+        return {};
+    };
+    for (const Entry& entry : entries_)
+        gl::set_uniform(program, entry.uniform, numbers_of(entry));
+}
+
+} // namespace tidemark::render
