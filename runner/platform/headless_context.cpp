@@ -1,0 +1,265 @@
+#include "platform/headless_context.hpp"
+
+#include "platform/device_order.hpp"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/gl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+namespace tidemark::platform {
+namespace {
+
+/// EGL's word for the last call that failed on this thread.
+std::string_view last_egl_error() {
+    constexpr std::array<std::string_view, 15> k_names{
+        "EGL_SUCCESS",       "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",        "EGL_BAD_ALLOC",
+        "EGL_BAD_ATTRIBUTE", "EGL_BAD_CONFIG",      "EGL_BAD_CONTEXT",       "EGL_BAD_CURRENT_SURFACE",
+        "EGL_BAD_DISPLAY",   "EGL_BAD_MATCH",       "EGL_BAD_NATIVE_PIXMAP", "EGL_BAD_NATIVE_WINDOW",
+        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",     "EGL_CONTEXT_LOST",
+    };
+    const auto index = size_t(eglGetError()) - EGL_SUCCESS;
+    return index < k_names.size() ? k_names[index] : "an unknown EGL error";
+}
+
+bool has_word(const char* list, std::string_view word) {
+    return list && fmt::format(" {} ", list).find(fmt::format(" {} ", word)) != std::string::npos;
+}
+
+template <class Function>
+Function egl_function(const char* name) {
+    return reinterpret_cast<Function>(eglGetProcAddress(name));
+}
+
+std::vector<EGLDeviceEXT> egl_devices() {
+    const auto query = egl_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+    EGLint count = 0;
+    if (!query || !query(0, nullptr, &count))
+        return {};
+    std::vector<EGLDeviceEXT> devices(size_t(count), nullptr);
+    if (!query(count, devices.data(), &count))
+        return {};
+    devices.resize(size_t(count));
+    return devices;
+}
+
+DeviceKind kind_of(EGLDeviceEXT device) {
+    const auto query = egl_function<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    if (!query)
+        return DeviceKind::unknown;
+    const bool software = has_word(query(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+    return software ? DeviceKind::software : DeviceKind::hardware;
+}
+
+/// Of a display that has been initialised.
+DeviceKind kind_of_display(EGLDisplay display) {
+    const auto query = egl_function<PFNEGLQUERYDISPLAYATTRIBEXTPROC>("eglQueryDisplayAttribEXT");
+    EGLAttrib device = 0;
+    if (!query || !query(display, EGL_DEVICE_EXT, &device) || device == 0)
+        return DeviceKind::unknown;
+    return kind_of(reinterpret_cast<EGLDeviceEXT>(device));
+}
+
+/// Where a context may be made: a name that users type, and EGL's way there.
+struct Place {
+    std::string name;
+    EGLenum platform = EGL_NONE; ///< EGL_NONE: the default display
+    EGLDeviceEXT device = nullptr;
+    DeviceKind kind = DeviceKind::unknown;
+};
+
+/// Every place, in EGL's order.
+std::vector<Place> list_places() {
+    std::vector<Place> places{{"surfaceless", EGL_PLATFORM_SURFACELESS_MESA}};
+    for (EGLDeviceEXT device : egl_devices()) {
+        const std::string name = fmt::format("device:{}", places.size() - 1);
+        places.push_back({name, EGL_PLATFORM_DEVICE_EXT, device, kind_of(device)});
+    }
+    places.push_back({"display"});
+    return places;
+}
+
+/// The place's display, ready for use, or why there is none. A display belongs to the process, not to us:
+/// EGL gives the same one to everybody who asks, and eglTerminate would take their contexts with it.
+tl::expected<EGLDisplay, std::string> open_display(const Place& place) {
+    EGLDisplay display = place.platform == EGL_NONE
+                             ? eglGetDisplay(EGL_DEFAULT_DISPLAY)
+                             : eglGetPlatformDisplay(place.platform, place.device, nullptr);
+    if (display == EGL_NO_DISPLAY)
+        return tl::unexpected(fmt::format("no driver offers it ({})", last_egl_error()));
+    if (!eglInitialize(display, nullptr, nullptr))
+        return tl::unexpected(fmt::format("the driver does not start ({})", last_egl_error()));
+    return display;
+}
+
+/// A context that is current on this thread; destroyed with this object.
+struct CurrentContext {
+    EGLDisplay display = EGL_NO_DISPLAY;
+    EGLContext context = EGL_NO_CONTEXT;
+
+    CurrentContext(EGLDisplay its_display, EGLContext its_context)
+        : display(its_display), context(its_context) {}
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+    ~CurrentContext() {
+        if (eglGetCurrentContext() == context)
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display, context);
+    }
+    bool make_current() const { return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context); }
+};
+
+using ContextOrReason = tl::expected<std::unique_ptr<CurrentContext>, std::string>;
+
+ContextOrReason make_context(const Place& place, DebugContext debug) {
+    const auto display = open_display(place);
+    if (!display)
+        return tl::unexpected(display.error());
+    const EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION,
+        4,
+        EGL_CONTEXT_MINOR_VERSION,
+        5,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        EGL_CONTEXT_OPENGL_DEBUG,
+        debug == DebugContext::yes ? EGL_TRUE : EGL_FALSE,
+        EGL_NONE,
+    };
+    eglBindAPI(EGL_OPENGL_API);
+    EGLContext made = eglCreateContext(*display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    if (made == EGL_NO_CONTEXT)
+        return tl::unexpected(fmt::format("the driver has no OpenGL 4.5 core ({})", last_egl_error()));
+    auto context = std::make_unique<CurrentContext>(*display, made);
+    if (!context->make_current())
+        return tl::unexpected(fmt::format("the driver needs a surface ({})", last_egl_error()));
+    return context;
+}
+
+/// The places that `device` names, in the order in which they are to be tried; empty for an unknown name.
+std::vector<Place> places_to_try(const std::vector<Place>& places, std::string_view device) {
+    std::vector<std::string> names{std::string(device)};
+    if (device == "auto") {
+        std::vector<bool> is_software;
+        for (const Place& place : places)
+            if (place.platform == EGL_PLATFORM_DEVICE_EXT)
+                is_software.push_back(place.kind == DeviceKind::software);
+        const bool any_hardware = std::ranges::count(is_software, false) > 0;
+        // Asked only where the answer matters: it starts a driver.
+        const auto surfaceless = any_hardware ? open_display(places.front()) : tl::unexpected(std::string());
+        names =
+            order_to_try(is_software, surfaceless && kind_of_display(*surfaceless) == DeviceKind::software);
+    }
+    std::vector<Place> chosen;
+    for (const std::string& name : names) {
+        const auto place = std::ranges::find(places, name, &Place::name);
+        if (place != places.end())
+            chosen.push_back(*place);
+    }
+    return chosen;
+}
+
+tl::unexpected<Error> unknown_device(std::string_view device, const std::vector<Place>& places) {
+    std::vector<std::string> names{"auto"};
+    for (const Place& place : places)
+        names.push_back(place.name);
+    return fail(ErrorCode::usage,
+                fmt::format("unknown device '{}'; there are {}", device, fmt::join(names, ", ")));
+}
+
+tl::unexpected<Error> no_context(const std::vector<std::string>& tried) {
+    return fail(ErrorCode::no_context,
+                fmt::format("no OpenGL 4.5 context without a window: {}. Install a driver (Debian's "
+                            "libgl1-mesa-dri draws on the CPU; a graphics card needs its vendor's EGL "
+                            "driver); `tidemark inspect --devices` lists what there is",
+                            fmt::join(tried, "; ")));
+}
+
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text ? reinterpret_cast<const char*>(text) : "";
+}
+
+/// Puts back, when it goes, what was current on this thread when it came.
+class CurrentKeeper {
+public:
+    CurrentKeeper() = default;
+    CurrentKeeper(const CurrentKeeper&) = delete;
+    CurrentKeeper& operator=(const CurrentKeeper&) = delete;
+    ~CurrentKeeper() {
+        if (context_ != EGL_NO_CONTEXT)
+            eglMakeCurrent(display_, draw_, read_, context_);
+    }
+
+private:
+    EGLDisplay display_ = eglGetCurrentDisplay();
+    EGLSurface draw_ = eglGetCurrentSurface(EGL_DRAW);
+    EGLSurface read_ = eglGetCurrentSurface(EGL_READ);
+    EGLContext context_ = eglGetCurrentContext();
+};
+
+HeadlessDevice describe(const Place& place) {
+    HeadlessDevice device{place.name, place.kind, {}, {}, {}};
+    const ContextOrReason context = make_context(place, DebugContext::no);
+    if (!context) {
+        device.reason = context.error();
+        return device;
+    }
+    if (device.kind == DeviceKind::unknown)
+        device.kind = kind_of_display((*context)->display);
+    device.renderer = gl_string(GL_RENDERER);
+    device.version = gl_string(GL_VERSION);
+    return device;
+}
+
+} // namespace
+
+struct HeadlessContext::State {
+    std::unique_ptr<CurrentContext> context;
+    std::string device;
+};
+
+HeadlessContext::HeadlessContext(std::unique_ptr<State> state) : state_(std::move(state)) {}
+HeadlessContext::HeadlessContext(HeadlessContext&&) noexcept = default;
+HeadlessContext& HeadlessContext::operator=(HeadlessContext&&) noexcept = default;
+HeadlessContext::~HeadlessContext() = default;
+
+Result<HeadlessContext> HeadlessContext::create(std::string_view device, DebugContext debug) {
+    const std::vector<Place> places = list_places();
+    const std::vector<Place> chosen = places_to_try(places, device);
+    if (chosen.empty())
+        return unknown_device(device, places);
+    std::vector<std::string> tried;
+    for (const Place& place : chosen) {
+        ContextOrReason context = make_context(place, debug);
+        if (context)
+            return HeadlessContext(std::make_unique<State>(State{std::move(*context), place.name}));
+        tried.push_back(fmt::format("{}: {}", place.name, context.error()));
+    }
+    return no_context(tried);
+}
+
+Result<void> HeadlessContext::make_current() {
+    if (!state_->context->make_current())
+        return fail(ErrorCode::no_context,
+                    fmt::format("cannot use the context of '{}': {}", state_->device, last_egl_error()));
+    return {};
+}
+
+const std::string& HeadlessContext::device() const {
+    return state_->device;
+}
+
+std::vector<HeadlessDevice> list_headless_devices() {
+    const CurrentKeeper keeper;
+    std::vector<HeadlessDevice> devices;
+    for (const Place& place : list_places())
+        devices.push_back(describe(place));
+    return devices;
+}
+
+} // namespace tidemark::platform
