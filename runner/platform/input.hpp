@@ -125,6 +125,11 @@ struct FramebufferResized {
     bool operator==(const FramebufferResized&) const = default;
 };
 
+/// The window has lost what it showed (it was covered, say) and must be drawn again.
+struct RedrawNeeded {
+    bool operator==(const RedrawNeeded&) const = default;
+};
+
 struct CloseRequested {
     bool operator==(const CloseRequested&) const = default;
 };
@@ -135,6 +140,6 @@ struct FocusLost {
 };
 
 using InputEvent = std::variant<PointerMoved, ButtonPressed, ButtonReleased, WheelTurned, KeyPressed,
-                                KeyReleased, FramebufferResized, CloseRequested, FocusLost>;
+                                KeyReleased, FramebufferResized, RedrawNeeded, CloseRequested, FocusLost>;
 
 } // namespace tidemark::platform

@@ -159,6 +159,8 @@ void Window::State::listen() {
         state.framebuffer = {width, height};
         state.events.push_back(FramebufferResized{state.framebuffer});
     });
+    glfwSetWindowRefreshCallback(handle,
+                                 [](GLFWwindow* source) { of(source).events.push_back(RedrawNeeded{}); });
     glfwSetWindowCloseCallback(handle, [](GLFWwindow* source) {
         glfwSetWindowShouldClose(source, GLFW_FALSE);
         of(source).events.push_back(CloseRequested{});

@@ -283,6 +283,7 @@ Result<void> DirectiveReader::read_knob_values(Knob& knob) {
                                              knob.name)));
     if (!has_default)
         knob.value = knob.range->low;
+    knob.initial = knob.value;
     return {};
 }
 

@@ -137,9 +137,9 @@ Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name) {
     return fail(ErrorCode::usage, fmt::format("the scene has no knob '{}': {}", name, hint));
 }
 
-std::string to_string(const Knob& knob) {
+std::string to_string(const Knob& knob, const KnobValue& value) {
     const KnobTypeInfo& type = info(knob.type);
-    const std::span<const double> components(knob.value.data(), size_t(type.components));
+    const std::span<const double> components(value.data(), size_t(type.components));
     if (type.components == 1)
         return fmt::format("{}", components[0]);
     return fmt::format("{}({})", type.glsl_name, fmt::join(components, ", "));

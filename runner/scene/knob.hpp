@@ -36,6 +36,7 @@ struct KnobRange {
 struct Knob {
     std::string name;
     KnobType type = KnobType::float1;
+    KnobValue initial{}; ///< as the scene declares it
     KnobValue value{};
     std::optional<KnobRange> range{}; ///< what a slider offers; a value may lie outside
     std::optional<KnobValue> step{};
@@ -49,7 +50,10 @@ Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text);
 /// The knob of that name, or an error with the nearest name there is.
 Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name);
 
-/// `float`, `vec3`: the value as a person writes it in GLSL.
-std::string to_string(const Knob& knob);
+/// `0.5`, `vec3(1, 2, 3)`: a value of the knob as a person writes it in GLSL.
+std::string to_string(const Knob& knob, const KnobValue& value);
+inline std::string to_string(const Knob& knob) {
+    return to_string(knob, knob.value);
+}
 
 } // namespace tidemark::scene

@@ -1,0 +1,131 @@
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+namespace tidemark::cli {
+namespace {
+
+constexpr AddCommand k_commands[] = {
+#ifdef TIDEMARK_WINDOW
+    add_view,
+#endif
+    add_capture, add_inspect, add_bake, add_completion,
+};
+
+constexpr const char* k_footer =
+    R"(`tidemark SCENE` is short for `tidemark view SCENE`. `tidemark COMMAND --help` lists the options.
+Exit codes: 0 ok, 1 a check failed, 2 usage, 3 scene does not load or compile, 4 output cannot be written,
+5 timed out, 77 no OpenGL context, 130 interrupted.)";
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+    return names;
+}
+
+/// `tidemark SCENE …` means `tidemark view SCENE …`.
+Result<void> supply_view(const CLI::App& app, std::vector<std::string>& arguments) {
+    if (arguments.empty() || arguments[0].starts_with('-'))
+        return {};
+    const std::vector<std::string> names = command_names(app);
+    if (std::find(names.begin(), names.end(), arguments[0]) != names.end())
+        return {};
+    std::error_code ignored;
+    const std::string nearest = nearest_name(arguments[0], names);
+    if (!nearest.empty() && !std::filesystem::exists(arguments[0], ignored))
+        return fail(ErrorCode::usage,
+                    fmt::format("unknown command '{}': did you mean '{}'?", arguments[0], nearest));
+    arguments.insert(arguments.begin(), "view");
+    return {};
+}
+
+/// The sub-command that the line calls, innermost.
+const CLI::App& called(const CLI::App& app) {
+    const auto inner = app.get_subcommands();
+    return inner.empty() ? app : called(*inner.front());
+}
+
+Error unexpected(const CLI::App& app, const std::string& argument) {
+    const CLI::App& command = called(app);
+    if (!argument.starts_with('-'))
+        return {ErrorCode::usage, fmt::format("unexpected argument '{}'", argument), {}};
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    const std::string bare = argument.substr(0, argument.find('='));
+    const std::string nearest = nearest_name(bare, names);
+    const std::string hint = nearest.empty()
+                                 ? fmt::format("`{} --help` lists the options", command.get_display_name())
+                                 : fmt::format("did you mean {}?", nearest);
+    return {ErrorCode::usage, fmt::format("unknown option {}: {}", bare, hint), {}};
+}
+
+int report(const Error& error) {
+    say(to_string(error));
+    return exit_code(error.code);
+}
+
+/// CLI11 speaks by exceptions; they end here. Empty: parsed, go on.
+std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
+    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them from the back
+    try {
+        app.parse(std::move(arguments));
+    } catch (const CLI::Success& asked) { // --help, --version
+        std::ostringstream text;
+        app.exit(asked, text, text);
+        const auto printed = put(text.str());
+        return printed ? 0 : report(printed.error());
+    } catch (const CLI::ExtrasError&) {
+        const auto extra = app.remaining(true);
+        return report(unexpected(app, extra.empty() ? "" : extra.front()));
+    } catch (const CLI::ParseError& error) {
+        return report({ErrorCode::usage, error.what(), {}});
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+int run(int argc, const char* const* argv) {
+    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is a write error like any other
+    std::signal(SIGXFSZ, SIG_IGN); // as is a file-size limit
+
+    CLI::App app(
+        "Tidemark runs ShaderToy shaders: live in a window, or into deterministic frames with no display.");
+    app.name("tidemark");
+    app.set_version_flag("--version", std::string("tidemark ") + k_version);
+    app.footer(k_footer);
+    app.require_subcommand(1);
+    Action chosen;
+    for (const AddCommand add : k_commands)
+        add(app, chosen);
+
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (arguments.empty())
+        arguments.emplace_back("--help");
+    if (auto supplied = supply_view(app, arguments); !supplied)
+        return report(supplied.error());
+#ifndef TIDEMARK_WINDOW
+    if (arguments[0] == "view")
+        return report({ErrorCode::usage,
+                       "this build has no window (TIDEMARK_WINDOW=OFF): `tidemark capture` draws without one",
+                       {}});
+#endif
+    if (const auto done = parse(app, std::move(arguments)))
+        return *done;
+    const auto outcome = chosen();
+    return outcome ? *outcome : report(outcome.error());
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,66 @@
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "image/noise.hpp"
+#include "image/picture_file.hpp"
+#include "image/ramps.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct BakeOptions {
+    fs::path output;
+    uint32_t seed = image::k_noise_seed;
+};
+
+Result<int> write(const fs::path& path, const image::Image& image) {
+    if (auto known = image::check_picture_name(path); !known)
+        return fail(std::move(known.error()));
+    const image::PictureFormat format{image::natural_depth(path), {{"Software", "tidemark bake"}}};
+    if (auto written = image::write_picture(path, image, format); !written)
+        return fail(std::move(written.error()));
+    say(fmt::format("wrote {}", path.string()));
+    return 0;
+}
+
+Result<int> bake_noise(const BakeOptions& options) {
+    return write(options.output, image::make_noise(options.seed));
+}
+
+Result<int> bake_ramps(const BakeOptions& options) {
+    for (const image::NamedImage& ramp : image::make_ramps())
+        if (auto written = write(options.output / (ramp.name + ".png"), ramp.image); !written)
+            return written;
+    return 0;
+}
+
+} // namespace
+
+void add_bake(CLI::App& app, Action& chosen) {
+    CLI::App* command = app.add_subcommand("bake", "Makes the textures that scenes need");
+    command->require_subcommand(1);
+
+    auto noise = std::make_shared<BakeOptions>();
+    noise->output = "noise.png";
+    CLI::App* noise_command = command->add_subcommand("noise", "The 256x256 noise that iChannels read");
+    noise_command->add_option("-o,--output", noise->output, "File")->type_name("FILE")->capture_default_str();
+    noise_command->add_option("--seed", noise->seed, "Another noise of the same kind")->capture_default_str();
+    noise_command->callback([noise, &chosen] { chosen = [noise] { return bake_noise(*noise); }; });
+
+    auto ramps = std::make_shared<BakeOptions>();
+    ramps->output = ".";
+    CLI::App* ramps_command =
+        command->add_subcommand("ramps", "The colour ramps of shaders/pseudo3d_water.glsl");
+    ramps_command->add_option("-o,--output", ramps->output, "Folder")
+        ->type_name("FOLDER")
+        ->capture_default_str();
+    ramps_command->callback([ramps, &chosen] { chosen = [ramps] { return bake_ramps(*ramps); }; });
+}
+
+} // namespace tidemark::cli

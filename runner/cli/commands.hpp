@@ -1,0 +1,32 @@
+// The sub-commands. Each registers itself on the application and, when it was the one called, puts its
+// outcome into the exit code.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace tidemark::cli {
+
+/// What a command that was called does once the whole line is known to be good; the value is the exit code.
+using Action = std::function<Result<int>()>;
+
+/// Adds a sub-command to `app`. `chosen` is set when the line calls it.
+using AddCommand = void (*)(CLI::App& app, Action& chosen);
+
+void add_capture(CLI::App& app, Action& chosen);
+void add_inspect(CLI::App& app, Action& chosen);
+void add_bake(CLI::App& app, Action& chosen);
+void add_completion(CLI::App& app, Action& chosen);
+void add_view(CLI::App& app, Action& chosen);
+
+/// The whole program.
+int run(int argc, const char* const* argv);
+
+} // namespace tidemark::cli

@@ -1,0 +1,29 @@
+#include "cli/console.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+namespace tidemark::cli {
+
+void say(std::string_view line) {
+    const std::string text = std::string(line) + '\n'; // one write: lines of threads do not mix
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+Result<void> put(std::string_view text) {
+    return put(std::as_bytes(std::span(text)));
+}
+
+Result<void> put(std::span<const std::byte> bytes) {
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    if (written && std::fflush(stdout) == 0)
+        return {};
+    return fail(ErrorCode::write,
+                fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)));
+}
+
+} // namespace tidemark::cli

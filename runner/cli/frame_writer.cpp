@@ -1,0 +1,61 @@
+#include "cli/frame_writer.hpp"
+
+#include <algorithm>
+
+namespace tidemark::cli {
+
+FrameWriter::FrameWriter(unsigned workers) : capacity_(workers + 1) {
+    for (unsigned i = 0; i < workers; ++i)
+        workers_.emplace_back([this] { work(); });
+}
+
+FrameWriter::~FrameWriter() {
+    (void)finish();
+}
+
+bool FrameWriter::push(FrameFile frame) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return queue_.size() < capacity_ || !errors_.empty(); });
+    if (!errors_.empty())
+        return false;
+    queue_.push_back(std::move(frame));
+    changed_.notify_all();
+    return true;
+}
+
+Result<void> FrameWriter::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+        changed_.notify_all();
+    }
+    for (std::thread& worker : workers_)
+        worker.join();
+    workers_.clear();
+    if (errors_.empty())
+        return {};
+    return fail(std::min_element(errors_.begin(), errors_.end(), [](const auto& a, const auto& b) {
+                    return a.first < b.first;
+                })->second);
+}
+
+void FrameWriter::work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+        changed_.wait(lock, [&] { return !queue_.empty() || closed_; });
+        if (queue_.empty())
+            return;
+        const FrameFile frame = std::move(queue_.front());
+        queue_.pop_front();
+        changed_.notify_all();
+        lock.unlock();
+        auto written = image::write_picture(frame.path, frame.image, frame.format);
+        lock.lock();
+        if (!written) {
+            errors_.emplace_back(frame.frame, std::move(written.error()));
+            changed_.notify_all();
+        }
+    }
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,52 @@
+// Encodes frames on worker threads while the next ones are drawn. Frames wait in a queue of bounded length,
+// so that memory stays bounded too.
+#pragma once
+
+#include "base/result.hpp"
+#include "image/image.hpp"
+#include "image/picture_file.hpp"
+
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tidemark::cli {
+
+struct FrameFile {
+    int frame = 0;
+    std::filesystem::path path;
+    image::Image image;
+    image::PictureFormat format;
+};
+
+class FrameWriter {
+public:
+    explicit FrameWriter(unsigned workers);
+    ~FrameWriter();
+    FrameWriter(const FrameWriter&) = delete;
+    FrameWriter& operator=(const FrameWriter&) = delete;
+
+    /// Hands a frame over; waits while the queue is full. False once a frame could not be written: the rest
+    /// need not be drawn.
+    bool push(FrameFile frame);
+
+    /// Waits for all frames; the error of the earliest one that failed.
+    Result<void> finish();
+
+private:
+    void work();
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<FrameFile> queue_;
+    size_t capacity_;
+    bool closed_ = false;
+    std::vector<std::pair<int, Error>> errors_;
+    std::vector<std::thread> workers_;
+};
+
+} // namespace tidemark::cli

@@ -1,0 +1,171 @@
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/omissions.hpp"
+#include "cli/options.hpp"
+#include "cli/version.hpp"
+#include "gl/capabilities.hpp"
+#include "platform/headless_context.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InspectOptions {
+    SceneRequest scene;
+    std::string device = "auto";
+    bool devices = false;
+    bool json = false;
+};
+
+std::string_view name_of(platform::DeviceKind kind) {
+    switch (kind) {
+    case platform::DeviceKind::hardware: return "hardware";
+    case platform::DeviceKind::software: return "software";
+    case platform::DeviceKind::unknown: return "unknown";
+    }
+    return "unknown";
+}
+
+Json to_json(const platform::HeadlessDevice& device) {
+    Json json = {{"name", device.name}, {"kind", name_of(device.kind)}};
+    if (device.reason.empty()) {
+        json["renderer"] = device.renderer;
+        json["version"] = device.version;
+    } else {
+        json["unusable"] = device.reason;
+    }
+    return json;
+}
+
+std::string to_line(const platform::HeadlessDevice& device) {
+    if (!device.reason.empty())
+        return fmt::format("{:<12} unusable: {}\n", device.name, device.reason);
+    return fmt::format("{:<12} {}, {}, OpenGL {}\n", device.name, name_of(device.kind), device.renderer,
+                       device.version);
+}
+
+Result<int> inspect_devices(bool as_json) {
+    const auto devices = platform::list_headless_devices();
+    std::string text;
+    Json json = {{"tidemark", k_version}, {"devices", Json::array()}};
+    for (const platform::HeadlessDevice& device : devices) {
+        text += to_line(device);
+        json["devices"].push_back(to_json(device));
+    }
+    return put(as_json ? json.dump(2) + "\n" : text).map([] { return 0; });
+}
+
+std::string describe(const scene::ChannelInput& input) {
+    if (const auto* picture = std::get_if<scene::Picture>(&input))
+        return picture->file.string();
+    return std::holds_alternative<scene::Noise>(input) ? "noise" : "none";
+}
+
+std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValue& value) {
+    return {value.begin(), value.begin() + scene::info(knob.type).components};
+}
+
+Json to_json(const scene::Knob& knob) {
+    Json json = {{"name", knob.name},
+                 {"type", scene::info(knob.type).directive_name},
+                 {"value", components_of(knob, knob.value)}};
+    if (knob.range) {
+        json["low"] = components_of(knob, knob.range->low);
+        json["high"] = components_of(knob, knob.range->high);
+    }
+    return json;
+}
+
+Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
+    const SceneFacts facts = facts_of(renderer);
+    const scene::Scene& scene = renderer.scene();
+    Json json;
+    json["tidemark"] = k_version;
+    json["scene"] = scene.file.string();
+    json["driver"] = driver.version;
+    json["renderer"] = driver.renderer;
+    json["files"] = Json::array();
+    for (const auto& file : scene.files)
+        json["files"].push_back(file.string());
+    json["uniforms"] = facts.uniforms;
+    json["channels"] = Json::object();
+    for (const int channel : facts.channels)
+        json["channels"][fmt::format("iChannel{}", channel)] =
+            describe(scene.image().channels[size_t(channel)].input);
+    json["knobs"] = Json::array();
+    for (const scene::Knob& knob : scene.knobs)
+        json["knobs"].push_back(to_json(knob));
+    json["left_out"] = facts.left_out;
+    return json;
+}
+
+std::string to_text(const render::Renderer& renderer, const gl::Capabilities& driver) {
+    const SceneFacts facts = facts_of(renderer);
+    const scene::Scene& scene = renderer.scene();
+    std::string text =
+        fmt::format("{}\n  driver    {}, OpenGL {}\n", scene.file.string(), driver.renderer, driver.version);
+    text += fmt::format("  uniforms  {}\n", fmt::join(facts.uniforms, ", "));
+    for (const int channel : facts.channels)
+        text += fmt::format("  iChannel{} {}\n", channel,
+                            describe(scene.image().channels[size_t(channel)].input));
+    for (const scene::Knob& knob : scene.knobs) {
+        text += fmt::format("  knob      {} {} = {}", scene::info(knob.type).directive_name, knob.name,
+                            scene::to_string(knob));
+        if (knob.range)
+            text += fmt::format(" in {{ {}, {} }}", scene::to_string(knob, knob.range->low),
+                                scene::to_string(knob, knob.range->high));
+        text += '\n';
+    }
+    for (const std::string& thing : facts.left_out)
+        text += fmt::format("  left out  {}\n", thing);
+    return text;
+}
+
+Result<int> inspect_scene(const InspectOptions& options) {
+    auto scene = load(options.scene);
+    if (!scene)
+        return fail(std::move(scene.error()));
+    const auto context = platform::HeadlessContext::create(options.device);
+    if (!context)
+        return fail(context.error());
+    const auto renderer = render::Renderer::create(*std::move(scene), {});
+    if (!renderer)
+        return fail(renderer.error());
+    const gl::Capabilities driver = gl::query_capabilities();
+    return put(options.json ? to_json(*renderer, driver).dump(2) + "\n" : to_text(*renderer, driver)).map([] {
+        return 0;
+    });
+}
+
+} // namespace
+
+void add_inspect(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<InspectOptions>();
+    CLI::App* command = app.add_subcommand("inspect", "Tells what a scene needs and what was left out");
+    add_scene_options(*command, options->scene);
+    command->get_option("SCENE")->required(false);
+    command->add_option("--device", options->device, "Where to draw: a name from --devices")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_flag("--devices", options->devices, "Lists where OpenGL contexts can be had, and no scene");
+    command->add_flag("--json", options->json, "One JSON object on standard output");
+    command->callback([options, &chosen] {
+        chosen = [options]() -> Result<int> {
+            if (options->devices)
+                return inspect_devices(options->json);
+            if (options->scene.path.empty())
+                return fail(ErrorCode::usage, "inspect: give a SCENE, or --devices");
+            return inspect_scene(*options);
+        };
+    });
+}
+
+} // namespace tidemark::cli

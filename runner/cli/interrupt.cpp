@@ -1,0 +1,30 @@
+#include "cli/interrupt.hpp"
+
+#include <unistd.h>
+
+namespace tidemark::cli {
+
+Interrupt::Interrupt() {
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) // SIGUSR1 wakes the listener for its end
+        sigaddset(&signals_, signal);
+    pthread_sigmask(SIG_BLOCK, &signals_, &previous_mask_);
+    listener_ = std::thread([this] {
+        int signal = 0;
+        while (sigwait(&signals_, &signal) == 0) {
+            if (ending_)
+                return;
+            if (signal != SIGUSR1 && requested_.exchange(true))
+                ::_exit(k_exit_code);
+        }
+    });
+}
+
+Interrupt::~Interrupt() {
+    ending_ = true;
+    pthread_kill(listener_.native_handle(), SIGUSR1);
+    listener_.join();
+    pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,31 @@
+// Ctrl-C as a question one can ask: the first one asks to stop after the work in hand, the second one ends
+// the process.
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <thread>
+
+namespace tidemark::cli {
+
+/// Takes SIGINT and SIGTERM over while it lives. Make it before any other thread, which inherit its mask.
+class Interrupt {
+public:
+    Interrupt();
+    ~Interrupt();
+    Interrupt(const Interrupt&) = delete;
+    Interrupt& operator=(const Interrupt&) = delete;
+
+    bool requested() const { return requested_; }
+
+    static constexpr int k_exit_code = 130; ///< as shells report SIGINT
+
+private:
+    sigset_t signals_{};
+    sigset_t previous_mask_{};
+    std::atomic<bool> requested_ = false;
+    std::atomic<bool> ending_ = false;
+    std::thread listener_;
+};
+
+} // namespace tidemark::cli

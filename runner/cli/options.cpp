@@ -1,0 +1,89 @@
+#include "cli/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tidemark::cli {
+
+void add_scene_options(CLI::App& command, SceneRequest& request) {
+    command.add_option("SCENE", request.path, "A .glsl or .frag file with mainImage")->required();
+    // Repeatable, one value each: without this CLI11 would take the scene for a second value.
+    const auto one_each = [](CLI::Option* option) {
+        option->type_size(1)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    };
+    one_each(
+        command.add_option("--set", request.sets, "Value of a knob (#iUniform)")->type_name("NAME=VALUE"));
+    one_each(command.add_option("--define", request.defines, "Replaces a #define or const of the scene")
+                 ->type_name("NAME=VALUE"));
+    one_each(
+        command.add_option("--channel", request.channels, "What iChannelN reads: a picture, noise or none")
+            ->type_name("N=FILE|noise|none"));
+}
+
+void add_picture_options(CLI::App& command, FrameOptions& options) {
+    command.add_option("--size", options.size, "Resolution in pixels")
+        ->type_name("WxH")
+        ->capture_default_str();
+    command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")
+        ->type_name("F")
+        ->capture_default_str();
+    command.add_option("--date", options.date, "iDate, as in 2024-12-31T23:59:58")->type_name("ISO");
+    command
+        .add_option("--camera", options.camera, "Orbit camera of a scene that declares iCamera, in degrees")
+        ->type_name("AZIMUTH,ELEVATION,DISTANCE");
+}
+
+void add_time_options(CLI::App& command, FrameOptions& options) {
+    auto* frame =
+        command.add_option("--frame", options.frame, "One frame, from 0 (the default)")->type_name("N");
+    auto* frames =
+        command.add_option("--frames", options.frames, "Frames, inclusive, as in 0-29 or 0-120x10")
+            ->type_name("A-B[xS][,...]");
+    auto* time =
+        command.add_option("--time", options.time, "iTime in seconds, instead of a frame")->type_name("T");
+    frame->excludes(frames)->excludes(time);
+    frames->excludes(time);
+    command
+        .add_option("--mouse", options.mouse,
+                    "iMouse after a click at that pixel; down: in the frame of the press")
+        ->type_name("X,Y[,down]");
+}
+
+Result<FrameRequest> resolve(const FrameOptions& options) {
+    FrameRequest request;
+    const auto keep = [](auto&& parsed, auto& place) -> Result<void> {
+        if (!parsed)
+            return fail(parsed.error());
+        place = *parsed;
+        return {};
+    };
+    if (auto size = keep(parse_size(options.size), request.extent); !size)
+        return fail(size.error());
+    if (!(options.fps > 0) || !std::isfinite(options.fps))
+        return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", options.fps));
+    request.fps = options.fps;
+    if (options.frame && (*options.frame < 0))
+        return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0", *options.frame));
+    if (options.frame)
+        request.frames = {*options.frame};
+    if (options.time && !std::isfinite(*options.time))
+        return fail(ErrorCode::usage, "--time: give a finite number of seconds");
+    request.time = options.time;
+    if (options.frames)
+        if (auto frames = keep(parse_frames(*options.frames), request.frames); !frames)
+            return fail(frames.error());
+    if (options.mouse)
+        if (auto mouse = keep(parse_mouse(*options.mouse), request.mouse); !mouse)
+            return fail(mouse.error());
+    if (options.date)
+        if (auto date = keep(render::parse_date(*options.date), request.date); !date)
+            return fail(date.error());
+    if (options.camera)
+        if (auto camera = keep(render::parse_camera(*options.camera), request.camera); !camera)
+            return fail(camera.error());
+    return request;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,38 @@
+// The options that mean the same wherever they stand: registered on a command, then turned into requests.
+#pragma once
+
+#include "cli/requests.hpp"
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace tidemark::cli {
+
+/// SCENE, --set, --define, --channel.
+void add_scene_options(CLI::App& command, SceneRequest& request);
+
+/// The frame options as they were typed.
+struct FrameOptions {
+    std::string size = "640x360";
+    double fps = 60;
+    std::optional<int> frame;
+    std::optional<std::string> frames;
+    std::optional<double> time;
+    std::optional<std::string> mouse;
+    std::optional<std::string> date;
+    std::optional<std::string> camera;
+};
+
+/// --size, --fps, --date, --camera: what a window knows too.
+void add_picture_options(CLI::App& command, FrameOptions& options);
+/// --frame, --frames, --time, --mouse: what a window gets from the person in front of it.
+void add_time_options(CLI::App& command, FrameOptions& options);
+
+/// Checks them all. An error names the option and what to give.
+Result<FrameRequest> resolve(const FrameOptions& options);
+
+} // namespace tidemark::cli

@@ -1,0 +1,60 @@
+#include "cli/output_name.hpp"
+
+#include "image/picture_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+
+Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_count) {
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("-o {}: {}", pattern, why));
+    };
+    OutputName name;
+    name.pattern_ = pattern;
+    if (pattern == "-") {
+        name.standard_output_ = true;
+        return name;
+    }
+    if (auto known = image::check_picture_name(name.pattern_); !known)
+        return fail(std::move(known.error()));
+    for (size_t i = 0; i < pattern.size(); ++i) {
+        std::string& part = name.numbered_ ? name.after_ : name.before_;
+        if (pattern[i] != '%' && pattern[i] != '#') {
+            part += pattern[i];
+            continue;
+        }
+        if (pattern.substr(i).starts_with("%%")) {
+            part += pattern[i++];
+            continue;
+        }
+        if (name.numbered_)
+            return refuse("it has two frame numbers; one is enough");
+        name.numbered_ = true;
+        if (pattern[i] == '#') {
+            for (; i + 1 < pattern.size() && pattern[i + 1] == '#'; ++i)
+                ++name.digits_;
+            ++name.digits_;
+            continue;
+        }
+        for (++i; i < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[i])); ++i)
+            name.digits_ = name.digits_ * 10 + (pattern[i] - '0');
+        if (i >= pattern.size() || pattern[i] != 'd' || name.digits_ > 20)
+            return refuse("write the frame number as %04d or ####");
+    }
+    if (!name.numbered_ && frame_count > 1)
+        return refuse(
+            fmt::format("{} frames need a frame number in the name, as in wave.%04d.png", frame_count));
+    return name;
+}
+
+fs::path OutputName::of_frame(int frame) const {
+    if (!numbered_)
+        return before_;
+    return fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,33 @@
+// File names for frames: `out/wave.%04d.png`, `out/wave.####.png`, or one name for one picture.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tidemark::cli {
+
+class OutputName {
+public:
+    /// `pattern` holds at most one frame number: `%d`, `%04d`, or a run of `#` (one digit each); `%%` is a
+    /// percent sign. Fails (ErrorCode::usage) on a form we do not write, and on several frames under one
+    /// name.
+    static Result<OutputName> parse(std::string_view pattern, size_t frame_count);
+
+    std::filesystem::path of_frame(int frame) const;
+    /// `-`: raw frames on standard output.
+    bool standard_output() const { return standard_output_; }
+    const std::filesystem::path& pattern() const { return pattern_; }
+
+private:
+    std::filesystem::path pattern_;
+    std::string before_;
+    std::string after_;
+    int digits_ = 0;
+    bool numbered_ = false;
+    bool standard_output_ = false;
+};
+
+} // namespace tidemark::cli

@@ -1,0 +1,66 @@
+#include "cli/progress.hpp"
+
+#include "cli/console.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace tidemark::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+const std::string k_clear_line = "\r\x1b[K";
+
+/// Without a line end, so that the next one takes its place.
+void show(const std::string& text) {
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+/// A person reads about ten lines a second at most.
+constexpr double k_redraw_seconds = 0.1;
+
+} // namespace
+
+Progress::Progress(std::string what, size_t total)
+    : what_(std::move(what)), total_(total), terminal_(::isatty(STDERR_FILENO) == 1), start_(Clock::now()),
+      shown_(start_), first_done_(start_) {}
+
+Progress::~Progress() {
+    if (terminal_ && done_ > 0 && total_ > 1)
+        show(k_clear_line);
+}
+
+void Progress::advance() {
+    ++done_;
+    const Clock::time_point now = Clock::now();
+    if (done_ == 1)
+        first_done_ = now;
+    if (total_ < 2)
+        return;
+    if (terminal_ && (seconds_between(shown_, now) > k_redraw_seconds || done_ == total_)) {
+        show(k_clear_line + line());
+        shown_ = now;
+    } else if (!terminal_ && done_ * 10 / total_ > (done_ - 1) * 10 / total_) {
+        say(line());
+    }
+}
+
+/// The first one pays for what happens once (the driver compiles at the first draw): it is left out of the
+/// rate as soon as there is a second.
+std::string Progress::line() const {
+    const Clock::time_point now = Clock::now();
+    const double counted = done_ > 1 ? double(done_ - 1) : 1.0;
+    const double elapsed = seconds_between(done_ > 1 ? first_done_ : start_, now);
+    const double rate = elapsed > 0 ? counted / elapsed : 0;
+    const double left = rate > 0 ? double(total_ - done_) / rate : 0;
+    return fmt::format("{}/{} {}, {:.3g} a second, {:.0f} s left", done_, total_, what_, rate, left);
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,128 @@
+#include "cli/requests.hpp"
+
+#include "glsl/overrides.hpp"
+#include "render/mouse.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace tidemark::cli {
+namespace {
+
+/// No recording is longer: iFrame is an int, and a day at 60 frames a second is five million.
+constexpr int k_last_frame = 100'000'000;
+
+/// Consumes a number from the front of `text`.
+template <class T>
+bool take(std::string_view& text, T& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{})
+        return false;
+    text.remove_prefix(size_t(end - text.data()));
+    return true;
+}
+
+bool take(std::string_view& text, char wanted) {
+    if (!text.starts_with(wanted))
+        return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+/// One of the ranges between commas: `7`, `1-10`, `1-10x3`.
+bool take_range(std::string_view& text, std::vector<int>& frames) {
+    int first = 0;
+    if (!take(text, first) || first < 0 || first > k_last_frame)
+        return false;
+    int last = first;
+    int step = 1;
+    if (take(text, '-') && (!take(text, last) || last < 0 || last > k_last_frame))
+        return false;
+    if (take(text, 'x') && (!take(text, step) || step < 1))
+        return false;
+    if (std::abs(last - first) / step >= 10'000'000)
+        return false;
+    const int direction = last < first ? -1 : 1;
+    for (int i = 0; i <= std::abs(last - first) / step; ++i)
+        frames.push_back(first + direction * i * step);
+    return true;
+}
+
+} // namespace
+
+Result<scene::Scene> load(const SceneRequest& request) {
+    auto scene = scene::load_scene(request.path);
+    if (!scene)
+        return scene;
+    using Override = Result<void> (*)(scene::Scene&, std::string_view);
+    const std::pair<const std::vector<std::string>&, Override> overrides[] = {
+        {request.defines, glsl::override_definition},
+        {request.sets, scene::override_knob},
+        {request.channels, scene::override_channel},
+    };
+    for (const auto& [settings, apply] : overrides)
+        for (const std::string& setting : settings)
+            if (auto applied = apply(*scene, setting); !applied)
+                return fail(std::move(applied.error()));
+    return scene;
+}
+
+render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
+    render::FrameInputs inputs = render::inputs_of_frame(frame, request.fps);
+    if (request.time) {
+        inputs.time = *request.time;
+        inputs.frame = int(std::clamp(std::floor(*request.time * request.fps), 0.0, double(k_last_frame)));
+    }
+    inputs.mouse = request.mouse;
+    inputs.date = request.date;
+    inputs.camera = request.camera.matrix();
+    return inputs;
+}
+
+Result<Extent> parse_size(std::string_view text) {
+    Extent extent;
+    std::string_view rest = text;
+    if (!take(rest, extent.width) || !take(rest, 'x') || !take(rest, extent.height) || !rest.empty() ||
+        extent.width < 1 || extent.height < 1)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--size {}: give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360", text));
+    return extent;
+}
+
+Result<std::vector<int>> parse_frames(std::string_view text) {
+    std::vector<int> frames;
+    std::string_view rest = text;
+    do {
+        if (!take_range(rest, frames))
+            break;
+    } while (take(rest, ','));
+    if (!rest.empty() || frames.empty())
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--frames {}: give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29", text));
+    return frames;
+}
+
+Result<glm::vec4> parse_mouse(std::string_view text) {
+    double x = 0;
+    double y = 0;
+    std::string_view rest = text;
+    const bool good =
+        take(rest, x) && take(rest, ',') && take(rest, y) && std::isfinite(x) && std::isfinite(y);
+    if (!good || (!rest.empty() && rest != ",down"))
+        return fail(ErrorCode::usage,
+                    fmt::format("--mouse {}: give x,y or x,y,down in pixels from the bottom left", text));
+    render::Mouse mouse;
+    mouse.press(x, y);
+    if (rest.empty()) {
+        mouse.frame_drawn();
+        mouse.release();
+    }
+    return mouse.uniform();
+}
+
+} // namespace tidemark::cli

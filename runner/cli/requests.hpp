@@ -1,0 +1,55 @@
+// What the command line asks for, as values that every command shares: a scene with its overrides, and the
+// frames to make of it.
+#pragma once
+
+#include "base/extent.hpp"
+#include "base/result.hpp"
+#include "render/frame_inputs.hpp"
+#include "render/orbit_camera.hpp"
+#include "scene/scene.hpp"
+
+#include <glm/vec4.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::cli {
+
+/// A scene and what the options change in it. The texts are checked when the scene is loaded.
+struct SceneRequest {
+    std::filesystem::path path;
+    std::vector<std::string> sets;     ///< --set NAME=VALUE
+    std::vector<std::string> defines;  ///< --define NAME=VALUE
+    std::vector<std::string> channels; ///< --channel N=WHAT
+};
+
+Result<scene::Scene> load(const SceneRequest& request);
+
+/// Which frames, and what they see.
+struct FrameRequest {
+    Extent extent{640, 360};
+    double fps = 60;
+    std::vector<int> frames{0};
+    std::optional<double> time; ///< --time: instead of frame / fps
+    glm::vec4 mouse{0};
+    render::Date date{};
+    render::OrbitCamera camera{};
+};
+
+/// The inputs of one of the request's frames; depends on nothing else, so that a frame asked for alone
+/// equals the same frame of a sequence.
+render::FrameInputs inputs_of(const FrameRequest& request, int frame);
+
+/// `640x360`.
+Result<Extent> parse_size(std::string_view text);
+
+/// OpenImageIO's frame ranges: `7`, `1-10`, `1-10x3`, `10-1`, several with commas; inclusive; from 0.
+Result<std::vector<int>> parse_frames(std::string_view text);
+
+/// `x,y` or `x,y,down`: iMouse after a click at that pixel, or in the very frame of the press.
+Result<glm::vec4> parse_mouse(std::string_view text);
+
+} // namespace tidemark::cli

@@ -1,0 +1,41 @@
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "cli/viewer.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+struct ViewOptions {
+    SceneRequest scene;
+    FrameOptions frames;
+};
+
+Result<int> view(const ViewOptions& options) {
+    auto frames = resolve(options.frames);
+    if (!frames)
+        return fail(std::move(frames.error()));
+    Viewer::Settings settings{options.scene, *std::move(frames)};
+    if (options.frames.date)
+        settings.date = settings.frames.date;
+    auto viewer = Viewer::open(std::move(settings));
+    if (!viewer)
+        return fail(std::move(viewer.error()));
+    return viewer->run();
+}
+
+} // namespace
+
+void add_view(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<ViewOptions>();
+    CLI::App* command =
+        app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
+    add_scene_options(*command, options->scene);
+    add_picture_options(*command, options->frames);
+    command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
+}
+
+} // namespace tidemark::cli

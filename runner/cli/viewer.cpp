@@ -1,0 +1,258 @@
+#include "cli/viewer.hpp"
+
+#include "cli/console.hpp"
+#include "cli/version.hpp"
+#include "gl/render_target.hpp"
+#include "image/picture_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <variant>
+
+namespace tidemark::cli {
+namespace {
+
+using platform::Button;
+using platform::Key;
+
+constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scene that declares iCamera
+wheel       zooms that camera     middle drag  pans it     R  resets it
+space       pause                 left, right  a frame back, forward
+Home        restart               S            save a picture
+F           full screen           Esc          quit        H  this help)";
+
+/// How long a scene that does not load may still be in the middle of being saved. An editor's pause between
+/// two writes is shorter, a person's patience longer.
+constexpr double k_half_written_seconds = 0.06;
+
+double now_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The first thing that is wrong, in one line.
+std::string headline(const Error& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics)
+        if (diagnostic.severity == Severity::error)
+            return to_string(diagnostic);
+    return error.message;
+}
+
+} // namespace
+
+Viewer::Viewer(Settings settings, platform::Window window, platform::FileWatcher watcher,
+               render::Renderer renderer)
+    : settings_(std::move(settings)), window_(std::move(window)), watcher_(std::move(watcher)),
+      renderer_(std::move(renderer)), clock_(now_seconds()), camera_(settings_.frames.camera) {}
+
+Result<Viewer> Viewer::open(Settings settings) {
+    auto scene = load(settings.scene);
+    if (!scene)
+        return fail(std::move(scene.error()));
+    auto watcher = platform::FileWatcher::create([] { platform::Window::wake(); });
+    if (!watcher)
+        return fail(std::move(watcher.error()));
+    auto window = platform::Window::create(settings.frames.extent, scene->name() + " - tidemark");
+    if (!window)
+        return fail(std::move(window.error()));
+    if (auto watched = watcher->watch(scene->files); !watched)
+        say(to_string(watched.error())); // it can still be looked at
+    auto renderer = render::Renderer::create(*std::move(scene), {window->framebuffer_extent()});
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    return Viewer(std::move(settings), *std::move(window), *std::move(watcher), *std::move(renderer));
+}
+
+Result<int> Viewer::run() {
+    while (!closing_) {
+        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds())))
+            std::visit([this](const auto& happened) { handle(happened); }, event);
+        follow_files();
+        const double now = now_seconds();
+        if (report_at_ && now >= *report_at_)
+            report_failure();
+        if (wants_frame(now))
+            draw(now);
+    }
+    return writer_ ? writer_->finish().map([] { return 0; }) : Result<int>(0);
+}
+
+bool Viewer::wants_frame(double now) const {
+    const Extent extent = window_.framebuffer_extent();
+    if (extent.width == 0 || extent.height == 0)
+        return false; // minimised
+    return stale_ || (!clock_.paused() && now >= next_draw_);
+}
+
+double Viewer::seconds_to_sleep(double now) const {
+    double until = std::numeric_limits<double>::infinity();
+    if (stale_)
+        return 0;
+    if (!clock_.paused())
+        until = next_draw_;
+    if (report_at_)
+        until = std::min(until, *report_at_);
+    return std::max(0.0, until - now);
+}
+
+void Viewer::draw(double now) {
+    next_draw_ = std::max(next_draw_ + 1 / settings_.frames.fps, now);
+    shown_ = clock_.next_frame(now);
+    shown_.mouse = mouse_.uniform();
+    shown_.date = settings_.date ? *settings_.date : render::local_date();
+    shown_.camera = camera_.matrix();
+    renderer_.draw(shown_);
+    gl::blit_to_window(renderer_.target(), window_.framebuffer_extent());
+    window_.swap();
+    mouse_.frame_drawn();
+    stale_ = false;
+    show_title();
+}
+
+/// The error while there is one, else the frame rate, which changes twice a second at most.
+void Viewer::show_title() {
+    const std::string state = clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.time)
+                                              : fmt::format("{:.0f} fps", clock_.frame_rate());
+    std::string title = failure_ && !report_at_
+                            ? headline(*failure_)
+                            : fmt::format("{} - tidemark - {}", renderer_.scene().name(), state);
+    if (title == title_)
+        return;
+    title_ = std::move(title);
+    window_.set_title(title_);
+}
+
+void Viewer::handle(const platform::PointerMoved& event) {
+    const double dx = event.at.x - pointer_.x;
+    const double dy = event.at.y - pointer_.y;
+    pointer_ = event.at;
+    if (turning_) {
+        mouse_.move(event.at.x, event.at.y);
+        camera_.turn(dx, dy, renderer_.extent().height);
+    }
+    if (panning_)
+        camera_.pan(dx, dy, renderer_.extent().height);
+    stale_ = stale_ || turning_ || panning_;
+}
+
+void Viewer::handle(const platform::ButtonPressed& event) {
+    pointer_ = event.at;
+    if (event.button == Button::left) {
+        turning_ = true;
+        mouse_.press(event.at.x, event.at.y);
+    } else if (event.button == Button::middle) {
+        panning_ = true;
+    }
+    stale_ = true;
+}
+
+void Viewer::handle(const platform::ButtonReleased& event) {
+    if (event.button == Button::left) {
+        turning_ = false;
+        mouse_.release();
+    } else if (event.button == Button::middle) {
+        panning_ = false;
+    }
+    stale_ = true;
+}
+
+void Viewer::handle(const platform::WheelTurned& event) {
+    camera_.zoom(event.up);
+    stale_ = true;
+}
+
+void Viewer::handle(const platform::KeyPressed& event) {
+    const double now = now_seconds();
+    switch (event.key) {
+    case Key::left: clock_.step(-1, settings_.frames.fps, now); break;
+    case Key::right: clock_.step(1, settings_.frames.fps, now); break;
+    default:
+        if (event.repeat)
+            return;
+    }
+    switch (event.key) {
+    case Key::space: clock_.toggle_pause(now); break;
+    case Key::home: clock_.restart(now); break;
+    case Key::r: camera_ = settings_.frames.camera; break;
+    case Key::s: return save_picture();
+    case Key::f: window_.toggle_full_screen(); break;
+    case Key::h: return say(k_help);
+    case Key::escape: closing_ = true; break;
+    default: break;
+    }
+    stale_ = true;
+}
+
+void Viewer::handle(const platform::FramebufferResized& event) {
+    if (event.extent.width == 0 || event.extent.height == 0)
+        return;
+    if (auto resized = renderer_.resize(event.extent); !resized)
+        say(to_string(resized.error())); // the old picture is stretched
+    stale_ = true;
+}
+
+void Viewer::save_picture() {
+    if (!writer_)
+        writer_ = std::make_unique<FrameWriter>(1U);
+    const std::string name = fmt::format("{}-{:05}.png", renderer_.scene().name(), shown_.frame);
+    const image::PictureFormat format{image::SampleDepth::u8,
+                                      {{"Scene", settings_.scene.path.string()},
+                                       {"Frame", fmt::format("{}", shown_.frame)},
+                                       {"iTime", fmt::format("{}", shown_.time)},
+                                       {"Software", fmt::format("tidemark {}", k_version)}}};
+    if (writer_->push({shown_.frame, name, renderer_.read_back(), format}))
+        say(fmt::format("saving {}", name));
+    else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
+        say(to_string(written.error()));
+}
+
+void Viewer::follow_files() {
+    if (watcher_.changed().empty())
+        return;
+    auto reloaded = reload();
+    stale_ = true;
+    if (reloaded) {
+        if (failure_ && !report_at_)
+            say(fmt::format("{}: good again", settings_.scene.path.string()));
+        failure_.reset();
+        report_at_.reset();
+        return;
+    }
+    failure_ = std::move(reloaded.error());
+    report_at_ = now_seconds() + k_half_written_seconds;
+}
+
+void Viewer::report_failure() {
+    report_at_.reset();
+    say(to_string(*failure_));
+    stale_ = true;
+}
+
+Result<void> Viewer::reload() {
+    SceneRequest request = settings_.scene;
+    request.sets.clear(); // they are among the knobs that were turned
+    auto scene = load(request);
+    if (!scene)
+        return fail(std::move(scene.error()));
+    keep_turned_knobs(*scene);
+    // Before the slow part, so that a save during it is seen; and even if it fails, so that what it waits
+    // for is seen.
+    if (auto watched = watcher_.watch(scene->files); !watched)
+        return watched;
+    auto fresh = render::Renderer::create(*std::move(scene), {renderer_.extent()});
+    if (!fresh)
+        return fail(std::move(fresh.error()));
+    renderer_ = *std::move(fresh);
+    return {};
+}
+
+void Viewer::keep_turned_knobs(scene::Scene& fresh) const {
+    for (const scene::Knob& old : renderer_.scene().knobs)
+        for (scene::Knob& knob : fresh.knobs)
+            if (knob.name == old.name && knob.type == old.type && old.value != old.initial)
+                knob.value = old.value;
+}
+
+} // namespace tidemark::cli

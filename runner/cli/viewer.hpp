@@ -1,0 +1,82 @@
+// A scene in a window: draws it, feeds it what people do to the window, and reloads it when its files are
+// saved. Whatever goes wrong after the start leaves the last good picture running.
+#pragma once
+
+#include "cli/frame_writer.hpp"
+#include "cli/requests.hpp"
+#include "platform/file_watcher.hpp"
+#include "platform/window.hpp"
+#include "render/live_clock.hpp"
+#include "render/mouse.hpp"
+#include "render/orbit_camera.hpp"
+#include "render/renderer.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tidemark::cli {
+
+class Viewer {
+public:
+    struct Settings {
+        SceneRequest scene;
+        FrameRequest frames;                   ///< extent, fps, camera
+        std::optional<render::Date> date = {}; ///< instead of the clock on the wall
+    };
+
+    /// Opens the window and draws nothing yet. Fails like `load`, Window and Renderer do.
+    static Result<Viewer> open(Settings settings);
+
+    /// Until the person closes it.
+    Result<int> run();
+
+private:
+    Viewer(Settings settings, platform::Window window, platform::FileWatcher watcher,
+           render::Renderer renderer);
+
+    // What people do
+    void handle(const platform::PointerMoved& event);
+    void handle(const platform::ButtonPressed& event);
+    void handle(const platform::ButtonReleased& event);
+    void handle(const platform::WheelTurned& event);
+    void handle(const platform::KeyPressed& event);
+    void handle(const platform::KeyReleased&) {}
+    void handle(const platform::FramebufferResized& event);
+    void handle(const platform::RedrawNeeded&) { stale_ = true; }
+    void handle(const platform::CloseRequested&) { closing_ = true; }
+    void handle(const platform::FocusLost&) {}
+    void save_picture();
+
+    // What happens to files
+    void follow_files();
+    Result<void> reload();
+    void keep_turned_knobs(scene::Scene& fresh) const;
+    void report_failure();
+
+    void draw(double now);
+    void show_title();
+    double seconds_to_sleep(double now) const;
+    bool wants_frame(double now) const;
+
+    Settings settings_;
+    platform::Window window_; ///< owns the context: first in, last out
+    platform::FileWatcher watcher_;
+    render::Renderer renderer_;
+    render::LiveClock clock_;
+    render::Mouse mouse_;
+    render::OrbitCamera camera_;
+    std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
+    std::optional<Error> failure_;        ///< of the last reload, until mended
+    std::optional<double> report_at_;     ///< when the failure is news; before, the file may be half-written
+    std::string title_;
+    platform::PointerPosition pointer_{};
+    render::FrameInputs shown_; ///< inputs of the frame on show
+    double next_draw_ = 0;
+    bool turning_ = false;
+    bool panning_ = false;
+    bool stale_ = true; ///< the window does not show what it should
+    bool closing_ = false;
+};
+
+} // namespace tidemark::cli

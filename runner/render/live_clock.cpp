@@ -1,0 +1,62 @@
+#include "render/live_clock.hpp"
+
+#include <algorithm>
+
+namespace tidemark::render {
+namespace {
+
+constexpr double k_usual_delta = 1 / 60.0;
+constexpr double k_rate_window = 0.5;
+
+} // namespace
+
+void LiveClock::toggle_pause(double now) {
+    time_ = time_at(now);
+    resumed_at_ = now;
+    paused_ = !paused_;
+    fresh_ = true;
+}
+
+void LiveClock::restart(double now) {
+    time_ = 0;
+    resumed_at_ = now;
+    next_frame_ = 0;
+    fresh_ = true;
+}
+
+void LiveClock::step(int frames, double fps, double now) {
+    if (!paused_)
+        toggle_pause(now);
+    // The next frame is one ahead of the one on show.
+    next_frame_ = std::max(0, next_frame_ - 1 + frames);
+    time_ = std::max(0.0, time_ + frames / fps);
+    fresh_ = true;
+}
+
+FrameInputs LiveClock::next_frame(double now) {
+    FrameInputs inputs;
+    inputs.time = time_at(now);
+    inputs.time_delta = fresh_ || paused_ ? k_usual_delta : now - drawn_at_;
+    inputs.frame = next_frame_++;
+    measure_rate(now);
+    inputs.frame_rate = frame_rate_;
+    drawn_at_ = now;
+    fresh_ = false;
+    return inputs;
+}
+
+void LiveClock::measure_rate(double now) {
+    if (fresh_) {
+        window_start_ = now;
+        window_frames_ = 0;
+        return;
+    }
+    ++window_frames_;
+    if (now - window_start_ < k_rate_window)
+        return;
+    frame_rate_ = window_frames_ / (now - window_start_);
+    window_start_ = now;
+    window_frames_ = 0;
+}
+
+} // namespace tidemark::render

@@ -1,0 +1,41 @@
+// Time in a window: iTime, iTimeDelta, iFrame and iFrameRate from the wall clock, with pause, step and restart.
+// Told what time it is by its caller, so that it can be tested without waiting.
+#pragma once
+
+#include "render/frame_inputs.hpp"
+
+namespace tidemark::render {
+
+/// ShaderToy's rules: pause freezes iTime, but a frame that is drawn meanwhile still counts in iFrame; the
+/// first frame after a start, restart, resume or step has iTimeDelta = 1/60; iFrameRate is a mean over at
+/// least half a second and starts at 60. `now` is in seconds from any origin and never runs backwards.
+class LiveClock {
+public:
+    explicit LiveClock(double now) : resumed_at_(now), window_start_(now) {}
+
+    bool paused() const { return paused_; }
+    void toggle_pause(double now);
+    void restart(double now);
+    /// Pauses and moves by so many frames of 1/fps; never before frame 0 or time 0.
+    void step(int frames, double fps, double now);
+
+    /// The frame to draw now. Counts it.
+    FrameInputs next_frame(double now);
+    double frame_rate() const { return frame_rate_; }
+
+private:
+    double time_at(double now) const { return paused_ ? time_ : time_ + (now - resumed_at_); }
+    void measure_rate(double now);
+
+    double time_ = 0;   ///< iTime at resumed_at_, or frozen
+    double resumed_at_; ///< wall clock
+    double drawn_at_ = 0;
+    int next_frame_ = 0;
+    bool paused_ = false;
+    bool fresh_ = true; ///< nothing drawn since start, restart, resume or step
+    double window_start_;
+    int window_frames_ = 0;
+    double frame_rate_ = 60;
+};
+
+} // namespace tidemark::render
