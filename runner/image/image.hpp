@@ -15,9 +15,12 @@ enum class SampleType {
     f32, ///< IEEE binary32, any value, NaN and infinities kept
 };
 
-constexpr size_t size_of(SampleType type) { return type == SampleType::u8 ? 1 : 4; }
+constexpr size_t size_of(SampleType type) {
+    return type == SampleType::u8 ? 1 : 4;
+}
 
-/// `channels` interleaved samples a pixel; row 0 is the bottom row; rows are not padded.
+/// `channels` interleaved samples a pixel: grey, grey and alpha, RGB or RGBA; row 0 is the bottom row; rows
+/// are not padded.
 struct Image {
     Extent extent;
     int channels = 4;
@@ -31,9 +34,12 @@ struct Image {
 
     size_t samples() const { return extent.pixels() * size_t(channels); }
     size_t row_bytes() const { return size_t(extent.width) * size_t(channels) * size_of(type); }
+    bool has_alpha() const { return channels == 2 || channels == 4; }
 
     std::span<uint8_t> u8() { return {reinterpret_cast<uint8_t*>(bytes.data()), samples()}; }
-    std::span<const uint8_t> u8() const { return {reinterpret_cast<const uint8_t*>(bytes.data()), samples()}; }
+    std::span<const uint8_t> u8() const {
+        return {reinterpret_cast<const uint8_t*>(bytes.data()), samples()};
+    }
     std::span<float> f32() { return {reinterpret_cast<float*>(bytes.data()), samples()}; }
     std::span<const float> f32() const { return {reinterpret_cast<const float*>(bytes.data()), samples()}; }
 
@@ -42,5 +48,11 @@ struct Image {
 
 /// The same picture upside down.
 Image flipped(const Image& image);
+
+/// Whether the picture has an alpha channel and it is 1 in every pixel.
+bool has_opaque_alpha(const Image& image);
+
+/// The picture without its alpha channel; the same picture when it has none.
+Image without_alpha(const Image& image);
 
 } // namespace tidemark::image

@@ -1,6 +1,8 @@
 // Pictures in files. The codec (OpenImageIO) sits in a plug-in that is loaded when a picture is first
 // read or written, or ahead of that on a thread of its own by `preload_picture_codec`.
-// Files run from the top row down, an Image from the bottom row up: this is the one place that flips.
+// Samples go in and out as they are: no gamma, no colour space, no multiplication by alpha, no turning by
+// a camera's orientation. Only the rows are turned over: files run from the top, an Image from the bottom.
+// Every function may be called from any thread.
 #pragma once
 
 #include "base/result.hpp"
@@ -8,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -16,28 +19,47 @@ namespace tidemark::image {
 /// What one sample is in the file.
 enum class SampleDepth { u8, u16, half, f32 };
 
-/// How a picture is stored. Metadata travels as text attributes where the format has them.
+/// The largest picture that is read or written: pixels on a side, and bytes in memory.
+inline constexpr int k_largest_side = 16384;
+inline constexpr size_t k_largest_picture = size_t{1} << 30;
+
+/// How a picture is stored.
 struct PictureFormat {
     SampleDepth depth = SampleDepth::u8;
+    /// Names and values (UTF-8). PNG: a text chunk `tidemark:<name>` each; EXR: a string attribute
+    /// `tidemark:<name>` each; TIFF and JPEG: a line `tidemark:<name>=<value>` each in the image
+    /// description or comment; HDR: nothing. A name is 1 to 60 printable ASCII characters; a value is cut
+    /// at a NUL, and all of a JPEG's together at 32,000 bytes.
     std::vector<std::pair<std::string, std::string>> metadata{};
 };
 
-/// Whether `path` ends in a format we write (.png .jpg .jpeg .tif .tiff .exr .hdr); the error
-/// (ErrorCode::usage) lists them.
+/// Whether `path` ends in a format we write (.png .jpg .jpeg .tif .tiff .exr .hdr, in either case); the
+/// error (ErrorCode::usage) lists them.
 Result<void> check_picture_name(const std::filesystem::path& path);
+
+/// As check_picture_name, and that the format has the depth: png u8 u16; jpg u8; tif u8 u16 f32; exr half
+/// f32; hdr f32. The error (ErrorCode::usage) lists them.
+Result<void> check_picture_format(const std::filesystem::path& path, SampleDepth depth);
 
 /// The depth a format stores by nature: u8 for .png .jpg .tif, half for .exr, f32 for .hdr.
 SampleDepth natural_depth(const std::filesystem::path& path);
 
-/// Starts loading the codec in the background; returns at once. Never needed, only faster.
-void preload_picture_codec();
+/// Starts loading the codec in the background; returns at once. Never needed, only faster. The caller
+/// keeps the thread in a scope that ends before `main` returns (its destructor waits): a process must not
+/// exit in the middle of loading libraries.
+[[nodiscard]] std::jthread preload_picture_codec();
 
-/// Reads any picture the codec knows. 8-bit files give u8 samples, all others f32. 1 to 4 channels.
-/// Fails (ErrorCode::load) naming the file and what is wrong with it.
+/// Reads PNG, JPEG, TIFF, OpenEXR, Radiance HDR, BMP, WebP, PNM and TGA, told apart by content (TGA by
+/// name). 8-bit files give u8 samples, all others f32. 1 to 4 channels: of more, the first 4; of several
+/// pictures in a file, the first. Fails (ErrorCode::load) in one line with the file and what is wrong.
 Result<Image> read_picture(const std::filesystem::path& path);
 
-/// Writes whole or not at all (ErrorCode::write). PNG: RGB where the picture has an alpha of all ones
-/// or none asked for, compression level 1. f32 samples are clamped to 0..1 for integer depths, NaN as 0.
-Result<void> write_picture(const std::filesystem::path& path, const Image& image, const PictureFormat& format);
+/// Writes whole or not at all (ErrorCode::write; ErrorCode::usage for a name or depth that the format does
+/// not have). Alpha is kept where it is not 1 all over and the format has one (PNG, TIFF, EXR). u8 samples
+/// become v/255 exactly; f32 samples are clamped to 0..1 and rounded to nearest for u8 and u16, NaN to 0;
+/// for f32 every bit is kept, but HDR has no negatives, NaN or infinities and 8 bits of each value.
+/// The same picture gives the same bytes.
+Result<void> write_picture(const std::filesystem::path& path, const Image& image,
+                           const PictureFormat& format = {});
 
 } // namespace tidemark::image

@@ -1,0 +1,52 @@
+#include "image/census.hpp"
+
+#include <cstring>
+
+namespace tidemark::image {
+namespace {
+
+enum class Kind { ordinary, nan, positive_infinity, negative_infinity, subnormal };
+
+Kind kind_of(uint32_t bits) {
+    const uint32_t exponent = bits & 0x7f800000u;
+    const uint32_t fraction = bits & 0x007fffffu;
+    if (exponent == 0)
+        return fraction == 0 ? Kind::ordinary : Kind::subnormal;
+    if (exponent != 0x7f800000u)
+        return Kind::ordinary;
+    if (fraction != 0)
+        return Kind::nan;
+    return (bits & 0x80000000u) == 0 ? Kind::positive_infinity : Kind::negative_infinity;
+}
+
+SamplePlace place_of(size_t sample, const Image& image) {
+    const size_t pixel = sample / size_t(image.channels);
+    return {int(pixel % size_t(image.extent.width)), int(pixel / size_t(image.extent.width)),
+            int(sample % size_t(image.channels))};
+}
+
+} // namespace
+
+FiniteCensus census(const Image& image) {
+    FiniteCensus result;
+    result.samples = image.samples();
+    if (image.type == SampleType::u8)
+        return result;
+    for (size_t i = 0; i < result.samples; ++i) {
+        uint32_t bits;
+        std::memcpy(&bits, image.bytes.data() + i * sizeof bits, sizeof bits);
+        const Kind kind = kind_of(bits);
+        if (kind == Kind::ordinary)
+            continue;
+        result.nan += kind == Kind::nan;
+        result.positive_infinity += kind == Kind::positive_infinity;
+        result.negative_infinity += kind == Kind::negative_infinity;
+        result.subnormal += kind == Kind::subnormal;
+        auto& first = kind == Kind::subnormal ? result.first_subnormal : result.first_non_finite;
+        if (!first)
+            first = place_of(i, image);
+    }
+    return result;
+}
+
+} // namespace tidemark::image
