@@ -8,14 +8,15 @@
 // rate through a ramp with transparency. The text is new, and so are the sky, the glitter and the noise's
 // octaves.
 //
-// The curves come from the middle of the strip alone: at row 1/e the columns fold over and at 0 the logarithm
-// ends, so the picture's lowest row is `near_row` of the strip and its horizon stops short of 1 by
-// `far_gap`. Both belong to the strip, not to the pixels: the picture is the same at every size.
+// Only the upper part of the strip is shown. At row 0 the logarithm ends, at row 1/e all columns fall into
+// one, at row 1 they are infinitely dense: so the picture's lowest row is `near_row` of the strip and its
+// horizon stops short of 1 by `far_gap`. Both belong to the strip, not to the pixels: the sea has the same
+// look at every size, and no pixel a logarithm or a quotient that is not finite.
 //
 // The mouse moves the viewer sideways (0 at the left edge, `parallax` at the right).
 //
 // Knobs that are compiled in:
-#define ROW_SAMPLES 2 // 1..8 looks down each pixel: rows crowd faster than columns, which a mipmap cannot say
+#define ROW_SAMPLES 2   // 1..8 looks down each pixel: rows crowd faster than columns, which a mipmap cannot say
 #define NOISE_OCTAVES 5 // 1..8, each twice as fine
 //
 // place of things: part of the height that is water; the strip's first row, and how far its last stays from
@@ -33,12 +34,14 @@
 #iUniform vec2 move_speed = vec2(0.04, 0.14) in { -1.0, 1.0 }
 #iUniform vec2 overlay_speed = vec2(0.15, 0.2) in { -1.0, 1.0 }
 #iUniform vec2 foam_speed = vec2(0.07, 0.2) in { -1.0, 1.0 }
-// look: how much the light parts of the larger layer cover; contrast of the noise; cover of the foam; strength
-// of the sun's glitter and its column (0 left, 1 right)
+// look of the water: how much the light parts of the larger layer cover; contrast of the noise; cover of the
+// foam; strength of the sun's glitter
 #iUniform float overlay = 0.5 in { 0.0, 1.0 }
 #iUniform float contrast = 1.8 in { 0.0, 6.0 }
 #iUniform float foam = 0.8 in { 0.0, 1.0 }
 #iUniform float glitter = 0.6 in { 0.0, 2.0 }
+// sky: the sun's column (0 left, 1 right) and height above the horizon in heights of the picture; cover of the
+// clouds and their movement in repeats a second; strength of the air before the horizon; colours as displayed
 #iUniform float sun_column = 0.64 in { 0.0, 1.0 }
 #iUniform float sun_height = 0.2 in { 0.0, 0.9 }
 #iUniform float clouds = 0.7 in { 0.0, 1.0 }
@@ -93,7 +96,8 @@ float stretch(float lightness) {
 // Lightness of one sheet of water: the noise, and the larger noise laid over it where that one is light.
 float sheet(vec2 at, vec2 dx, vec2 dy, vec2 speed) {
     float fine = stretch(cloud(at + drift(speed), dx, dy));
-    float broad = stretch(cloud(0.25 * at + drift(0.25 * speed + 0.25 * overlay_speed) + 91.7, 0.25 * dx, 0.25 * dy));
+    vec2 broad_at = 0.25 * at + drift(0.25 * (speed + overlay_speed)) + 91.7;
+    float broad = stretch(cloud(broad_at, 0.25 * dx, 0.25 * dy));
     return mix(fine, broad, overlay * broad);
 }
 

@@ -1,22 +1,24 @@
 // Water surface: a choppy sea as the zero of a height-like field, found by marching each pixel's ray.
 //
 // The idea, its stages and its numbers are those of "Procedural Water Surface Shader" by Xuetong Fu: crests
-// made of several octaves of folded value noise that drift towards the viewer, a slow bobbing on top, a tint
-// taken from a noise picture, a Fresnel glint and a fog of distance cubed. Value noise (random numbers on a
-// lattice, smoothly interpolated) and its fractal sum are K. Perlin's and B. Mandelbrot's. The text is new.
+// made of several octaves of folded value noise that drift along z, a slow bobbing on top, a tint taken from
+// a noise picture, a Fresnel glint and a fog of distance cubed. Noise from random numbers on a lattice,
+// smoothly interpolated, is K. Perlin's idea; summing ever finer octaves of it is B. Mandelbrot's. The text
+// is new.
 //
 //     stage           function        document's name
 //     wave height     crests, bob     computeWave
-//     distance field  field           evaluateDistanceField
+//     distance field  (in march)      evaluateDistanceField
 //     raymarching     march           traceWater
-//     normal          slope           (in mainImage)
+//     normal          normal_at       (in mainImage)
 //     detail          ripples         sampleNoiseTexture
 //     tint, lighting  shade           (in mainImage)
 //
-// The defaults are the document's numbers. Lengths are world units (the largest waves are some 6 apart),
-// angles radians, times seconds, colours linear 0..1 before `gamma`. The camera stands at `camera_position`
-// and looks where the mouse points: across the width for the yaw, up the height for the pitch. The mouse at
-// (0,0) means yaw -pi and pitch -135 degrees: looking back and down, the horizon behind, upside down.
+// The defaults are the document's numbers. Lengths are world units (the coarsest lattice cell is 6.7
+// wide), angles radians, times seconds, colours 0..1 before `gamma`. The camera stands at `camera_position`
+// and is turned by the mouse: yaw -pi..pi across the width, pitch -135..135 degrees up the height. Beyond a
+// pitch of 90 degrees the view turns round rather than over, so the mouse at (0,0), the first of both, is a
+// look along z, 45 degrees down. (.75, .4) of the size is a good view of the open sea.
 //
 // Knobs that are compiled in:
 #define OCTAVES 7      // 0..12; the document's iterationCount. Each octave is 1.75 x finer and 0.51 x lower
@@ -30,8 +32,8 @@
 #iUniform float focal_length = 1.0 in { 0.2, 5.0 }
 // waves: height of the whole sum before the first gain; ratio of heights and of frequencies from octave to
 // octave; lattice cells per unit; drift in z per second; the seconds after which the drift starts again (a
-// visible cut: the noise does not repeat); amplitude and rate of the turn between octaves; bobbing height,
-// rate and waves along x
+// visible cut: the noise does not repeat); amplitude and rate of the turn between octaves; bobbing height
+// (the document's 0.3, which its factor 1/2 makes 0.6), rate and radians per unit along x
 #iUniform float wave_height = 3.0 in { 0.0, 8.0 }
 #iUniform float wave_gain = 0.51 in { 0.1, 0.8 }
 #iUniform float wave_lacunarity = 1.75 in { 1.1, 2.5 }
@@ -101,7 +103,7 @@ Sea sea_now() {
 // A lattice point is one number mod 2^32: a sum with odd weights that are powers of the root of x^4 = x + 1,
 // inverted, times 2^32, so that neighbours fall far apart. Folding the high half onto the low one and one odd
 // multiplication then leave the upper 24 bits without correlation at any offset up to 6 (3.4 sigma at most
-// over 1,182 offsets, of the values and of their distance from the mean).
+// over 1,098 offsets, of the values and of their distance from the mean).
 const uvec3 k_lattice_weight = uvec3(3518319155u, 2882110345u, 2360945575u);
 const float k_lattice_unit = 1.0 / 16777216.0;
 
