@@ -73,11 +73,17 @@ std::string names_of(const std::vector<SampleDepth>& depths) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+[[maybe_unused]] bool is_metadata_name(std::string_view name) {
+    return !name.empty() && name.size() <= 60 &&
+           std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+}
+
 /// Names that no format gives a meaning of its own, which would change the file or be dropped.
 std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, const PictureFormat& wanted) {
     std::vector<std::pair<std::string, std::string>> all;
     std::string lines;
     for (const auto& [name, value] : wanted.metadata) {
+        assert(is_metadata_name(name));
         const std::string text(value.c_str());
         all.emplace_back("tidemark:" + name, text);
         lines += fmt::format("{}={}\n", all.back().first, text);

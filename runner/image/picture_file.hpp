@@ -28,8 +28,8 @@ struct PictureFormat {
     SampleDepth depth = SampleDepth::u8;
     /// Names and values (UTF-8). PNG: a text chunk `tidemark:<name>` each; EXR: a string attribute
     /// `tidemark:<name>` each; TIFF and JPEG: a line `tidemark:<name>=<value>` each in the image
-    /// description or comment; HDR: nothing. A name is 1 to 60 printable ASCII characters; a value is cut
-    /// at a NUL, and all of a JPEG's together at 32,000 bytes.
+    /// description or comment; HDR: nothing. A name is 1 to 60 printable ASCII characters without spaces; a
+    /// value is cut at a NUL, and all of a JPEG's together at 32,000 bytes.
     std::vector<std::pair<std::string, std::string>> metadata{};
 };
 

@@ -128,17 +128,36 @@ TEST_F(FileWatcherTest, file_gone_for_good_is_reported_after_some_patience) {
     EXPECT_EQ(next_change(), Paths{file});
 }
 
+/// Saves a few times, for longer than a watcher waits after one save; gives the longest pause in between.
+Clock::duration save_often(const fs::path& file) {
+    Clock::duration longest{};
+    auto last = Clock::now();
+    for (int save = 0; save < 15; ++save) {
+        std::this_thread::sleep_for(1ms);
+        save_in_place(file);
+        longest = std::max(longest, Clock::now() - last);
+        last = Clock::now();
+    }
+    return longest;
+}
+
 TEST_F(FileWatcherTest, rapid_writes_make_one_report) {
     const fs::path file = folder_ / "a.glsl";
     save_in_place(file);
     watch({file});
-    constexpr int k_writes = 50;
-    for (int write = 0; write < k_writes; ++write)
-        save_in_place(file);
-    EXPECT_EQ(next_change(), Paths{file});
-    EXPECT_THAT(unexpected_change(), IsEmpty());
-    // One, but for a busy machine that lets this thread pause between two writes.
-    EXPECT_LT(bell_.rings(), k_writes / 5);
+    // On a busy machine this thread may have to pause between two writes: another try, then.
+    for (int tries = 0; tries < 20; ++tries) {
+        const int rings = bell_.rings();
+        const bool without_pause = save_often(file) < FileWatcher::k_quiet - 1ms;
+        EXPECT_EQ(next_change(), Paths{file});
+        const Paths more = unexpected_change();
+        if (!without_pause)
+            continue;
+        EXPECT_THAT(more, IsEmpty());
+        EXPECT_EQ(bell_.rings(), rings + 1);
+        return;
+    }
+    GTEST_SKIP() << "the machine is too busy to write without a pause";
 }
 
 TEST_F(FileWatcherTest, other_files_of_the_folder_are_ignored) {
@@ -228,6 +247,20 @@ TEST_F(FileWatcherTest, folder_deleted_and_made_again) {
         save_in_place(file);
         EXPECT_EQ(next_change(), Paths{file}) << turn;
     }
+}
+
+TEST_F(FileWatcherTest, folder_deleted_while_something_has_it_open) {
+    fs::create_directory(folder_ / "scene");
+    const fs::path file = folder_ / "scene/a.glsl";
+    save_in_place(file);
+    watch({file});
+    const fs::directory_iterator open(folder_ / "scene");
+    fs::remove_all(folder_ / "scene");
+    fs::create_directory(folder_ / "scene");
+    save_in_place(file);
+    EXPECT_EQ(next_change(), Paths{file});
+    save_in_place(file);
+    EXPECT_EQ(next_change(), Paths{file});
 }
 
 TEST_F(FileWatcherTest, folder_swapped_for_another) {
