@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <csignal>
@@ -55,6 +56,12 @@ const CLI::App& called(const CLI::App& app) {
     return inner.empty() ? app : called(*inner.front());
 }
 
+/// `tidemark bake noise`: what a person types to call it.
+std::string words_to(const CLI::App& command) {
+    const CLI::App* parent = command.get_parent();
+    return parent ? words_to(*parent) + " " + command.get_name() : command.get_name();
+}
+
 Error unexpected(const CLI::App& app, const std::string& argument) {
     const CLI::App& command = called(app);
     if (!argument.starts_with('-'))
@@ -65,10 +72,24 @@ Error unexpected(const CLI::App& app, const std::string& argument) {
             names.push_back("--" + name);
     const std::string bare = argument.substr(0, argument.find('='));
     const std::string nearest = nearest_name(bare, names);
-    const std::string hint = nearest.empty()
-                                 ? fmt::format("`{} --help` lists the options", command.get_display_name())
-                                 : fmt::format("did you mean {}?", nearest);
+    const std::string hint = nearest.empty() ? fmt::format("`{} --help` lists the options", words_to(command))
+                                             : fmt::format("did you mean {}?", nearest);
     return {ErrorCode::usage, fmt::format("unknown option {}: {}", bare, hint), {}};
+}
+
+/// Something that must be there is not: CLI11 has words for an option, we for a sub-command.
+Error missing(const CLI::App& app, const CLI::RequiredError& error) {
+    const CLI::App& command = called(app);
+    const std::vector<std::string> names = command_names(command);
+    if (names.empty())
+        return {ErrorCode::usage, fmt::format("{}: {}", words_to(command), error.what()), {}};
+    const auto extra = command.remaining(true);
+    const std::string choice = fmt::format("give {}", fmt::join(names, " or "));
+    if (extra.empty())
+        return {ErrorCode::usage, fmt::format("{}: {}", words_to(command), choice), {}};
+    if (extra.front().starts_with('-'))
+        return unexpected(app, extra.front());
+    return {ErrorCode::usage, fmt::format("{}: unknown '{}': {}", words_to(command), extra.front(), choice), {}};
 }
 
 int report(const Error& error) {
@@ -89,6 +110,8 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
     } catch (const CLI::ExtrasError&) {
         const auto extra = app.remaining(true);
         return report(unexpected(app, extra.empty() ? "" : extra.front()));
+    } catch (const CLI::RequiredError& error) {
+        return report(missing(app, error));
     } catch (const CLI::ParseError& error) {
         return report({ErrorCode::usage, error.what(), {}});
     }

@@ -19,6 +19,7 @@
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <unordered_set>
 
 namespace tidemark::cli {
 namespace {
@@ -74,10 +75,18 @@ Result<SampleDepth> parse_depth(const std::string& text, const OutputName& outpu
     return fail(ErrorCode::usage, fmt::format("--depth {}: give 8, 16, half or float", text));
 }
 
+/// A frame that is named twice (`0-9,5-14`) is one file.
+void drop_repeats(std::vector<int>& frames) {
+    std::unordered_set<int> seen;
+    std::erase_if(frames, [&](int frame) { return !seen.insert(frame).second; });
+}
+
 Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     auto frames = resolve(options.frames);
     if (!frames)
         return fail(std::move(frames.error()));
+    if (options.output != "-")
+        drop_repeats(frames->frames);
     const size_t count = frames->frames.size();
     auto output =
         OutputName::parse(options.output.empty() ? default_output(options, count) : options.output, count);
@@ -86,6 +95,9 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     const auto depth = parse_depth(options.depth, *output);
     if (!depth)
         return fail(depth.error());
+    if (!output->standard_output())
+        if (auto known = image::check_picture_format(output->pattern(), *depth); !known)
+            return fail(std::move(known.error()));
     return CapturePlan{*std::move(frames), *std::move(output), *depth};
 }
 

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace tidemark::cli {
 namespace {
 
@@ -19,6 +21,18 @@ std::vector<std::string> option_names(const CLI::App& command) {
     return names;
 }
 
+/// What may follow the command: its options, its own sub-commands and theirs.
+std::vector<std::string> words_after(const CLI::App& command) {
+    std::vector<std::string> words = option_names(command);
+    for (const CLI::App* inner : command.get_subcommands({})) {
+        words.push_back(inner->get_name());
+        for (const std::string& name : option_names(*inner))
+            if (std::find(words.begin(), words.end(), name) == words.end())
+                words.push_back(name);
+    }
+    return words;
+}
+
 /// A bash function over the very options that the program parses. Whatever is no option is a file.
 std::string bash_script(const CLI::App& app) {
     std::vector<std::string> commands;
@@ -26,7 +40,7 @@ std::string bash_script(const CLI::App& app) {
     for (const CLI::App* command : app.get_subcommands({})) {
         commands.push_back(command->get_name());
         cases += fmt::format("        {}) words='{}' ;;\n", command->get_name(),
-                             fmt::join(option_names(*command), " "));
+                             fmt::join(words_after(*command), " "));
     }
     return fmt::format(R"(# Completion of tidemark for bash: source <(tidemark completion)
 _tidemark() {{

@@ -4,6 +4,7 @@
 #include "cli/options.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
+#include "glsl/assemble.hpp"
 #include "platform/headless_context.hpp"
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@ struct InspectOptions {
     SceneRequest scene;
     std::string device = "auto";
     bool devices = false;
+    bool source = false;
     bool json = false;
 };
 
@@ -133,6 +135,8 @@ Result<int> inspect_scene(const InspectOptions& options) {
     auto scene = load(options.scene);
     if (!scene)
         return fail(std::move(scene.error()));
+    if (options.source)
+        return put(glsl::assemble(*scene, scene->image()).text()).map([] { return 0; });
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
@@ -156,6 +160,8 @@ void add_inspect(CLI::App& app, Action& chosen) {
         ->type_name("NAME")
         ->capture_default_str();
     command->add_flag("--devices", options->devices, "Lists where OpenGL contexts can be had, and no scene");
+    command->add_flag("--source", options->source,
+                      "Prints the text that the driver compiles, and nothing else");
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] {
         chosen = [options]() -> Result<int> {

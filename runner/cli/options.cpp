@@ -3,9 +3,26 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 
 namespace tidemark::cli {
+namespace {
+
+/// CLI11's own words for a text that is no number do not say what to give.
+template <class T>
+CLI::Validator number(std::string what) {
+    return CLI::Validator(
+        [what = std::move(what)](const std::string& text) {
+            T number{};
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+            const bool good = error == std::errc{} && end == text.data() + text.size();
+            return good ? std::string() : fmt::format("give {}, not '{}'", what, text);
+        },
+        std::string());
+}
+
+} // namespace
 
 void add_scene_options(CLI::App& command, SceneRequest& request) {
     command.add_option("SCENE", request.path, "A .glsl or .frag file with mainImage")->required();
@@ -28,6 +45,7 @@ void add_picture_options(CLI::App& command, FrameOptions& options) {
         ->capture_default_str();
     command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")
         ->type_name("F")
+        ->check(number<double>("a number"))
         ->capture_default_str();
     command.add_option("--date", options.date, "iDate, as in 2024-12-31T23:59:58")->type_name("ISO");
     command
@@ -37,12 +55,16 @@ void add_picture_options(CLI::App& command, FrameOptions& options) {
 
 void add_time_options(CLI::App& command, FrameOptions& options) {
     auto* frame =
-        command.add_option("--frame", options.frame, "One frame, from 0 (the default)")->type_name("N");
+        command.add_option("--frame", options.frame, "One frame, from 0 (the default)")
+                      ->type_name("N")
+                      ->check(number<int>("a whole number"));
     auto* frames =
         command.add_option("--frames", options.frames, "Frames, inclusive, as in 0-29 or 0-120x10")
             ->type_name("A-B[xS][,...]");
     auto* time =
-        command.add_option("--time", options.time, "iTime in seconds, instead of a frame")->type_name("T");
+        command.add_option("--time", options.time, "iTime in seconds, instead of a frame")
+                     ->type_name("T")
+                     ->check(number<double>("a number"));
     frame->excludes(frames)->excludes(time);
     frames->excludes(time);
     command

@@ -60,7 +60,8 @@ std::string Progress::line() const {
     const double elapsed = seconds_between(done_ > 1 ? first_done_ : start_, now);
     const double rate = elapsed > 0 ? counted / elapsed : 0;
     const double left = rate > 0 ? double(total_ - done_) / rate : 0;
-    return fmt::format("{}/{} {}, {:.3g} a second, {:.0f} s left", done_, total_, what_, rate, left);
+    const std::string shown_rate = rate < 100 ? fmt::format("{:.3g}", rate) : fmt::format("{:.0f}", rate);
+    return fmt::format("{}/{} {}, {} a second, {:.0f} s left", done_, total_, what_, shown_rate, left);
 }
 
 } // namespace tidemark::cli

@@ -108,6 +108,8 @@ void Viewer::draw(double now) {
     window_.swap();
     mouse_.frame_drawn();
     stale_ = false;
+    if (reloaded_)
+        report_reload();
     show_title();
 }
 
@@ -209,19 +211,23 @@ void Viewer::save_picture() {
 }
 
 void Viewer::follow_files() {
-    if (watcher_.changed().empty())
+    const auto changed = watcher_.changed();
+    if (changed.empty())
         return;
     auto reloaded = reload();
     stale_ = true;
-    if (reloaded) {
-        if (failure_ && !report_at_)
-            say(fmt::format("{}: good again", settings_.scene.path.string()));
-        failure_.reset();
-        report_at_.reset();
+    if (!reloaded) {
+        failure_ = std::move(reloaded.error());
+        report_at_ = now_seconds() + k_half_written_seconds;
         return;
     }
-    failure_ = std::move(reloaded.error());
-    report_at_ = now_seconds() + k_half_written_seconds;
+    if (failure_ && !report_at_)
+        say(fmt::format("{}: good again", settings_.scene.path.string()));
+    failure_.reset();
+    report_at_.reset();
+    reloaded_ = *reloaded;
+    std::error_code ignored;
+    reloaded_->saved = std::filesystem::last_write_time(changed.front(), ignored);
 }
 
 void Viewer::report_failure() {
@@ -230,7 +236,9 @@ void Viewer::report_failure() {
     stale_ = true;
 }
 
-Result<void> Viewer::reload() {
+Result<Viewer::ReloadTimes> Viewer::reload() {
+    ReloadTimes times;
+    times.seen = now_seconds();
     SceneRequest request = settings_.scene;
     request.sets.clear(); // they are among the knobs that were turned
     auto scene = load(request);
@@ -240,12 +248,29 @@ Result<void> Viewer::reload() {
     // Before the slow part, so that a save during it is seen; and even if it fails, so that what it waits
     // for is seen.
     if (auto watched = watcher_.watch(scene->files); !watched)
-        return watched;
+        return fail(std::move(watched.error()));
+    times.loaded = now_seconds();
     auto fresh = render::Renderer::create(*std::move(scene), {renderer_.extent()});
     if (!fresh)
         return fail(std::move(fresh.error()));
     renderer_ = *std::move(fresh);
-    return {};
+    times.compiled = now_seconds();
+    return times;
+}
+
+/// Our share (noticing, loading) and the driver's (compiling, drawing for the first time) side by side. The
+/// file's time is as coarse as the kernel's tick.
+void Viewer::report_reload() {
+    glFinish(); // the picture is on show when the drawing is done
+    const double shown = now_seconds();
+    const auto ms = [](double seconds) { return seconds * 1000; };
+    const double total =
+        std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() - reloaded_->saved)
+            .count();
+    say(fmt::format("reloaded in {:.0f} ms: notice {:.0f}, load {:.1f}, compile {:.0f}, first draw {:.0f}",
+                    ms(total), ms(total - (shown - reloaded_->seen)), ms(reloaded_->loaded - reloaded_->seen),
+                    ms(reloaded_->compiled - reloaded_->loaded), ms(shown - reloaded_->compiled)));
+    reloaded_.reset();
 }
 
 void Viewer::keep_turned_knobs(scene::Scene& fresh) const {

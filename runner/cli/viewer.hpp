@@ -11,6 +11,7 @@
 #include "render/orbit_camera.hpp"
 #include "render/renderer.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,14 @@ public:
     Result<int> run();
 
 private:
+    /// What a person waits for between saving and seeing.
+    struct ReloadTimes {
+        std::filesystem::file_time_type saved; ///< the file's own time
+        double seen = 0;                       ///< wall clock, as are the next two
+        double loaded = 0;
+        double compiled = 0;
+    };
+
     Viewer(Settings settings, platform::Window window, platform::FileWatcher watcher,
            render::Renderer renderer);
 
@@ -50,9 +59,10 @@ private:
 
     // What happens to files
     void follow_files();
-    Result<void> reload();
+    Result<ReloadTimes> reload();
     void keep_turned_knobs(scene::Scene& fresh) const;
     void report_failure();
+    void report_reload();
 
     void draw(double now);
     void show_title();
@@ -69,6 +79,7 @@ private:
     std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
     std::optional<Error> failure_;        ///< of the last reload, until mended
     std::optional<double> report_at_;     ///< when the failure is news; before, the file may be half-written
+    std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
     std::string title_;
     platform::PointerPosition pointer_{};
     render::FrameInputs shown_; ///< inputs of the frame on show
