@@ -39,30 +39,83 @@ constexpr Declaration k_uniforms[] = {
     {"iSampleRate", "float iSampleRate"},
     {"iChannelTime", "float iChannelTime[4]"},
     {"iChannelResolution", "vec3 iChannelResolution[4]"},
-    {"iChannel0", "sampler2D iChannel0"},
-    {"iChannel1", "sampler2D iChannel1"},
-    {"iChannel2", "sampler2D iChannel2"},
-    {"iChannel3", "sampler2D iChannel3"},
 };
 
-constexpr const char* k_prototype = "void mainImage(out vec4 fragColor, in vec2 fragCoord);\n";
+/// Sound is not drawn at any time of a picture: it has uniforms of its own.
+constexpr Declaration k_sound_uniforms[] = {
+    {"iDate", "vec4 iDate"},
+    {"iSampleRate", "float iSampleRate"},
+    {"iChannelTime", "float iChannelTime[4]"},
+    {"iChannelResolution", "vec3 iChannelResolution[4]"},
+    {"iTimeOffset", "float iTimeOffset"},
+    {"iSampleOffset", "int iSampleOffset"},
+};
 
-constexpr const char* k_main = R"(out vec4 tidemark_color;
+/// What stands around the author's text for one kind of pass. The local colour starts at (0,0,0,1): golfed
+/// shaders read it before they write it.
+struct Wrapper {
+    std::string_view entry;     ///< what the author defines
+    std::string_view prototype; ///< so that main can stand first
+    std::string_view main;
+};
+
+constexpr Wrapper k_image{"mainImage", "void mainImage(out vec4 fragColor, in vec2 fragCoord);\n",
+                          R"(out vec4 tidemark_color;
 void main() {
     vec4 color = vec4(0.0, 0.0, 0.0, 1.0);
     mainImage(color, gl_FragCoord.xy);
     tidemark_color = vec4(color.rgb, 1.0);
 }
+)"};
+
+constexpr Wrapper k_buffer{"mainImage", k_image.prototype,
+                           R"(out vec4 tidemark_color;
+void main() {
+    tidemark_color = vec4(0.0, 0.0, 0.0, 1.0);
+    mainImage(tidemark_color, gl_FragCoord.xy);
+}
+)"};
+
+constexpr Wrapper k_cubemap{
+    "mainCubemap",
+    "void mainCubemap(out vec4 fragColor, in vec2 fragCoord, in vec3 rayOri, in vec3 rayDir);\n",
+    R"(uniform vec3 tidemark_corners[4];
+out vec4 tidemark_color;
+void main() {
+    vec2 at = gl_FragCoord.xy / iResolution.xy;
+    vec3 direction = mix(mix(tidemark_corners[0], tidemark_corners[1], at.x),
+                         mix(tidemark_corners[3], tidemark_corners[2], at.x), at.y);
+    tidemark_color = vec4(0.0, 0.0, 0.0, 1.0);
+    mainCubemap(tidemark_color, gl_FragCoord.xy, vec3(0.0), normalize(direction));
+}
+)"};
+
+/// Older sound shaders take the time alone.
+constexpr std::string_view k_sound_prototypes[] = {"vec2 mainSound(int samp, float time);\n",
+                                                   "vec2 mainSound(float time);\n"};
+constexpr std::string_view k_sound_calls[] = {"mainSound(samp, time)", "mainSound(time)"};
+constexpr const char* k_sound_main = R"(out vec4 tidemark_color;
+void main() {{
+    int local = int(gl_FragCoord.y) * {} + int(gl_FragCoord.x);
+    int samp = iSampleOffset + local;
+    float time = iTimeOffset + float(local) / iSampleRate;
+    vec2 level = {};
+    vec2 whole = floor((0.5 + 0.5 * level) * 65536.0);
+    vec2 low = mod(whole, 256.0) / 255.0;
+    vec2 high = floor(whole / 256.0) / 255.0;
+    tidemark_color = vec4(low.x, high.x, low.y, high.y);
+}}
 )";
 
 /// What a reader of the text must know before the prologue is written.
 struct TextFacts {
     std::set<std::string_view> own_uniforms; ///< declared by the author, outside any #if
-    bool main_image_is_macro = false;        ///< golf: `#define mainImage(O,U) …`
+    bool entry_is_macro = false;             ///< golf: `#define mainImage(O,U) …`
+    bool sound_takes_time_alone = false;     ///< `mainSound(float time)`
     std::vector<text::Edit> edits;           ///< the author's #version, which must not stand twice
 };
 
-TextFacts read_facts(const std::vector<Token>& tokens) {
+TextFacts read_facts(const std::vector<Token>& tokens, std::string_view entry) {
     TextFacts facts;
     int conditional_depth = 0;
     for (size_t i = 0; i + 1 < tokens.size(); ++i) {
@@ -75,42 +128,96 @@ TextFacts read_facts(const std::vector<Token>& tokens) {
                 --conditional_depth;
             else if (next.is("version"))
                 facts.edits.push_back({token.begin, tokens[text::end_of_directive(tokens, i) - 1].end(), {}});
-            else if (next.is("define") && i + 2 < tokens.size() && tokens[i + 2].is("mainImage"))
-                facts.main_image_is_macro = true;
+            else if (next.is("define") && i + 2 < tokens.size() && tokens[i + 2].is(entry))
+                facts.entry_is_macro = true;
         } else if (token.is("uniform") && conditional_depth == 0) {
             for (size_t k = i + 1; k < tokens.size() && !tokens[k].is(";"); ++k)
                 facts.own_uniforms.insert(tokens[k].text);
+        } else if (token.is("mainSound") && next.is("(")) {
+            size_t type = i + 2;
+            while (type < tokens.size() && (tokens[type].is("in") || tokens[type].is("const")))
+                ++type;
+            facts.sound_takes_time_alone =
+                facts.sound_takes_time_alone || (type < tokens.size() && tokens[type].is("float"));
         }
     }
     return facts;
 }
 
+std::string_view sampler_type(scene::TextureKind kind) {
+    switch (kind) {
+    case scene::TextureKind::flat: return "sampler2D";
+    case scene::TextureKind::cube: return "samplerCube";
+    case scene::TextureKind::volume: return "sampler3D";
+    }
+    return "sampler2D";
+}
+
+std::string declare_uniforms(const scene::Scene& scene, const scene::Pass& pass, const TextFacts& facts) {
+    std::string text;
+    const auto declare = [&](std::string_view name, std::string_view declaration) {
+        if (!facts.own_uniforms.contains(name))
+            text += fmt::format("uniform {};\n", declaration);
+    };
+    if (pass.kind == scene::PassKind::sound)
+        for (const Declaration& uniform : k_sound_uniforms)
+            declare(uniform.name, uniform.text);
+    else
+        for (const Declaration& uniform : k_uniforms)
+            declare(uniform.name, uniform.text);
+    for (int i = 0; i < scene::k_channel_count; ++i) {
+        const std::string name = fmt::format("iChannel{}", i);
+        declare(name, fmt::format("{} {}", sampler_type(texture_kind(scene, pass.channels[size_t(i)].input)),
+                                  name));
+    }
+    for (const scene::Knob& knob : scene.knobs)
+        declare(knob.name, fmt::format("{} {}", scene::info(knob.type).glsl_name, knob.name));
+    return text;
+}
+
+struct WrapperText {
+    std::string prototype;
+    std::string main;
+};
+
+WrapperText wrapper_of(scene::PassKind kind, const TextFacts& facts) {
+    switch (kind) {
+    case scene::PassKind::image: return {std::string(k_image.prototype), std::string(k_image.main)};
+    case scene::PassKind::buffer: return {std::string(k_buffer.prototype), std::string(k_buffer.main)};
+    case scene::PassKind::cubemap: return {std::string(k_cubemap.prototype), std::string(k_cubemap.main)};
+    case scene::PassKind::sound: break;
+    }
+    const size_t form = facts.sound_takes_time_alone ? 1 : 0;
+    return {std::string(k_sound_prototypes[form]),
+            fmt::format(k_sound_main, k_sound_tile, k_sound_calls[form])};
+}
+
+std::string_view entry_of(scene::PassKind kind) {
+    return kind == scene::PassKind::sound     ? "mainSound"
+           : kind == scene::PassKind::cubemap ? k_cubemap.entry
+                                              : k_image.entry;
+}
+
 } // namespace
 
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass) {
-    const auto tokens = text::tokenize(pass.text.text());
-    const TextFacts facts = read_facts(tokens);
-
-    std::string prologue = k_header;
-    for (const Declaration& uniform : k_uniforms)
-        if (!facts.own_uniforms.contains(uniform.name))
-            prologue += fmt::format("uniform {};\n", uniform.text);
-    for (const scene::Knob& knob : scene.knobs)
-        if (!facts.own_uniforms.contains(knob.name))
-            prologue += fmt::format("uniform {} {};\n", scene::info(knob.type).glsl_name, knob.name);
-
-    text::MappedText author = pass.text;
+    text::MappedText author = scene.common;
+    author.append(pass.text);
+    const auto tokens = text::tokenize(author.text());
+    const TextFacts facts = read_facts(tokens, entry_of(pass.kind));
+    const WrapperText wrapper = wrapper_of(pass.kind, facts);
+    ShaderSource source;
+    source.append_generated(k_header);
+    source.append_generated(declare_uniforms(scene, pass, facts));
     author.apply(facts.edits);
 
-    // Our main stands first, because authors' macros may rename what it uses; but a mainImage that is itself
-    // a macro must be defined before it is called.
-    ShaderSource source;
-    source.append_generated(prologue);
-    if (!facts.main_image_is_macro)
-        source.append_generated(std::string(k_prototype) + k_main);
+    // Our main stands first, because authors' macros may rename what it uses; but an entry point that is
+    // itself a macro must be defined before it is called.
+    if (!facts.entry_is_macro)
+        source.append_generated(wrapper.prototype + wrapper.main);
     source.append(author);
-    if (facts.main_image_is_macro)
-        source.append_generated(k_main);
+    if (facts.entry_is_macro)
+        source.append_generated(wrapper.main);
     return source;
 }
 

@@ -1,4 +1,4 @@
-// From a pass to the text the driver compiles: ShaderToy's prologue, the author's text, our `main`.
+// From a pass to the text the driver compiles: ShaderToy's prologue, Common, the author's text, our `main`.
 // Pure text; no GL and no files.
 #pragma once
 
@@ -10,11 +10,19 @@ namespace tidemark::glsl {
 /// A fragment shader with the way back to its authors' lines.
 using ShaderSource = text::MappedText;
 
-/// The fragment shader of `pass`. What the text declares itself is not declared again. The Image pass
-/// writes alpha 1, whatever the shader does.
+/// The fragment shader of `pass`. What the text declares itself is not declared again. A buffer keeps the
+/// whole vec4 that the shader writes; Image writes alpha 1, whatever the shader does.
+///
+/// Beside ShaderToy's own uniforms the host sets `vec3 tidemark_corners[4]` in a cubemap pass (directions at
+/// the corners of the face, counter-clockwise from texel 0,0) and `int tidemark_first_sample` in a Sound
+/// pass.
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass);
 
 /// The vertex shader of every pass: one triangle that covers the target, made from gl_VertexID alone.
 extern const char* const k_vertex_shader;
+
+/// A Sound pass is drawn in squares of this many texels a side, one sample each (little-endian 16-bit left
+/// and right in rgba).
+inline constexpr int k_sound_tile = 512;
 
 } // namespace tidemark::glsl

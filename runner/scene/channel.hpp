@@ -4,8 +4,10 @@
 #include "base/error.hpp"
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <variant>
+#include <vector>
 
 namespace tidemark::scene {
 
@@ -30,21 +32,88 @@ struct Sampling {
 inline constexpr Sampling k_texture_sampling{Filter::linear, Filter::linear, Mipmaps::linear, Wrap::repeat,
                                              true};
 
+/// What ShaderToy's editor gives a buffer.
+inline constexpr Sampling k_buffer_sampling{Filter::linear, Filter::linear, Mipmaps::none, Wrap::clamp, true};
+/// What ShaderToy's editor gives a cubemap.
+inline constexpr Sampling k_cubemap_sampling{Filter::linear, Filter::linear, Mipmaps::none, Wrap::clamp,
+                                             false};
+
 /// Nothing: reads give black.
 struct Unbound {
     bool operator==(const Unbound&) const = default;
 };
-/// The generated 256 x 256 RGBA noise (image/noise.hpp).
+
+/// Textures of noise that we generate (image/noise.hpp): stand-ins for ShaderToy's with the same size, number
+/// of channels and structure.
+enum class NoiseKind {
+    rgba_256,
+    rgba_64,
+    grey_256,
+    grey_64,
+    blue_1024,
+    bayer_8,
+    grey_volume_32,
+    rgba_volume_32
+};
 struct Noise {
+    NoiseKind kind = NoiseKind::rgba_256;
     bool operator==(const Noise&) const = default;
 };
+
 /// A picture file.
 struct Picture {
     std::filesystem::path file;
     bool operator==(const Picture&) const = default;
 };
 
-using ChannelInput = std::variant<Unbound, Noise, Picture>;
+/// What a pass of the scene drew: a buffer, or the cube of a cubemap pass. Whether that is this frame's or
+/// the last one's follows from the order of the passes (render/frame_plan.hpp).
+struct PassOutput {
+    size_t pass = 0; ///< index into Scene::passes
+    bool operator==(const PassOutput&) const = default;
+};
+
+/// Six square faces (+x -x +y -y +z -z), or one file: a cross or an equirectangular panorama.
+struct Cubemap {
+    std::vector<std::filesystem::path> files;
+    bool operator==(const Cubemap&) const = default;
+};
+
+/// ShaderToy's `.bin` volume.
+struct Volume {
+    std::filesystem::path file;
+    bool operator==(const Volume&) const = default;
+};
+
+/// 256 x 3: down, pressed in this frame, toggled, by JavaScript key code.
+struct Keyboard {
+    bool operator==(const Keyboard&) const = default;
+};
+
+/// Spectrum and wave of a sound file, 512 x 2; without a file the site's own signal for a silent input.
+struct Music {
+    std::filesystem::path file;
+    bool operator==(const Music&) const = default;
+};
+
+/// Frames of a video file.
+struct Video {
+    std::filesystem::path file;
+    bool operator==(const Video&) const = default;
+};
+
+/// A generated picture, cube or volume of the same kind and size in the place of one that is not to be had.
+struct StandIn {
+    enum class Kind { picture, cubemap, volume };
+    Kind kind = Kind::picture;
+    int width = 512;
+    int height = 512;
+    int channels = 4;
+    bool operator==(const StandIn&) const = default;
+};
+
+using ChannelInput =
+    std::variant<Unbound, Noise, Picture, PassOutput, Cubemap, Volume, Keyboard, Music, Video, StandIn>;
 
 struct Channel {
     ChannelInput input = Noise{};

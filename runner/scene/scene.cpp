@@ -35,18 +35,50 @@ void note_pictures(Scene& scene) {
 
 } // namespace
 
-Result<Scene> load_scene(const fs::path& path) {
+std::string Scene::name() const {
+    const fs::path named = file.has_filename() ? file : file.parent_path(); // "folder/" has none
+    return named.stem().string();
+}
+
+const Pass* Scene::find(PassKind kind) const {
+    const auto found =
+        std::find_if(passes.rbegin(), passes.rend(), [&](const Pass& pass) { return pass.kind == kind; });
+    return found == passes.rend() ? nullptr : &*found;
+}
+
+size_t Scene::image_index() const {
+    return size_t(find(PassKind::image) - passes.data());
+}
+
+TextureKind texture_kind(const Scene& scene, const ChannelInput& input) {
+    if (const auto* output = std::get_if<PassOutput>(&input))
+        return scene.passes[output->pass].kind == PassKind::cubemap ? TextureKind::cube : TextureKind::flat;
+    if (const auto* noise = std::get_if<Noise>(&input))
+        return noise->kind >= NoiseKind::grey_volume_32 ? TextureKind::volume : TextureKind::flat;
+    if (const auto* stand_in = std::get_if<StandIn>(&input))
+        return stand_in->kind == StandIn::Kind::cubemap  ? TextureKind::cube
+               : stand_in->kind == StandIn::Kind::volume ? TextureKind::volume
+                                                         : TextureKind::flat;
+    if (std::holds_alternative<Cubemap>(input))
+        return TextureKind::cube;
+    return std::holds_alternative<Volume>(input) ? TextureKind::volume : TextureKind::flat;
+}
+
+Result<Scene> load_scene(const fs::path& path, const LoadOptions&) {
     auto expanded = text::expand_includes(path, read_text_file);
     if (!expanded)
         return fail(std::move(expanded.error()));
-    Pass image{"Image", std::move(expanded->text), {}};
+    Pass image{PassKind::image, "Image", std::move(expanded->text), {}};
     auto directives = take_directives(image.text);
     if (!directives)
         return fail(std::move(directives.error()));
     if (auto checked = check_has_main_image(path, image.text); !checked)
         return fail(std::move(checked.error()));
     image.channels = std::move(directives->channels);
-    Scene scene{path, {}, std::move(directives->knobs), std::move(expanded->files)};
+    Scene scene;
+    scene.file = path;
+    scene.knobs = std::move(directives->knobs);
+    scene.files = std::move(expanded->files);
     scene.passes.push_back(std::move(image));
     note_pictures(scene);
     return scene;
@@ -74,7 +106,7 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
         channel.input = Unbound{};
     else if (what != "noise")
         channel.input = Picture{fs::path(what)};
-    scene.passes.back().channels[size_t(number[0] - '0')] = channel;
+    scene.passes[scene.image_index()].channels[size_t(number[0] - '0')] = channel;
     note_pictures(scene);
     return {};
 }

@@ -13,26 +13,42 @@
 
 namespace tidemark::scene {
 
+enum class PassKind { buffer, cubemap, image, sound };
+
 /// One unit of drawing (ShaderToy's render pass).
 struct Pass {
-    std::string name;      ///< "Image"
+    PassKind kind = PassKind::image;
+    std::string name;      ///< "Image", "Buffer A": unique in its scene
     text::MappedText text; ///< includes pasted, directives blanked out, every line where its author put it
     Channels channels;
 };
 
 struct Scene {
     std::filesystem::path file; ///< as it was named on the command line
-    std::vector<Pass> passes;
+    text::MappedText common;    ///< stands in front of every pass
+    std::vector<Pass> passes;   ///< in the order of drawing; a sound pass, if any, last
     std::vector<Knob> knobs;
     std::vector<std::filesystem::path> files; ///< all files the scene read or will read, pictures included
+    std::vector<Diagnostic> warnings;         ///< what was replaced by a stand-in, and why
 
-    std::string name() const { return file.stem().string(); }
-    const Pass& image() const { return passes.back(); }
+    std::string name() const;
+    const Pass* find(PassKind kind) const; ///< the last pass of that kind
+    size_t image_index() const;            ///< of the Image pass; every scene has one
+    const Pass& image() const { return passes[image_index()]; }
 };
 
-/// Reads a bare `.glsl`: a text with `mainImage`, includes and directives. Fails (ErrorCode::load) with file
-/// and line. Pictures are named, not opened.
-Result<Scene> load_scene(const std::filesystem::path& path);
+/// The kind of sampler that GLSL needs for an input.
+enum class TextureKind { flat, cube, volume };
+TextureKind texture_kind(const Scene& scene, const ChannelInput& input);
+
+struct LoadOptions {
+    std::filesystem::path media; ///< --media: where ShaderToy's media files are looked up by name
+    bool allow_outside = false;  ///< --allow-outside: files may lie outside the scene's folder
+};
+
+/// Reads a scene: a bare `.glsl` or `.frag`, a scene folder, or a ShaderToy `.json`. Fails (ErrorCode::load)
+/// with file and line. Pictures and other media are named, not opened.
+Result<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// Carries out `--channel N=WHAT`: a picture file, `noise` or `none`, sampled as ShaderToy samples textures.
 Result<void> override_channel(Scene& scene, std::string_view setting);
