@@ -13,9 +13,10 @@ ALLOWED = {
     "glsl": ["base", "text", "scene"],
     "gl": ["base"],
     "image": ["base"],
+    "sound": ["base"],
     "platform": ["base"],
-    "render": ["base", "text", "scene", "glsl", "gl", "image"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "platform", "render"],
+    "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render"],
     "main.cpp": ["cli"],
 }
 

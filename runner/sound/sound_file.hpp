@@ -1,0 +1,33 @@
+// Sound in files: decoded to floats in memory, and written as WAV.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace tidemark::sound {
+
+/// The longest sound that is read, in seconds.
+inline constexpr int k_longest_sound = 20 * 60;
+
+/// `channels` interleaved samples a frame, -1..1 for full scale, at the file's own rate.
+struct SoundData {
+    int rate = 44100;
+    int channels = 2;
+    std::vector<float> samples{};
+
+    size_t frames() const { return channels > 0 ? samples.size() / size_t(channels) : 0; }
+    double duration() const { return double(frames()) / double(rate); }
+};
+
+/// Decodes WAV, AIFF, FLAC, Ogg (Vorbis, Opus) and MP3. ErrorCode::load names the file and what is wrong.
+Result<SoundData> read_sound(const std::filesystem::path& path);
+
+/// Writes a WAV file of 16-bit stereo: left and right in turn. Whole or not at all (ErrorCode::write).
+Result<void> write_wav(const std::filesystem::path& path, int rate, std::span<const int16_t> samples);
+
+} // namespace tidemark::sound
