@@ -1,24 +1,44 @@
 #include "gl/render_target.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace tidemark::gl {
 
-std::optional<RenderTarget> make_render_target(Extent extent, GLenum internal_format) {
-    while (glGetError() != GL_NO_ERROR) { // an older error is not about this target
-    }
-    RenderTarget target{make_texture(extent, internal_format, 1), {}};
+std::optional<RenderTarget> make_render_target(Texture texture) {
+    RenderTarget target{std::move(texture), {}};
     GLuint id = 0;
     glCreateFramebuffers(1, &id);
     target.framebuffer = FramebufferHandle(id);
-    glNamedFramebufferTexture(id, GL_COLOR_ATTACHMENT0, target.texture.id(), 0);
+    if (target.texture.target == GL_TEXTURE_CUBE_MAP)
+        select_face(target, 0);
+    else
+        glNamedFramebufferTexture(id, GL_COLOR_ATTACHMENT0, target.texture.id(), 0);
     if (glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return std::nullopt;
-    constexpr GLfloat k_zero[4] = {};
-    glClearNamedFramebufferfv(id, GL_COLOR, 0, k_zero);
+    while (glGetError() != GL_NO_ERROR) { // an older error is not about this target
+    }
+    clear(target);
     if (glGetError() != GL_NO_ERROR)
         return std::nullopt;
     return target;
+}
+
+void select_face(const RenderTarget& target, int face) {
+    glNamedFramebufferTextureLayer(target.framebuffer.id(), GL_COLOR_ATTACHMENT0, target.texture.id(), 0,
+                                   face);
+}
+
+void clear(const RenderTarget& target) {
+    for (int level = 0; level < target.texture.levels; ++level)
+        glClearTexImage(target.texture.id(), level, GL_RGBA, GL_FLOAT, nullptr);
+}
+
+void copy_overlap(const RenderTarget& from, const RenderTarget& to) {
+    const int width = std::min(from.extent().width, to.extent().width);
+    const int height = std::min(from.extent().height, to.extent().height);
+    glCopyImageSubData(from.texture.id(), from.texture.target, 0, 0, 0, 0, to.texture.id(), to.texture.target,
+                       0, 0, 0, 0, width, height, 1);
 }
 
 void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::span<std::byte> pixels) {

@@ -15,11 +15,20 @@ struct RenderTarget {
     Extent extent() const { return texture.extent; }
 };
 
-/// Cleared to zero. Nothing when the driver cannot draw into such a texture (or has no memory for it).
-std::optional<RenderTarget> make_render_target(Extent extent, GLenum internal_format);
+/// Cleared to zero, all its levels too. Nothing when the driver cannot draw into such a texture (or has no
+/// memory for it).
+std::optional<RenderTarget> make_render_target(Texture texture);
+
+/// Makes `face` of a cube the one that is drawn into and read back.
+void select_face(const RenderTarget& target, int face);
+
+void clear(const RenderTarget& target);
+
+/// Copies the overlap of the two from the bottom left corner, pixel for pixel.
+void copy_overlap(const RenderTarget& from, const RenderTarget& to);
 
 /// Copies the target's pixels, bottom row first, tightly packed; waits for the drawing to end. `pixels` must
-/// hold the whole target.
+/// hold the whole target (the selected face of a cube).
 void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::span<std::byte> pixels);
 
 /// Shows the target in the window's own framebuffer, stretched to fill it when their sizes differ.

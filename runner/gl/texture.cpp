@@ -4,20 +4,47 @@
 #include <bit>
 
 namespace tidemark::gl {
+namespace {
 
-Texture make_texture(Extent extent, GLenum internal_format, int levels) {
+Texture new_texture(GLenum target, Extent extent, int depth, GLenum internal_format, int levels) {
+    const int longest = std::max({extent.width, extent.height, target == GL_TEXTURE_3D ? depth : 1});
     if (levels == 0)
-        levels = int(std::bit_width(unsigned(std::max(extent.width, extent.height))));
+        levels = int(std::bit_width(unsigned(longest)));
     GLuint id = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &id);
-    glTextureStorage2D(id, levels, internal_format, extent.width, extent.height);
-    return {TextureHandle(id), extent, internal_format, levels};
+    glCreateTextures(target, 1, &id);
+    if (target == GL_TEXTURE_3D)
+        glTextureStorage3D(id, levels, internal_format, extent.width, extent.height, depth);
+    else
+        glTextureStorage2D(id, levels, internal_format, extent.width, extent.height);
+    return {TextureHandle(id), target, extent, depth, internal_format, levels};
 }
 
-void upload(const Texture& texture, GLenum format, GLenum type, std::span<const std::byte> pixels) {
+} // namespace
+
+Texture make_texture(Extent extent, GLenum internal_format, int levels) {
+    return new_texture(GL_TEXTURE_2D, extent, 1, internal_format, levels);
+}
+
+Texture make_cube_texture(int side, GLenum internal_format, int levels) {
+    return new_texture(GL_TEXTURE_CUBE_MAP, {side, side}, 6, internal_format, levels);
+}
+
+Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, int levels) {
+    return new_texture(GL_TEXTURE_3D, extent, depth, internal_format, levels);
+}
+
+void upload(const Texture& texture, int layer, GLenum format, GLenum type,
+            std::span<const std::byte> pixels) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.id(), 0, 0, 0, texture.extent.width, texture.extent.height, format, type,
-                        pixels.data());
+    const Extent extent = texture.extent;
+    if (texture.target == GL_TEXTURE_2D)
+        glTextureSubImage2D(texture.id(), 0, 0, 0, extent.width, extent.height, format, type, pixels.data());
+    else
+        glTextureSubImage3D(texture.id(), 0, 0, 0, layer, extent.width, extent.height, 1, format, type,
+                            pixels.data());
+}
+
+void make_mipmaps(const Texture& texture) {
     if (texture.levels > 1)
         glGenerateTextureMipmap(texture.id());
 }

@@ -1,4 +1,4 @@
-// Two-dimensional textures and samplers.
+// Textures of two and three dimensions, cubes, and samplers.
 #pragma once
 
 #include "base/extent.hpp"
@@ -11,7 +11,9 @@ namespace tidemark::gl {
 
 struct Texture {
     TextureHandle handle;
+    GLenum target = 0; ///< GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_3D
     Extent extent;
+    int depth = 1; ///< 6 for a cube
     GLenum internal_format = 0;
     int levels = 0;
 
@@ -20,9 +22,15 @@ struct Texture {
 
 /// Storage without content. `levels` 0 stands for a full chain of mipmaps.
 Texture make_texture(Extent extent, GLenum internal_format, int levels);
+Texture make_cube_texture(int side, GLenum internal_format, int levels);
+Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, int levels);
 
-/// Fills level 0 from tightly packed rows, bottom row first, and makes the other levels from it.
-void upload(const Texture& texture, GLenum format, GLenum type, std::span<const std::byte> pixels);
+/// Fills level 0 from tightly packed rows, row 0 first (`layer`: a cube's face, a volume's slice). Other
+/// levels are left to `make_mipmaps`.
+void upload(const Texture& texture, int layer, GLenum format, GLenum type, std::span<const std::byte> pixels);
+
+/// Makes all levels from level 0, where there are any.
+void make_mipmaps(const Texture& texture);
 
 SamplerHandle make_sampler(GLenum minify, GLenum magnify, GLenum wrap);
 

@@ -1,30 +1,41 @@
 #include "render/channel_textures.hpp"
 
 #include "gl/capabilities.hpp"
+#include "image/cubemap_file.hpp"
 #include "image/noise.hpp"
 #include "image/picture_file.hpp"
+#include "image/stand_in.hpp"
+#include "image/video_frames.hpp"
+#include "image/volume.hpp"
+#include "sound/sound_file.hpp"
+#include "sound/spectrum.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
+#include <memory>
 
 namespace tidemark::render {
 namespace {
 
 using image::Image;
 using image::SampleType;
+using Update = std::function<void(const gl::Texture&, const FrameInputs&)>;
 
 struct TextureFormat {
     GLenum internal;
     GLenum external;
+    GLenum type;
 };
 
-TextureFormat format_of(const Image& image) {
+TextureFormat format_of(SampleType type, int channels) {
     constexpr GLenum k_external[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
     constexpr GLenum k_bytes[] = {GL_R8, GL_RG8, GL_RGB8, GL_RGBA8};
     constexpr GLenum k_floats[] = {GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F};
-    const auto channels = size_t(image.channels - 1);
-    return {image.type == SampleType::u8 ? k_bytes[channels] : k_floats[channels], k_external[channels]};
+    const auto index = size_t(channels - 1);
+    return {type == SampleType::u8 ? k_bytes[index] : k_floats[index], k_external[index],
+            GLenum(type == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT)};
 }
 
 /// A browser hands a grey picture to WebGL as red = green = blue.
@@ -35,56 +46,210 @@ void spread_grey(const gl::Texture& texture, int channels) {
     glTextureParameteriv(texture.id(), GL_TEXTURE_SWIZZLE_RGBA, swizzle);
 }
 
-gl::Texture make_texture(const Image& image, bool mipmaps) {
-    const TextureFormat format = format_of(image);
-    gl::Texture texture = gl::make_texture(image.extent, format.internal, mipmaps ? 0 : 1);
-    gl::upload(texture, format.external, image.type == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT,
-               image.bytes);
-    spread_grey(texture, image.channels);
-    return texture;
-}
+/// What `load` makes of an input.
+struct Loaded {
+    gl::Texture texture;
+    Update update{};
+};
 
-Image black() {
-    return {{1, 1}, 4, SampleType::u8};
-}
+/// Makes the texture of each kind of input. One object a channel.
+class Loader {
+public:
+    explicit Loader(const scene::Sampling& sampling)
+        : sampling_(sampling), levels_(sampling.mipmaps == scene::Mipmaps::none ? 1 : 0) {}
 
-Result<Image> load_image(const scene::Channel& channel) {
-    if (std::holds_alternative<scene::Noise>(channel.input))
-        return image::make_noise();
-    const auto* picture = std::get_if<scene::Picture>(&channel.input);
-    if (!picture)
-        return black();
-    auto loaded = image::read_picture(picture->file);
-    if (!loaded && !channel.where.file.empty()) // say which directive asked for it
-        return fail(error_at(channel.where, loaded.error().message));
-    if (loaded) {
-        const int limit = gl::query_capabilities().largest_target;
-        if (std::max(loaded->extent.width, loaded->extent.height) > limit)
-            return fail(ErrorCode::load,
-                        fmt::format("'{}' is {}x{} pixels: this driver takes at most {} on a side",
-                                    picture->file.string(), loaded->extent.width, loaded->extent.height,
-                                    limit));
+    Result<Loaded> operator()(const scene::Unbound&) const { return flat(Image({1, 1}, 4, SampleType::u8)); }
+
+    Result<Loaded> operator()(const scene::PassOutput&) const {
+        assert(!"what a pass draws is the renderer's");
+        return flat(Image({1, 1}, 4, SampleType::u8));
     }
-    return loaded;
-}
+
+    Result<Loaded> operator()(const scene::Picture& picture) const {
+        auto image = image::read_picture(picture.file);
+        if (!image)
+            return fail(std::move(image.error()));
+        if (auto fits = check_size(image->extent, picture.file); !fits)
+            return fail(std::move(fits.error()));
+        return flat(*std::move(image));
+    }
+
+    Result<Loaded> operator()(const scene::Noise& noise) const {
+        using scene::NoiseKind;
+        switch (noise.kind) {
+        case NoiseKind::rgba_256: return flat(image::make_noise(image::NoiseTexture::rgba_256));
+        case NoiseKind::rgba_64: return flat(image::make_noise(image::NoiseTexture::rgba_64));
+        case NoiseKind::grey_256: return one_channel(image::make_noise(image::NoiseTexture::grey_256));
+        case NoiseKind::grey_64: return one_channel(image::make_noise(image::NoiseTexture::grey_64));
+        case NoiseKind::blue_1024: return flat(image::make_noise(image::NoiseTexture::blue_1024));
+        case NoiseKind::bayer_8: return one_channel(image::make_noise(image::NoiseTexture::bayer_8));
+        case NoiseKind::grey_volume_32: return volume(image::make_noise_volume(image::NoiseVolume::grey_32));
+        case NoiseKind::rgba_volume_32: return volume(image::make_noise_volume(image::NoiseVolume::rgba_32));
+        }
+        return flat(image::make_noise());
+    }
+
+    Result<Loaded> operator()(const scene::Cubemap& cubemap) const {
+        auto faces = image::read_cubemap(cubemap.files);
+        if (!faces)
+            return fail(std::move(faces.error()));
+        return cube(*faces);
+    }
+
+    Result<Loaded> operator()(const scene::Volume& input) const {
+        auto data = image::read_volume(input.file);
+        if (!data)
+            return fail(std::move(data.error()));
+        return volume(*data);
+    }
+
+    Result<Loaded> operator()(const scene::StandIn& stand_in) const {
+        const std::string name = fmt::format("{}x{}x{}", stand_in.width, stand_in.height, stand_in.channels);
+        using Kind = scene::StandIn::Kind;
+        if (stand_in.kind == Kind::cubemap)
+            return cube(image::make_stand_in_cube(name, stand_in.width, stand_in.channels));
+        if (stand_in.kind == Kind::volume)
+            return volume(image::make_stand_in_volume(name, stand_in.width, stand_in.height, stand_in.height,
+                                                      stand_in.channels));
+        return flat(image::make_stand_in_picture(name, {stand_in.width, stand_in.height}, stand_in.channels));
+    }
+
+    Result<Loaded> operator()(const scene::Keyboard&) const {
+        return Loaded{
+            gl::make_texture({256, 3}, GL_R8, 1), [](const gl::Texture& texture, const FrameInputs& inputs) {
+                gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE, std::as_bytes(std::span(inputs.keyboard)));
+            }};
+    }
+
+    Result<Loaded> operator()(const scene::Music& music) const {
+        std::shared_ptr<sound::Spectrum> spectrum;
+        if (!music.file.empty()) {
+            const auto sound = sound::read_sound(music.file);
+            if (!sound)
+                return fail(sound.error());
+            spectrum = std::make_shared<sound::Spectrum>(*sound);
+        }
+        return Loaded{gl::make_texture({sound::k_signal_width, 2}, GL_R8, 1),
+                      [spectrum](const gl::Texture& texture, const FrameInputs& inputs) {
+                          const auto bytes =
+                              spectrum ? spectrum->at(inputs.time) : sound::silent_signal(inputs.time);
+                          gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE, std::as_bytes(std::span(bytes)));
+                      }};
+    }
+
+    Result<Loaded> operator()(const scene::Video& video) const {
+        auto opened = image::VideoFrames::open(video.file);
+        if (!opened)
+            return fail(std::move(opened.error()));
+        if (auto fits = check_size(opened->extent(), video.file); !fits)
+            return fail(std::move(fits.error()));
+        const auto frames = std::make_shared<image::VideoFrames>(*std::move(opened));
+        return Loaded{
+            gl::make_texture(frames->extent(), GL_RGBA8, levels_),
+            [frames, vflip = sampling_.vflip](const gl::Texture& texture, const FrameInputs& inputs) {
+                const auto frame = frames->at(inputs.time);
+                if (!frame) // the last picture stays
+                    return;
+                const Image image = vflip ? *frame : image::flipped(*frame);
+                gl::upload(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.bytes);
+                gl::make_mipmaps(texture);
+            }};
+    }
+
+private:
+    Result<void> check_size(Extent extent, const std::filesystem::path& file) const {
+        const int limit = gl::query_capabilities().largest_target;
+        if (std::max(extent.width, extent.height) <= limit)
+            return {};
+        return fail(ErrorCode::load,
+                    fmt::format("'{}' is {}x{} pixels: this driver takes at most {} on a side", file.string(),
+                                extent.width, extent.height, limit));
+    }
+
+    Loaded one_channel(Image image) const {
+        if (!sampling_.vflip)
+            image = image::flipped(image);
+        const TextureFormat format = format_of(image.type, image.channels);
+        gl::Texture texture = gl::make_texture(image.extent, format.internal, levels_);
+        gl::upload(texture, 0, format.external, format.type, image.bytes);
+        gl::make_mipmaps(texture);
+        return {std::move(texture)};
+    }
+
+    Loaded flat(Image image) const {
+        const int channels = image.channels;
+        Loaded loaded = one_channel(std::move(image));
+        spread_grey(loaded.texture, channels);
+        return loaded;
+    }
+
+    Loaded cube(const image::CubeFaces& from) const {
+        const image::CubeFaces faces = sampling_.vflip ? image::vflipped(from) : from;
+        const TextureFormat format = format_of(faces[0].type, faces[0].channels);
+        gl::Texture texture = gl::make_cube_texture(faces[0].extent.width, format.internal, levels_);
+        for (int face = 0; face < 6; ++face)
+            gl::upload(texture, face, format.external, format.type, faces[size_t(face)].bytes);
+        gl::make_mipmaps(texture);
+        spread_grey(texture, faces[0].channels);
+        return {std::move(texture)};
+    }
+
+    Loaded volume(const image::VolumeData& data) const {
+        const TextureFormat format = format_of(data.type, data.channels);
+        gl::Texture texture =
+            gl::make_volume_texture({data.width, data.height}, data.depth, format.internal, levels_);
+        const size_t slice = data.bytes.size() / size_t(data.depth);
+        for (int z = 0; z < data.depth; ++z)
+            gl::upload(texture, z, format.external, format.type,
+                       std::span(data.bytes).subspan(size_t(z) * slice, slice));
+        gl::make_mipmaps(texture);
+        return {std::move(texture)};
+    }
+
+    scene::Sampling sampling_;
+    int levels_;
+};
 
 } // namespace
 
-Result<size_t> ChannelTextures::require(const scene::Channel& channel) {
+Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& channel) {
     const bool mipmaps = channel.sampling.mipmaps != scene::Mipmaps::none;
-    const auto known = std::find_if(textures_.begin(), textures_.end(), [&](const Entry& entry) {
+    const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
         return entry.input == channel.input && entry.vflip == channel.sampling.vflip &&
                entry.mipmaps == mipmaps;
     });
-    if (known != textures_.end())
-        return size_t(known - textures_.begin());
-    auto image = load_image(channel);
-    if (!image)
-        return fail(std::move(image.error()));
-    if (!channel.sampling.vflip)
-        *image = image::flipped(*image);
-    textures_.push_back({channel.input, channel.sampling.vflip, mipmaps, make_texture(*image, mipmaps)});
-    return textures_.size() - 1;
+    if (known != entries_.end())
+        return Index(known - entries_.begin());
+    auto loaded = std::visit(Loader(channel.sampling), channel.input);
+    if (!loaded && !channel.where.file.empty()) // say which directive asked for it
+        return fail(error_at(channel.where, loaded.error().message));
+    if (!loaded)
+        return fail(std::move(loaded.error()));
+    entries_.push_back({channel.input, channel.sampling.vflip, mipmaps, std::move(loaded->texture),
+                        std::move(loaded->update)});
+    return Index(entries_.size() - 1);
+}
+
+void ChannelTextures::update(const FrameInputs& inputs) {
+    for (const Entry& entry : entries_)
+        if (entry.update)
+            entry.update(entry.texture, inputs);
+}
+
+ChannelFact ChannelTextures::fact(Index index, const FrameInputs& inputs) const {
+    const Entry& entry = entries_[size_t(index)];
+    const gl::Texture& texture = entry.texture;
+    if (std::holds_alternative<scene::Unbound>(entry.input))
+        return {};
+    ChannelFact fact{
+        {double(texture.extent.width), double(texture.extent.height), double(texture.depth)}, 0, true};
+    if (texture.target == GL_TEXTURE_CUBE_MAP) // the site knows no size of a cubemap from files
+        fact.resolution = {};
+    if (const auto* music = std::get_if<scene::Music>(&entry.input))
+        fact.time = music->file.empty() ? 10 + inputs.time : inputs.time;
+    if (std::holds_alternative<scene::Video>(entry.input))
+        fact.time = inputs.time;
+    return fact;
 }
 
 gl::SamplerHandle make_sampler(const scene::Sampling& sampling) {

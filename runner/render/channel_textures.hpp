@@ -1,31 +1,52 @@
-// The textures behind a scene's channels: each distinct input is made or loaded once, and only when a
-// linked program reads it.
+// The textures behind a scene's channels, other than what its passes draw: each distinct input is made or
+// loaded once, and only when a linked program reads it. Some change from frame to frame.
 #pragma once
 
 #include "base/result.hpp"
 #include "gl/texture.hpp"
+#include "render/frame_inputs.hpp"
 #include "scene/channel.hpp"
 
+#include <array>
+#include <functional>
 #include <vector>
 
 namespace tidemark::render {
 
+/// What the channel uniforms tell of one channel.
+struct ChannelFact {
+    std::array<double, 3> resolution{}; ///< iChannelResolution
+    double time = 0;                    ///< iChannelTime
+    bool loaded = false;                ///< iChN.loaded
+};
+using ChannelFacts = std::array<ChannelFact, scene::k_channel_count>;
+
 class ChannelTextures {
 public:
-    /// Index of the texture that `channel` reads, made when it is the first to do so. Fails when its picture
-    /// cannot be read or is larger than the driver takes.
-    Result<size_t> require(const scene::Channel& channel);
+    enum class Index : size_t {};
 
-    const gl::Texture& operator[](size_t index) const { return textures_[index].texture; }
+    /// The texture that `channel` reads, made when it is the first to do so. Not for a PassOutput. Fails when
+    /// its file cannot be read or is larger than the driver takes.
+    Result<Index> require(const scene::Channel& channel);
+
+    /// Brings the textures that change with the frame up to date.
+    void update(const FrameInputs& inputs);
+
+    const gl::Texture& texture(Index index) const { return entries_[size_t(index)].texture; }
+    ChannelFact fact(Index index, const FrameInputs& inputs) const;
 
 private:
     struct Entry {
         scene::ChannelInput input;
-        bool vflip;
-        bool mipmaps;
+        bool vflip = true;
+        bool mipmaps = false;
         gl::Texture texture;
+        std::function<void(const gl::Texture&, const FrameInputs&)> update; ///< empty: never changes
     };
-    std::vector<Entry> textures_;
+
+    Result<Entry> make_entry(const scene::Channel& channel) const;
+
+    std::vector<Entry> entries_;
 };
 
 /// The GL sampler of a channel.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "render/keyboard.hpp"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -35,6 +36,7 @@ struct FrameInputs {
     glm::vec4 mouse{0};           ///< iMouse, whole pixels, ShaderToy's signs
     Date date{};
     glm::mat4 camera{1}; ///< iCamera, camera to world
+    KeyboardTexels keyboard{};
 };
 
 inline constexpr double k_sample_rate = 44100; ///< iSampleRate

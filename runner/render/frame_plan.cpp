@@ -2,18 +2,94 @@
 
 #include <fmt/format.h>
 
-namespace tidemark::render {
+#include <algorithm>
 
-FramePlan plan_frame(const scene::Scene& scene, const std::vector<gl::Reflection>& reflections) {
-    FramePlan plan;
-    for (size_t i = 0; i < scene.passes.size(); ++i) {
-        PlannedPass planned{i, {}};
-        for (int channel = 0; channel < scene::k_channel_count; ++channel)
-            if (reflections[i].has(fmt::format("iChannel{}", channel)))
-                planned.channels.push_back(channel);
-        plan.passes.push_back(std::move(planned));
+namespace tidemark::render {
+namespace {
+
+/// A channel needs its texture when the program samples it, or when it asks for sizes and somebody chose the
+/// input: the size of a texture that only happens to be the default is nobody's business.
+bool needs_texture(const scene::Channel& channel, int number, const gl::Reflection& reflection) {
+    if (std::holds_alternative<scene::Unbound>(channel.input))
+        return reflection.has(fmt::format("iChannel{}", number));
+    const std::string in_struct = fmt::format("iCh{}.", number);
+    const auto named = [&](const gl::Uniform& uniform) { return uniform.name.starts_with(in_struct); };
+    return reflection.has(fmt::format("iChannel{}", number)) ||
+           std::any_of(reflection.uniforms.begin(), reflection.uniforms.end(), named) ||
+           (!channel.where.file.empty() &&
+            (reflection.has("iChannelResolution") || reflection.has("iChannel")));
+}
+
+class Planner {
+public:
+    Planner(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections)
+        : scene_(scene), reflections_(reflections), needed_(scene.passes.size(), false) {
+        plan_.targets.resize(scene.passes.size());
     }
-    return plan;
+
+    FramePlan plan(size_t shown) {
+        need(shown);
+        for (size_t pass = 0; pass < needed_.size(); ++pass)
+            if (needed_[pass])
+                plan_.passes.push_back({pass, channels_of(pass)});
+        for (const PlannedPass& planned : plan_.passes)
+            for (const int channel : planned.channels)
+                plan_read(planned.pass, scene_.passes[planned.pass].channels[size_t(channel)]);
+        return std::move(plan_);
+    }
+
+private:
+    std::vector<int> channels_of(size_t pass) const {
+        std::vector<int> channels;
+        for (int number = 0; number < scene::k_channel_count; ++number)
+            if (needs_texture(scene_.passes[pass].channels[size_t(number)], number, *reflections_[pass]))
+                channels.push_back(number);
+        return channels;
+    }
+
+    void need(size_t pass) {
+        if (needed_[pass] || !reflections_[pass])
+            return;
+        needed_[pass] = true;
+        for (const int channel : channels_of(pass))
+            if (const auto* output =
+                    std::get_if<scene::PassOutput>(&scene_.passes[pass].channels[size_t(channel)].input))
+                need(output->pass);
+    }
+
+    void plan_read(size_t reader, const scene::Channel& channel) {
+        const auto* output = std::get_if<scene::PassOutput>(&channel.input);
+        if (!output)
+            return;
+        TargetPlan& target = plan_.targets[output->pass];
+        target.mipmaps = target.mipmaps || channel.sampling.mipmaps != scene::Mipmaps::none;
+        // Whoever stands before the source reads last frame's texture before it is drawn over: only a pass
+        // that reads itself needs a second one.
+        target.two_textures = target.two_textures || reader == output->pass;
+        plan_.feedback = plan_.feedback || frame_ref(reader, output->pass) == FrameRef::previous;
+    }
+
+    const scene::Scene& scene_;
+    const std::vector<std::optional<gl::Reflection>>& reflections_;
+    std::vector<bool> needed_;
+    FramePlan plan_;
+};
+
+} // namespace
+
+const PlannedPass* FramePlan::find(size_t pass) const {
+    const auto found = std::find_if(passes.begin(), passes.end(),
+                                    [&](const PlannedPass& planned) { return planned.pass == pass; });
+    return found == passes.end() ? nullptr : &*found;
+}
+
+FrameRef frame_ref(size_t reader, size_t source) {
+    return source < reader ? FrameRef::current : FrameRef::previous;
+}
+
+FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
+                     size_t shown) {
+    return Planner(scene, reflections).plan(shown);
 }
 
 } // namespace tidemark::render

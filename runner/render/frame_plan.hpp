@@ -1,24 +1,44 @@
-// Which passes are drawn in which order, and which inputs each of them reads. Pure: what the scene says and
-// what the driver kept decide.
+// Which passes are drawn in which order, what each of them reads, and what their targets must be. Pure: what
+// the scene says and what the driver kept decide.
 #pragma once
 
 #include "gl/program.hpp"
 #include "scene/scene.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace tidemark::render {
 
+/// Whether a read of a pass sees what was drawn in this frame or in the last one.
+enum class FrameRef { current, previous };
+
 struct PlannedPass {
     size_t pass = 0;           ///< index into Scene::passes
-    std::vector<int> channels; ///< those the linked program reads, ascending
+    std::vector<int> channels; ///< those that need a texture, ascending
+};
+
+/// What the output of a pass is kept in.
+struct TargetPlan {
+    bool two_textures = false; ///< the pass reads its own last frame while it draws
+    bool mipmaps = false;      ///< some reader filters between mipmaps
 };
 
 struct FramePlan {
-    std::vector<PlannedPass> passes; ///< in the order of drawing
+    std::vector<PlannedPass> passes; ///< in the order of drawing; none that nobody needs
+    std::vector<TargetPlan> targets; ///< one for each pass of the scene
+    bool feedback = false;           ///< a frame depends on the one before it
+
+    const PlannedPass* find(size_t pass) const;
 };
 
-/// `reflections` has one entry for each pass of the scene.
-FramePlan plan_frame(const scene::Scene& scene, const std::vector<gl::Reflection>& reflections);
+/// ShaderToy's order: a pass reads what stands before it in this frame's state, itself and what stands behind
+/// it in the last frame's.
+FrameRef frame_ref(size_t reader, size_t source);
+
+/// The passes that `shown` needs, itself included. `reflections` has one entry for each pass of the scene;
+/// those without (not linked) are not drawn.
+FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
+                     size_t shown);
 
 } // namespace tidemark::render

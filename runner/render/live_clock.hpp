@@ -1,5 +1,5 @@
-// Time in a window: iTime, iTimeDelta, iFrame and iFrameRate from the wall clock, with pause, step and restart.
-// Told what time it is by its caller, so that it can be tested without waiting.
+// Time in a window: iTime, iTimeDelta, iFrame and iFrameRate from the wall clock, with pause, step and
+// restart. Told what time it is by its caller, so that it can be tested without waiting.
 #pragma once
 
 #include "render/frame_inputs.hpp"

@@ -1,43 +1,23 @@
 #include "render/renderer.hpp"
 
-#include "gl/capabilities.hpp"
-#include "glsl/assemble.hpp"
-#include "glsl/driver_log.hpp"
+#include "render/link_pass.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
+#include <fmt/ranges.h>
 
 namespace tidemark::render {
 namespace {
 
+using image::Image;
 using image::SampleType;
+using scene::PassKind;
 
-Result<gl::RenderTarget> make_target(Extent extent, SampleType samples) {
-    const int limit = gl::query_capabilities().largest_target;
-    if (std::max(extent.width, extent.height) > limit)
-        return fail(ErrorCode::usage,
-                    fmt::format("--size {}x{}: this driver draws at most {} pixels on a side", extent.width,
-                                extent.height, limit));
-    auto target = gl::make_render_target(extent, samples == SampleType::u8 ? GL_RGBA8 : GL_RGBA32F);
-    if (!target)
-        return fail(
-            ErrorCode::usage,
-            fmt::format("--size {}x{}: this driver has no memory for such a picture; give a smaller one",
-                        extent.width, extent.height));
-    return *std::move(target);
-}
-
-/// The driver's words about one pass. Its first error leads, so that a title bar can show it.
-Error compile_error(const scene::Pass& pass, const scene::Scene& scene, std::string_view log,
-                    const text::LineMap& lines) {
-    Error error{ErrorCode::load, fmt::format("'{}' does not compile", scene.file.string()),
-                glsl::parse_driver_log(log, lines)};
-    for (Diagnostic& diagnostic : error.diagnostics)
-        if (diagnostic.where.file.empty())
-            diagnostic.message = fmt::format("{}: {}", pass.name, diagnostic.message);
-    return error;
-}
+/// Directions at the corners (0,0) (1,0) (1,1) (0,1) of the faces +x -x +y -y +z -z.
+constexpr double k_face_corners[6][12] = {
+    {1, 1, 1, 1, 1, -1, 1, -1, -1, 1, -1, 1}, {-1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1},
+    {-1, 1, -1, 1, 1, -1, 1, 1, 1, -1, 1, 1}, {-1, -1, 1, 1, -1, 1, 1, -1, -1, -1, -1, -1},
+    {-1, 1, 1, 1, 1, 1, 1, -1, 1, -1, -1, 1}, {1, 1, -1, -1, 1, -1, -1, -1, -1, 1, -1, -1},
+};
 
 } // namespace
 
@@ -45,30 +25,88 @@ Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& optio
     Renderer renderer;
     renderer.scene_ = std::move(scene);
     renderer.samples_ = options.samples;
+    renderer.extent_ = options.extent;
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
-    if (auto resized = renderer.resize(options.extent); !resized)
-        return fail(std::move(resized.error()));
-    if (auto compiled = renderer.compile(); !compiled)
-        return fail(std::move(compiled.error()));
-    if (auto bound = renderer.bind_channels(); !bound)
-        return fail(std::move(bound.error()));
+    if (auto chosen = renderer.choose_pass(options.pass); !chosen)
+        return fail(std::move(chosen.error()));
+    for (const auto step : {&Renderer::compile, &Renderer::make_targets, &Renderer::bind_channels})
+        if (auto done = (renderer.*step)(); !done)
+            return fail(std::move(done.error()));
     return renderer;
 }
 
-Result<void> Renderer::compile() {
-    std::vector<gl::Reflection> reflections;
-    for (const scene::Pass& pass : scene_.passes) {
-        const glsl::ShaderSource source = glsl::assemble(scene_, pass);
-        auto program = gl::Program::link(glsl::k_vertex_shader, source.text());
-        if (!program)
-            return fail(compile_error(pass, scene_, program.error(), source.lines()));
-        reflections.push_back(program->reflection());
-        UniformTable uniforms(program->reflection(), scene_.knobs);
-        passes_.push_back({*std::move(program), std::move(uniforms), {}, {}});
+Result<void> Renderer::choose_pass(const std::string& name) {
+    shown_ = scene_.image_index();
+    if (name.empty())
+        return {};
+    std::vector<std::string> names;
+    for (size_t i = 0; i < scene_.passes.size(); ++i) {
+        if (scene_.passes[i].kind == PassKind::sound)
+            continue;
+        if (scene_.passes[i].name == name) {
+            shown_ = i;
+            return {};
+        }
+        names.push_back(scene_.passes[i].name);
     }
-    plan_ = plan_frame(scene_, reflections);
+    return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has {}", name, fmt::join(names, ", ")));
+}
+
+/// The passes that the shown one may need, by what the scene says. What the others hold is not compiled.
+std::vector<bool> Renderer::reachable() const {
+    std::vector<bool> found(scene_.passes.size(), false);
+    std::vector<size_t> open{shown_};
+    while (!open.empty()) {
+        const size_t pass = open.back();
+        open.pop_back();
+        if (found[pass])
+            continue;
+        found[pass] = true;
+        for (const scene::Channel& channel : scene_.passes[pass].channels)
+            if (const auto* output = std::get_if<scene::PassOutput>(&channel.input))
+                open.push_back(output->pass);
+    }
+    return found;
+}
+
+Result<void> Renderer::compile() {
+    passes_.resize(scene_.passes.size());
+    std::vector<std::optional<gl::Reflection>> reflections(scene_.passes.size());
+    const std::vector<bool> wanted = reachable();
+    for (size_t i = 0; i < scene_.passes.size(); ++i) {
+        if (!wanted[i])
+            continue;
+        auto program = link_pass(scene_, scene_.passes[i]);
+        if (!program)
+            return fail(std::move(program.error()));
+        reflections[i] = program->reflection();
+        passes_[i].uniforms = UniformTable(program->reflection(), scene_.knobs);
+        passes_[i].program = *std::move(program);
+    }
+    plan_ = plan_frame(scene_, reflections, shown_);
+    return {};
+}
+
+GLenum Renderer::format_of(size_t pass) const {
+    return scene_.passes[pass].kind == PassKind::image && samples_ == SampleType::u8 ? GL_RGBA8 : GL_RGBA32F;
+}
+
+Result<PassTarget> Renderer::make_target(size_t pass) const {
+    if (scene_.passes[pass].kind == PassKind::cubemap)
+        return PassTarget::create_cube(plan_.targets[pass]);
+    return PassTarget::create(extent_, format_of(pass), plan_.targets[pass]);
+}
+
+Result<void> Renderer::make_targets() {
+    targets_.resize(scene_.passes.size());
+    for (const PlannedPass& planned : plan_.passes) {
+        auto target = make_target(planned.pass);
+        if (!target)
+            return fail(std::move(target.error()));
+        targets_[planned.pass] = *std::move(target);
+    }
     return {};
 }
 
@@ -77,52 +115,133 @@ Result<void> Renderer::bind_channels() {
         CompiledPass& compiled = passes_[planned.pass];
         for (const int number : planned.channels) {
             const scene::Channel& channel = scene_.passes[planned.pass].channels[size_t(number)];
-            const auto texture = textures_.require(channel);
-            if (!texture)
-                return fail(texture.error());
-            compiled.channels.push_back({number, *texture, make_sampler(channel.sampling)});
-            if (!std::holds_alternative<scene::Unbound>(channel.input))
-                compiled.channel_sizes[size_t(number)] = textures_[*texture].extent;
-            const gl::Uniform* sampler =
-                compiled.program.reflection().find(fmt::format("iChannel{}", number));
+            BoundChannel bound{number, make_sampler(channel.sampling), {}};
+            if (const auto* output = std::get_if<scene::PassOutput>(&channel.input)) {
+                bound.source = *output;
+            } else {
+                const auto texture = textures_.require(channel);
+                if (!texture)
+                    return fail(texture.error());
+                bound.source = *texture;
+            }
+            compiled.channels.push_back(std::move(bound));
             const double unit[] = {double(number)};
-            gl::set_uniform(compiled.program, *sampler, unit);
+            for (const std::string& name :
+                 {fmt::format("iChannel{}", number), fmt::format("iCh{}.sampler", number)})
+                if (const gl::Uniform* sampler = compiled.program->reflection().find(name))
+                    gl::set_uniform(*compiled.program, *sampler, unit);
         }
     }
     return {};
 }
 
 Result<void> Renderer::resize(Extent extent) {
-    auto target = make_target(extent, samples_);
-    if (!target)
-        return fail(std::move(target.error()));
-    target_ = *std::move(target);
+    std::vector<PassTarget> fresh(targets_.size());
+    for (const PlannedPass& planned : plan_.passes) {
+        if (scene_.passes[planned.pass].kind == PassKind::cubemap)
+            continue;
+        auto target = targets_[planned.pass].resized(extent);
+        if (!target)
+            return fail(std::move(target.error()));
+        fresh[planned.pass] = *std::move(target);
+    }
+    for (const PlannedPass& planned : plan_.passes)
+        if (scene_.passes[planned.pass].kind != PassKind::cubemap)
+            targets_[planned.pass] = std::move(fresh[planned.pass]);
+    extent_ = extent;
     return {};
 }
 
-void Renderer::draw(const FrameInputs& inputs) {
+void Renderer::reset() {
     for (const PlannedPass& planned : plan_.passes)
-        draw_pass(passes_[planned.pass], inputs);
+        targets_[planned.pass].clear();
 }
 
-void Renderer::draw_pass(const CompiledPass& pass, const FrameInputs& inputs) const {
-    pass.uniforms.upload(pass.program, inputs, extent(), pass.channel_sizes, scene_.knobs);
+void Renderer::warm_up(const FrameInputs& inputs) {
+    // Nothing passes an empty scissor box, but the driver must have its code ready before it knows.
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, 0, 0);
+    draw(inputs);
+    glFinish();
+    glDisable(GL_SCISSOR_TEST);
+    reset();
+}
+
+void Renderer::draw(const FrameInputs& inputs) {
+    textures_.update(inputs);
+    for (const PlannedPass& planned : plan_.passes)
+        draw_pass(planned.pass, inputs);
+}
+
+ChannelFacts Renderer::facts_of(const CompiledPass& pass, PassKind kind, const FrameInputs& inputs) const {
+    ChannelFacts facts;
     for (const BoundChannel& channel : pass.channels) {
-        glBindTextureUnit(GLuint(channel.unit), textures_[channel.texture].id());
+        ChannelFact& fact = facts[size_t(channel.unit)];
+        if (const auto* output = std::get_if<scene::PassOutput>(&channel.source)) {
+            const Extent size = targets_[output->pass].latest().extent();
+            fact = {{double(size.width), double(size.height), 1}, 0, true};
+        } else {
+            fact = textures_.fact(std::get<ChannelTextures::Index>(channel.source), inputs);
+        }
+        // A quirk of the site that shaders may rely on.
+        const auto& input =
+            scene_.passes[size_t(&pass - passes_.data())].channels[size_t(channel.unit)].input;
+        if (kind == PassKind::cubemap && std::holds_alternative<scene::Keyboard>(input))
+            fact.resolution = {};
+    }
+    return facts;
+}
+
+void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
+    const CompiledPass& pass = passes_[index];
+    const PassKind kind = scene_.passes[index].kind;
+    PassTarget& target = targets_[index];
+    const gl::RenderTarget& into = target.next();
+    pass.uniforms.upload(*pass.program, inputs, into.extent(), facts_of(pass, kind, inputs), scene_.knobs);
+    for (const BoundChannel& channel : pass.channels) {
+        const auto* output = std::get_if<scene::PassOutput>(&channel.source);
+        const gl::Texture& texture =
+            output ? targets_[output->pass].latest().texture
+                   : textures_.texture(std::get<ChannelTextures::Index>(channel.source));
+        glBindTextureUnit(GLuint(channel.unit), texture.id());
         glBindSampler(GLuint(channel.unit), channel.sampler.id());
     }
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target_.framebuffer.id());
-    glViewport(0, 0, extent().width, extent().height);
+    if (kind != PassKind::cubemap) {
+        draw_face(pass, into);
+    } else {
+        const gl::Uniform* corners = pass.program->reflection().find("tidemark_corners");
+        for (int face = 0; face < 6; ++face) {
+            gl::select_face(into, face);
+            if (corners)
+                gl::set_uniform(*pass.program, *corners, k_face_corners[face]);
+            draw_face(pass, into);
+        }
+    }
+    target.flip();
+}
+
+void Renderer::draw_face(const CompiledPass& pass, const gl::RenderTarget& into) const {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer.id());
+    glViewport(0, 0, into.extent().width, into.extent().height);
     glDisable(GL_DITHER);
-    glUseProgram(pass.program.id());
+    glUseProgram(pass.program->id());
     glBindVertexArray(no_vertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-image::Image Renderer::read_back() const {
-    image::Image image(extent(), 4, samples_);
-    gl::read_pixels(target_, GL_RGBA, samples_ == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT, image.bytes);
+Image Renderer::read_back() const {
+    Image image(target().extent(), 4, samples_);
+    gl::read_pixels(target(), GL_RGBA, samples_ == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT, image.bytes);
     return image;
+}
+
+std::array<Image, 6> Renderer::read_back_cube() const {
+    std::array<Image, 6> faces;
+    for (int face = 0; face < 6; ++face) {
+        gl::select_face(target(), face);
+        faces[size_t(face)] = read_back();
+    }
+    return faces;
 }
 
 } // namespace tidemark::render

@@ -4,68 +4,95 @@
 
 #include "base/result.hpp"
 #include "gl/program.hpp"
-#include "gl/render_target.hpp"
 #include "image/image.hpp"
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/frame_plan.hpp"
+#include "render/pass_target.hpp"
 #include "render/uniform_table.hpp"
 #include "scene/scene.hpp"
 
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace tidemark::render {
 
 struct RenderOptions {
     Extent extent{640, 360};
-    /// u8 draws into RGBA8, so that a picture holds what GL itself shows; f32 into RGBA32F.
+    /// u8 draws Image into RGBA8, so that a picture holds what GL itself shows; f32 into RGBA32F. Buffers are
+    /// always RGBA32F, cubemap passes RGBA16F.
     image::SampleType samples = image::SampleType::u8;
+    std::string pass; ///< the pass to show; empty: Image
 };
 
 class Renderer {
 public:
-    /// Compiles every pass, loads what they read, makes the target. The error of a scene that does not
-    /// compile has the authors' own files and lines.
+    /// Compiles the passes that the shown one may need, loads what they read, makes the targets. The error of
+    /// a scene that does not compile has the authors' own files and lines.
     static Result<Renderer> create(scene::Scene scene, const RenderOptions& options);
 
+    /// Has the driver finish what it puts off until the first draw, without drawing anything.
+    void warm_up(const FrameInputs& inputs);
+
+    /// One frame. Buffers keep their content for the next one.
     void draw(const FrameInputs& inputs);
 
-    /// The pixels of the last frame drawn.
-    image::Image read_back() const;
+    /// Buffers back to zero, as before frame 0.
+    void reset();
 
-    /// A target of another size; fails (ErrorCode::usage) beyond the driver's limit and leaves the old one.
+    /// The pixels of the shown pass. A buffer that is shown in bytes is clamped; of a cube, face +x.
+    image::Image read_back() const;
+    /// The faces of a shown cubemap pass, +x -x +y -y +z -z.
+    std::array<image::Image, 6> read_back_cube() const;
+
+    /// Targets of another size, buffers keeping the overlap; fails (ErrorCode::usage) beyond the driver's
+    /// limit and leaves the old ones.
     Result<void> resize(Extent extent);
 
-    Extent extent() const { return target_.extent(); }
-    const gl::RenderTarget& target() const { return target_; }
+    Extent extent() const { return extent_; }
+    const gl::RenderTarget& target() const { return targets_[shown_].latest(); }
     const scene::Scene& scene() const { return scene_; }
+    const scene::Pass& shown_pass() const { return scene_.passes[shown_]; }
     const FramePlan& plan() const { return plan_; }
-    const gl::Program& program(size_t pass) const { return passes_[pass].program; }
+    /// The program of a pass in the plan.
+    const gl::Program& program(size_t pass) const { return *passes_[pass].program; }
 
 private:
     struct BoundChannel {
-        int unit;
-        size_t texture;
+        int unit = 0;
         gl::SamplerHandle sampler;
+        std::variant<ChannelTextures::Index, scene::PassOutput> source;
     };
     struct CompiledPass {
-        gl::Program program;
+        std::optional<gl::Program> program; ///< none: not needed
         UniformTable uniforms;
         std::vector<BoundChannel> channels;
-        ChannelSizes channel_sizes{};
     };
 
+    Result<void> choose_pass(const std::string& name);
+    std::vector<bool> reachable() const;
     Result<void> compile();
     Result<void> bind_channels();
-    void draw_pass(const CompiledPass& pass, const FrameInputs& inputs) const;
+    Result<void> make_targets();
+    Result<PassTarget> make_target(size_t pass) const;
+    GLenum format_of(size_t pass) const;
+
+    void draw_pass(size_t pass, const FrameInputs& inputs);
+    void draw_face(const CompiledPass& pass, const gl::RenderTarget& into) const;
+    ChannelFacts facts_of(const CompiledPass& pass, scene::PassKind kind, const FrameInputs& inputs) const;
 
     scene::Scene scene_;
+    Extent extent_;
     image::SampleType samples_ = image::SampleType::u8;
+    size_t shown_ = 0;
     gl::VertexArrayHandle no_vertices_;
     std::vector<CompiledPass> passes_; ///< one for each of the scene's
     FramePlan plan_;
     ChannelTextures textures_;
-    gl::RenderTarget target_;
+    std::vector<PassTarget> targets_; ///< one for each of the scene's; empty where nothing is drawn
 };
 
 } // namespace tidemark::render

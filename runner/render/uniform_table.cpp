@@ -1,6 +1,7 @@
 #include "render/uniform_table.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <string_view>
 
 namespace tidemark::render {
@@ -12,13 +13,19 @@ public:
     Numbers(std::initializer_list<double> values) { append(values.begin(), values.end()); }
     explicit Numbers(const scene::KnobValue& value) { append(value.begin(), value.end()); }
     explicit Numbers(const glm::mat4& matrix) { append(&matrix[0][0], &matrix[0][0] + 16); }
-    explicit Numbers(const ChannelSizes& sizes) {
-        for (const Extent& size : sizes) {
-            const double depth = size.width > 0 ? 1 : 0;
-            const double numbers[] = {double(size.width), double(size.height), depth};
-            append(numbers, numbers + 3);
-        }
+    static Numbers resolutions(const ChannelFacts& channels) {
+        Numbers numbers{};
+        for (const ChannelFact& channel : channels)
+            numbers.append(channel.resolution.begin(), channel.resolution.end());
+        return numbers;
     }
+    static Numbers times(const ChannelFacts& channels) {
+        Numbers numbers{};
+        for (const ChannelFact& channel : channels)
+            numbers.append(&channel.time, &channel.time + 1);
+        return numbers;
+    }
+    explicit Numbers(const std::array<double, 3>& values) { append(values.begin(), values.end()); }
 
     operator std::span<const double>() const { return {values_.data(), count_}; }
 
@@ -56,11 +63,29 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         for (size_t i = 0; i < knobs.size(); ++i)
             if (uniform.name == knobs[i].name)
                 entries_.push_back({uniform, Source::knob, i});
+        for (size_t i = 0; i < size_t(scene::k_channel_count); ++i)
+            if (const auto source = struct_member(uniform.name, i))
+                entries_.push_back({uniform, *source, i});
     }
 }
 
+std::optional<UniformTable::Source> UniformTable::struct_member(std::string_view name, size_t channel) {
+    std::string_view member;
+    for (const std::string& structure :
+         {fmt::format("iCh{}.", channel), fmt::format("iChannel[{}].", channel)})
+        if (name.starts_with(structure))
+            member = name.substr(structure.size());
+    if (member == "size" || member == "resolution")
+        return Source::struct_size;
+    if (member == "time")
+        return Source::struct_time;
+    if (member == "loaded")
+        return Source::struct_loaded;
+    return std::nullopt;
+}
+
 void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs, Extent resolution,
-                          const ChannelSizes& sizes, const std::vector<scene::Knob>& knobs) const {
+                          const ChannelFacts& channels, const std::vector<scene::Knob>& knobs) const {
     const auto numbers_of = [&](const Entry& entry) -> Numbers {
         switch (entry.source) {
         case Source::resolution: return {double(resolution.width), double(resolution.height), 1};
@@ -73,10 +98,13 @@ void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs,
             return {double(inputs.date.year), double(inputs.date.month), double(inputs.date.day),
                     inputs.date.seconds};
         case Source::sample_rate: return {k_sample_rate};
-        case Source::channel_time: return {0, 0, 0, 0}; // pictures and noise do not play
-        case Source::channel_resolution: return Numbers(sizes);
+        case Source::channel_time: return Numbers::times(channels);
+        case Source::channel_resolution: return Numbers::resolutions(channels);
         case Source::camera: return Numbers(inputs.camera);
-        case Source::knob: return Numbers(knobs[entry.knob].value);
+        case Source::struct_size: return Numbers(channels[entry.index].resolution);
+        case Source::struct_time: return {channels[entry.index].time};
+        case Source::struct_loaded: return {channels[entry.index].loaded ? 1.0 : 0.0};
+        case Source::knob: return Numbers(knobs[entry.index].value);
         }
         return {};
     };

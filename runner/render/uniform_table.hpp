@@ -3,16 +3,15 @@
 
 #include "base/extent.hpp"
 #include "gl/program.hpp"
+#include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
 #include "scene/scene.hpp"
 
-#include <array>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::render {
-
-/// What iChannelResolution tells of a channel; zeros where nothing is bound.
-using ChannelSizes = std::array<Extent, scene::k_channel_count>;
 
 class UniformTable {
 public:
@@ -21,7 +20,7 @@ public:
 
     /// Uploads the active uniforms and nothing else.
     void upload(const gl::Program& program, const FrameInputs& inputs, Extent resolution,
-                const ChannelSizes& sizes, const std::vector<scene::Knob>& knobs) const;
+                const ChannelFacts& channels, const std::vector<scene::Knob>& knobs) const;
 
 private:
     enum class Source {
@@ -35,13 +34,19 @@ private:
         sample_rate,
         channel_time,
         channel_resolution,
+        struct_size,   ///< iChN.size, iChannel[N].resolution
+        struct_time,   ///< iChN.time, iChannel[N].time
+        struct_loaded, ///< iChN.loaded
         camera,
         knob
     };
+    /// What the member of a channel's struct tells; nothing for other uniforms.
+    static std::optional<Source> struct_member(std::string_view name, size_t channel);
+
     struct Entry {
         gl::Uniform uniform;
         Source source;
-        size_t knob = 0; ///< index, for Source::knob
+        size_t index = 0; ///< of the knob or the channel
     };
     std::vector<Entry> entries_;
 };

@@ -1,0 +1,42 @@
+// Where the output of a pass is kept from frame to frame.
+#pragma once
+
+#include "base/result.hpp"
+#include "gl/render_target.hpp"
+#include "render/frame_plan.hpp"
+
+#include <vector>
+
+namespace tidemark::render {
+
+/// The side of a cubemap pass's faces, as on ShaderToy.
+inline constexpr int k_cube_side = 1024;
+
+/// One texture, or two that take turns when a pass reads itself. Both start as zeros.
+class PassTarget {
+public:
+    PassTarget() = default;
+    /// Fails (ErrorCode::usage) when the driver cannot have targets of that size.
+    static Result<PassTarget> create(Extent extent, GLenum internal_format, const TargetPlan& plan);
+    static Result<PassTarget> create_cube(const TargetPlan& plan);
+
+    /// What was drawn last, whole.
+    const gl::RenderTarget& latest() const { return surfaces_[latest_]; }
+    /// What is to be drawn into; becomes the latest by `flip`.
+    const gl::RenderTarget& next() const { return surfaces_[next_index()]; }
+    /// At once after drawing, so that passes later in the frame see it. Makes the mipmaps.
+    void flip();
+
+    void clear();
+    /// A target of another size with the overlap of the old picture in its bottom left corner.
+    Result<PassTarget> resized(Extent extent) const;
+
+private:
+    size_t next_index() const { return surfaces_.size() - 1 - latest_; }
+
+    std::vector<gl::RenderTarget> surfaces_;
+    size_t latest_ = 0;
+    TargetPlan plan_;
+};
+
+} // namespace tidemark::render
