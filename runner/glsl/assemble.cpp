@@ -201,6 +201,10 @@ std::string_view entry_of(scene::PassKind kind) {
 } // namespace
 
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass) {
+    return assemble(scene, pass, dialects_to_try(scene, pass).front());
+}
+
+ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass, const Dialect&) {
     text::MappedText author = scene.common;
     author.append(pass.text);
     const auto tokens = text::tokenize(author.text());
@@ -227,5 +231,9 @@ void main() {
     gl_Position = vec4(corner, 0.0, 1.0);
 }
 )";
+
+const char* vertex_shader(Version) {
+    return k_vertex_shader;
+}
 
 } // namespace tidemark::glsl

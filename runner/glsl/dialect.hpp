@@ -1,0 +1,54 @@
+// Which GLSL to offer the driver. ShaderToy's texts are written for WebGL 2; a desktop driver takes nearly
+// all of them as `330 core`, and most of the rest in another version or with our `main` in another place.
+// Pure text.
+#pragma once
+
+#include "scene/scene.hpp"
+#include "text/mapped_text.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::glsl {
+
+/// What `#version` says, in the order of our trust: see README, "How it is built".
+enum class Version { core_330, core_450, es_300 };
+
+/// Where the `main` stands that calls the author's entry point.
+enum class MainPlace {
+    first, ///< before the text, so that the author's macros do not reach it
+    last,  ///< behind the text: for an entry point that is a macro
+    author ///< the text has a `main` of its own
+};
+
+using ChannelKinds = std::array<scene::TextureKind, scene::k_channel_count>;
+
+/// One way to present a pass to the driver.
+struct Dialect {
+    Version version = Version::core_330;
+    MainPlace main = MainPlace::first;
+    bool initialise =
+        true; ///< variables without a value start at zero, and `out fragColor` as the site's does
+    ChannelKinds channels{};
+
+    bool operator==(const Dialect&) const = default;
+};
+
+/// "330 core", with what else is unusual: "300 es, main last".
+std::string to_string(const Dialect& dialect);
+
+/// The dialects worth offering for `pass`, the likeliest first; never empty. The first that links is the one:
+/// when none does, the first one's messages are the best.
+std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass);
+
+/// After the driver refused `source` with `log`: kinds for the channels that nobody specified, the likeliest
+/// first, cubes before volumes. Empty when the log does not complain about samplers.
+std::vector<ChannelKinds> channel_kinds_to_try(const scene::Scene& scene, const scene::Pass& pass,
+                                               const text::MappedText& source, std::string_view log);
+
+/// What no dialect can cure: no entry point, or several (tabs pasted into one file), each with its place.
+std::vector<Diagnostic> entry_point_problems(const scene::Scene& scene, const scene::Pass& pass);
+
+} // namespace tidemark::glsl

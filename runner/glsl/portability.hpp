@@ -1,0 +1,14 @@
+// `tidemark check --portable`: what ShaderToy's own compiler (GLSL ES 3.00, in a browser) will refuse
+// although a desktop driver takes it. Reads the texts alone and speaks only when it is sure.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <vector>
+
+namespace tidemark::glsl {
+
+/// One warning for each place, in the order of the scene's passes (Common first), with what to write instead.
+std::vector<Diagnostic> portability_lint(const scene::Scene& scene);
+
+} // namespace tidemark::glsl
