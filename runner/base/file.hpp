@@ -11,8 +11,9 @@
 
 namespace tidemark {
 
-/// The largest text that is read as a scene; beyond it the file is surely not one.
-inline constexpr size_t k_largest_text = size_t{256} << 20;
+/// The largest text that is read as a scene, ten times the largest shader we know of. Its tokens take up to
+/// fifty times as much memory.
+inline constexpr size_t k_largest_text = size_t{16} << 20;
 
 /// The bytes of a regular file. Fails (ErrorCode::load) on a missing file, a directory, an unreadable or
 /// over-large file; the message names the path.

@@ -80,16 +80,19 @@ Error unexpected(const CLI::App& app, const std::string& argument) {
 /// Something that must be there is not: CLI11 has words for an option, we for a sub-command.
 Error missing(const CLI::App& app, const CLI::RequiredError& error) {
     const CLI::App& command = called(app);
+    const auto say_what = [&](std::string_view what) {
+        return Error{ErrorCode::usage, fmt::format("{}: {}", command.get_name(), what), {}};
+    };
     const std::vector<std::string> names = command_names(command);
     if (names.empty())
-        return {ErrorCode::usage, fmt::format("{}: {}", words_to(command), error.what()), {}};
+        return say_what(error.what());
     const auto extra = command.remaining(true);
     const std::string choice = fmt::format("give {}", fmt::join(names, " or "));
     if (extra.empty())
-        return {ErrorCode::usage, fmt::format("{}: {}", words_to(command), choice), {}};
+        return say_what(choice);
     if (extra.front().starts_with('-'))
         return unexpected(app, extra.front());
-    return {ErrorCode::usage, fmt::format("{}: unknown '{}': {}", words_to(command), extra.front(), choice), {}};
+    return say_what(fmt::format("unknown '{}': {}", extra.front(), choice));
 }
 
 int report(const Error& error) {

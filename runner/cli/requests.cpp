@@ -96,11 +96,10 @@ Result<Extent> parse_size(std::string_view text) {
 Result<std::vector<int>> parse_frames(std::string_view text) {
     std::vector<int> frames;
     std::string_view rest = text;
-    do {
-        if (!take_range(rest, frames))
-            break;
-    } while (take(rest, ','));
-    if (!rest.empty() || frames.empty())
+    bool good = take_range(rest, frames);
+    while (good && take(rest, ','))
+        good = take_range(rest, frames);
+    if (!good || !rest.empty())
         return fail(
             ErrorCode::usage,
             fmt::format("--frames {}: give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29", text));

@@ -51,12 +51,13 @@ Result<Viewer> Viewer::open(Settings settings) {
     auto scene = load(settings.scene);
     if (!scene)
         return fail(std::move(scene.error()));
-    auto watcher = platform::FileWatcher::create([] { platform::Window::wake(); });
-    if (!watcher)
-        return fail(std::move(watcher.error()));
     auto window = platform::Window::create(settings.frames.extent, scene->name() + " - tidemark");
     if (!window)
         return fail(std::move(window.error()));
+    // After the window, so that it ends before it: its thread wakes the window.
+    auto watcher = platform::FileWatcher::create([] { platform::Window::wake(); });
+    if (!watcher)
+        return fail(std::move(watcher.error()));
     if (auto watched = watcher->watch(scene->files); !watched)
         say(to_string(watched.error())); // it can still be looked at
     auto renderer = render::Renderer::create(*std::move(scene), {window->framebuffer_extent()});

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string_view>
 
@@ -115,30 +116,46 @@ struct TextFacts {
     std::vector<text::Edit> edits;           ///< the author's #version, which must not stand twice
 };
 
+bool begins_directive(const Token& token) {
+    return token.first_on_line && token.is("#");
+}
+
+/// Whether a declaration of uniforms ends here at the latest, however unfinished it is.
+bool ends_uniform(const Token& token) {
+    return token.is(";") || token.is("uniform") || begins_directive(token);
+}
+
+bool first_parameter_is_float(const std::vector<Token>& tokens, size_t at) {
+    while (at < tokens.size() && (tokens[at].is("in") || tokens[at].is("const")))
+        ++at;
+    return at < tokens.size() && tokens[at].is("float");
+}
+
 TextFacts read_facts(const std::vector<Token>& tokens, std::string_view entry) {
     TextFacts facts;
     int conditional_depth = 0;
-    for (size_t i = 0; i + 1 < tokens.size(); ++i) {
+    for (size_t i = 0; i + 1 < tokens.size();) {
         const Token& token = tokens[i];
         const Token& next = tokens[i + 1];
-        if (token.first_on_line && token.is("#")) {
+        if (begins_directive(token)) {
+            const size_t end = text::end_of_directive(tokens, i);
             if (next.text.starts_with("if"))
                 ++conditional_depth;
             else if (next.is("endif"))
-                --conditional_depth;
+                conditional_depth = std::max(0, conditional_depth - 1);
             else if (next.is("version"))
-                facts.edits.push_back({token.begin, tokens[text::end_of_directive(tokens, i) - 1].end(), {}});
+                facts.edits.push_back({token.begin, tokens[end - 1].end(), {}});
             else if (next.is("define") && i + 2 < tokens.size() && tokens[i + 2].is(entry))
                 facts.entry_is_macro = true;
+            i = end;
         } else if (token.is("uniform") && conditional_depth == 0) {
-            for (size_t k = i + 1; k < tokens.size() && !tokens[k].is(";"); ++k)
-                facts.own_uniforms.insert(tokens[k].text);
-        } else if (token.is("mainSound") && next.is("(")) {
-            size_t type = i + 2;
-            while (type < tokens.size() && (tokens[type].is("in") || tokens[type].is("const")))
-                ++type;
-            facts.sound_takes_time_alone =
-                facts.sound_takes_time_alone || (type < tokens.size() && tokens[type].is("float"));
+            for (++i; i < tokens.size() && !ends_uniform(tokens[i]); ++i)
+                facts.own_uniforms.insert(tokens[i].text);
+        } else {
+            if (token.is("mainSound") && next.is("("))
+                facts.sound_takes_time_alone =
+                    facts.sound_takes_time_alone || first_parameter_is_float(tokens, i + 2);
+            ++i;
         }
     }
     return facts;

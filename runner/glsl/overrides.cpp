@@ -43,12 +43,18 @@ bool closes(const Token& token) {
     return token.is(")") || token.is("]") || token.is("}");
 }
 
-/// The declarators of `const TYPE name = value, name = value;` behind the token at `keyword`.
-void read_constants(const std::vector<Token>& tokens, size_t keyword, std::vector<Definition>& found) {
+/// Whether a declaration ends here at the latest, however unfinished it is.
+bool ends_declaration(const Token& token) {
+    return token.is(";") || token.is("const") || (token.first_on_line && token.is("#"));
+}
+
+/// The declarators of `const TYPE name = value, name = value;` behind the token at `keyword`; returns where
+/// they end.
+size_t read_constants(const std::vector<Token>& tokens, size_t keyword, std::vector<Definition>& found) {
     size_t i = keyword + 1;
-    while (i < tokens.size() && !tokens[i].is(";")) {
+    while (i < tokens.size() && !ends_declaration(tokens[i])) {
         if (closes(tokens[i])) // `const` of a parameter
-            return;
+            break;
         if (!tokens[i].is("=")) {
             ++i;
             continue;
@@ -58,24 +64,27 @@ void read_constants(const std::vector<Token>& tokens, size_t keyword, std::vecto
         for (int depth = 0; end < tokens.size(); ++end) {
             const Token& token = tokens[end];
             depth += opens(token) ? 1 : closes(token) ? -1 : 0;
-            if (depth < 0 || (depth == 0 && (token.is(",") || token.is(";"))))
+            if (depth < 0 || (depth == 0 && token.is(",")) || ends_declaration(token))
                 break;
         }
         if (name.kind == TokenKind::identifier && end > i + 1)
             found.push_back({name.text, tokens[i + 1].begin, tokens[end - 1].end(), false});
         i = end;
     }
+    return i;
 }
 
 std::vector<Definition> find_definitions(const std::vector<Token>& tokens) {
     std::vector<Definition> found;
-    for (size_t i = 0; i < tokens.size(); ++i) {
+    for (size_t i = 0; i < tokens.size();) {
         if (tokens[i].first_on_line && tokens[i].is("#")) {
             if (const auto macro = read_macro(tokens, i))
                 found.push_back(*macro);
-            i = text::end_of_directive(tokens, i) - 1;
+            i = text::end_of_directive(tokens, i);
         } else if (tokens[i].is("const")) {
-            read_constants(tokens, i, found);
+            i = read_constants(tokens, i, found);
+        } else {
+            ++i;
         }
     }
     return found;

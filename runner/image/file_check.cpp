@@ -107,29 +107,47 @@ bool makes_samples(std::string_view chunk) {
     return chunk == "IHDR" || chunk == "PLTE" || chunk == "tRNS" || chunk == "IDAT" || chunk == "IEND";
 }
 
+/// A reader may pass over the chunks that begin with a small letter, but over no other.
+bool may_be_left_out(std::string_view chunk) {
+    return (byte_at(chunk, 0) & 0x20u) != 0;
+}
+
+/// What is wrong with one chunk: its checksum, its place, or that there is one too many.
+Objection chunk_objection(std::string_view chunk, bool is_first, int palettes) {
+    const std::string_view name = chunk.substr(4, 4);
+    if (crc32(chunk.substr(4, chunk.size() - 8)) != big_endian(chunk, chunk.size() - 4, 4))
+        return "the file is damaged: a checksum in it is wrong";
+    if ((name == "IHDR") != is_first)
+        return "its PNG header is not valid";
+    if (name == "IHDR")
+        return png_header_objection(chunk.substr(8, chunk.size() - 12));
+    if (name == "PLTE" && palettes > 1)
+        return "it has more than one palette";
+    if (!makes_samples(name) && !may_be_left_out(name))
+        return "it has a PNG chunk of a kind that is not known";
+    return {};
+}
+
 Checked checked_png(std::string_view file) {
     constexpr size_t frame = 12; // a chunk's length, name and checksum
     std::string kept(file.substr(0, 8));
     bool has_data = false;
+    int palettes = 0;
     for (size_t at = 8; file.size() - at >= frame;) {
         const size_t length = big_endian(file, at, 4);
         if (length > file.size() - at - frame)
             break;
-        const std::string_view name = file.substr(at + 4, 4);
-        const std::string_view data = file.substr(at + 8, length);
-        if (crc32(file.substr(at + 4, length + 4)) != big_endian(file, at + 8 + length, 4))
-            return refuse("the file is damaged: a checksum in it is wrong");
-        if ((name == "IHDR") != (at == 8))
-            return refuse("its PNG header is not valid");
-        if (name == "IHDR")
-            if (Objection objection = png_header_objection(data))
-                return refuse(std::move(*objection));
+        const std::string_view chunk = file.substr(at, length + frame);
+        const std::string_view name = chunk.substr(4, 4);
         has_data |= name == "IDAT";
+        palettes += name == "PLTE";
+        if (Objection objection = chunk_objection(chunk, at == 8, palettes))
+            return refuse(std::move(*objection));
         if (makes_samples(name))
-            kept += file.substr(at, length + frame);
+            kept += chunk;
         if (name == "IEND")
             return has_data ? Checked(std::move(kept)) : refuse("it has no pixels");
-        at += length + frame;
+        at += chunk.size();
     }
     return refuse(std::string(k_cut_short));
 }

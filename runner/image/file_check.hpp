@@ -16,8 +16,8 @@ namespace tidemark::image {
 std::optional<FileFormat> format_of(std::string_view file, const std::filesystem::path& path);
 
 /// The bytes that the codec should see, or in one line why it should not see any. PNG: every chunk is whole
-/// and has its checksum; of the others only those that make samples stay (IHDR PLTE tRNS IDAT IEND), so
-/// that neither gamma nor a profile is acted on or complained of. JPEG: it has its end. JPEG and EXR: the
+/// and has its checksum; only those that make samples stay (IHDR PLTE tRNS IDAT IEND), so that neither gamma
+/// nor a profile nor a text that unpacks to gigabytes is looked at. JPEG: it has its end. JPEG and EXR: the
 /// header is sound. The other formats are passed on.
 tl::expected<std::string, std::string> checked_file(FileFormat format, std::string file);
 

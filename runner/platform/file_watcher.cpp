@@ -303,21 +303,24 @@ void FileWatcher::Loop::settle_in(uint64_t milliseconds) {
     uv_timer_start(&timer_, ring, milliseconds, 0);
 }
 
-/// Reports the files that have come to rest, and sleeps until the next one may have.
+/// Reports the files that have come to rest, and looks again soon when one has not.
 void FileWatcher::Loop::settle() {
+    // A folder that is deleted while somebody has it open sends no event: only looking tells.
+    (void)follow_trails();
     const uint64_t now = uv_now(&loop_);
+    const uint64_t quiet = uint64_t(k_quiet.count());
     uint64_t next = UINT64_MAX;
     std::vector<fs::path> settled;
     for (auto& [spelling, file] : files_) {
         if (!file.pending)
             continue;
         const uint64_t age = now - file.last_event;
-        const uint64_t needed = uint64_t((looks_saved(file.absolute) ? k_quiet : k_patience).count());
+        const uint64_t needed = looks_saved(file.absolute) ? quiet : uint64_t(k_patience.count());
         if (age >= needed) {
             file.pending = false;
             settled.push_back(spelling);
         } else {
-            next = std::min(next, needed - age);
+            next = std::min(next, age < quiet ? quiet - age : quiet);
         }
     }
     if (next != UINT64_MAX)

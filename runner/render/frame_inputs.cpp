@@ -45,6 +45,8 @@ Result<Date> parse_date(std::string_view iso) {
         rest.remove_prefix(1);
         good = take_time_of_day(rest, date.seconds);
     }
+    // Calendars keep a month in a byte: a month of 257 would look like January.
+    good = good && date.year <= 9999 && date.month <= 12 && date.day <= 31;
     const std::chrono::year_month_day day{std::chrono::year(date.year),
                                           std::chrono::month(unsigned(date.month)),
                                           std::chrono::day(unsigned(date.day))};

@@ -13,7 +13,7 @@ void Mouse::press(double x, double y) {
 
 void Mouse::move(double x, double y) {
     if (down_)
-        position_ = {float(std::floor(x)), float(std::floor(y))};
+        position_ = {float(std::floor(x)) + 0.0f, float(std::floor(y)) + 0.0f}; // -0 + 0 is 0
 }
 
 glm::vec4 Mouse::uniform() const {

@@ -25,7 +25,8 @@ glm::dmat4 camera_to_world(const OrbitCamera& camera) {
 
 double wrapped(double degrees) {
     const double turned = std::fmod(degrees, 360.0);
-    return turned < 0 ? turned + 360 : turned;
+    const double positive = turned < 0 ? turned + 360 : turned;
+    return positive < 360 ? positive : 0; // a hair below 0 rounds to 360
 }
 
 } // namespace

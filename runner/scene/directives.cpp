@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <optional>
 
 namespace tidemark::scene {
 namespace fs = std::filesystem;
@@ -19,6 +19,24 @@ struct Value {
     std::vector<double> numbers;
     bool whole = true;
 };
+
+/// What `#iChannelN::PARAM` directives say; they may stand before the source of their channel.
+struct SamplingWishes {
+    std::optional<Filter> magnify;
+    std::optional<Filter> minify;
+    std::optional<Mipmaps> mipmaps;
+    std::optional<Wrap> wrap;
+};
+
+/// What a channel is sampled like: noise by ShaderToy's defaults, pictures by the extension's.
+Sampling sampling_of(const Channel& channel, const SamplingWishes& wishes) {
+    Sampling sampling = std::holds_alternative<Noise>(channel.input) ? k_texture_sampling : Sampling{};
+    sampling.magnify = wishes.magnify.value_or(sampling.magnify);
+    sampling.minify = wishes.minify.value_or(sampling.minify);
+    sampling.mipmaps = wishes.mipmaps.value_or(sampling.mipmaps);
+    sampling.wrap = wishes.wrap.value_or(sampling.wrap);
+    return sampling;
+}
 
 /// A cursor over the tokens of one text. Every `expect` either moves on or explains what it wanted.
 class DirectiveReader {
@@ -46,7 +64,7 @@ private:
     Status read_directive();
     Status read_channel(std::string_view keyword, const SourceLocation& where);
     Status read_channel_source(Channel& channel, const SourceLocation& where);
-    Status read_channel_parameter(Channel& channel);
+    Status read_channel_parameter(SamplingWishes& wishes);
     Status read_knob(const SourceLocation& where);
     Status read_knob_values(Knob& knob);
     Status check_name_is_free(const Knob& knob) const;
@@ -59,6 +77,7 @@ private:
     std::vector<Token> tokens_;
     size_t position_ = 0;
     Directives directives_;
+    std::array<SamplingWishes, k_channel_count> wishes_;
     std::vector<text::Edit> edits_;
 };
 
@@ -111,6 +130,8 @@ Result<Directives> DirectiveReader::read_all() {
             return fail(std::move(read.error()));
         edits_.push_back({begin, tokens_[position_ - 1].end(), {}});
     }
+    for (size_t i = 0; i < wishes_.size(); ++i)
+        directives_.channels[i].sampling = sampling_of(directives_.channels[i], wishes_[i]);
     return std::move(directives_);
 }
 
@@ -132,21 +153,18 @@ Result<void> DirectiveReader::read_channel(std::string_view keyword, const Sourc
     if (digits.size() != 1 || digits[0] < '0' || digits[0] >= '0' + k_channel_count)
         return fail(error_at(where, fmt::format("#{}: the channels are iChannel0 to iChannel{}", keyword,
                                                 k_channel_count - 1)));
-    Channel& channel = directives_.channels[size_t(digits[0] - '0')];
+    const auto channel = size_t(digits[0] - '0');
     if (!accept(":"))
-        return read_channel_source(channel, where);
+        return read_channel_source(directives_.channels[channel], where);
     if (auto colon = expect(":"); !colon)
         return colon;
-    return read_channel_parameter(channel);
+    return read_channel_parameter(wishes_[channel]);
 }
 
 Result<void> DirectiveReader::read_channel_source(Channel& channel, const SourceLocation& where) {
     auto name = expect_string();
     if (!name)
         return fail(std::move(name.error()));
-    // Parameters that stand before the source keep what they said.
-    if (channel.where.file.empty() && *name != "noise")
-        channel.sampling = Sampling{};
     channel.where = where;
     if (*name == "noise") {
         channel.input = Noise{};
@@ -157,11 +175,13 @@ Result<void> DirectiveReader::read_channel_source(Channel& channel, const Source
     if (name->find("://") != std::string::npos)
         return fail(
             error_at(where, fmt::format("'{}' is not a local file: tidemark downloads nothing", *name)));
+    if (name->empty())
+        return fail(error_at(where, "the name of the picture is empty"));
     channel.input = Picture{(fs::path(where.file).parent_path() / *name).lexically_normal()};
     return {};
 }
 
-Result<void> DirectiveReader::read_channel_parameter(Channel& channel) {
+Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
     struct MinFilter {
         std::string_view name;
         Filter filter;
@@ -178,10 +198,6 @@ Result<void> DirectiveReader::read_channel_parameter(Channel& channel) {
     constexpr std::pair<std::string_view, Wrap> k_wraps[] = {
         {"Repeat", Wrap::repeat}, {"Clamp", Wrap::clamp}, {"Mirror", Wrap::mirror}};
 
-    if (channel.where.file.empty()) {
-        channel.sampling = Sampling{};
-        channel.where = here();
-    }
     const SourceLocation where = here();
     const std::string parameter(peek() ? peek()->text : std::string_view{});
     ++position_;
@@ -191,8 +207,8 @@ Result<void> DirectiveReader::read_channel_parameter(Channel& channel) {
     if (parameter == "MinFilter") {
         for (const MinFilter& filter : k_min_filters)
             if (filter.name == *value) {
-                channel.sampling.minify = filter.filter;
-                channel.sampling.mipmaps = filter.mipmaps;
+                wishes.minify = filter.filter;
+                wishes.mipmaps = filter.mipmaps;
                 return {};
             }
         return fail(
@@ -203,13 +219,13 @@ Result<void> DirectiveReader::read_channel_parameter(Channel& channel) {
     if (parameter == "MagFilter") {
         if (*value != "Nearest" && *value != "Linear")
             return fail(error_at(where, fmt::format("MagFilter \"{}\": give Nearest or Linear", *value)));
-        channel.sampling.magnify = *value == "Nearest" ? Filter::nearest : Filter::linear;
+        wishes.magnify = *value == "Nearest" ? Filter::nearest : Filter::linear;
         return {};
     }
     if (parameter == "WrapMode") {
         for (const auto& [name, wrap] : k_wraps)
             if (name == *value) {
-                channel.sampling.wrap = wrap;
+                wishes.wrap = wrap;
                 return {};
             }
         return fail(error_at(where, fmt::format("WrapMode \"{}\": give Repeat, Clamp or Mirror", *value)));
@@ -316,12 +332,17 @@ Result<KnobValue> DirectiveReader::read_value(const Knob& knob) {
     const KnobTypeInfo& type = info(knob.type);
     const size_t components = size_t(type.components);
     if (literal->numbers.size() != 1 && literal->numbers.size() != components)
-        return fail(error_at(
-            where, fmt::format("'{}' is a {}: it takes {} or one for all", knob.name, type.directive_name,
-                               components == 1 ? "one number" : fmt::format("{} numbers", components))));
+        return fail(error_at(where, fmt::format("'{}' is a {}: it takes {}", knob.name, type.directive_name,
+                                                components == 1
+                                                    ? "one number"
+                                                    : fmt::format("{} numbers or one for all", components))));
     if (type.whole && !literal->whole)
         return fail(error_at(
             where, fmt::format("'{}' is an {}: it takes whole numbers", knob.name, type.directive_name)));
+    for (const double number : literal->numbers)
+        if (type.whole && !fits_int(number))
+            return fail(error_at(where, fmt::format("'{}' is an {}: {:.0f} does not fit", knob.name,
+                                                    type.directive_name, number)));
     KnobValue value{};
     for (size_t i = 0; i < components; ++i)
         value[i] = literal->numbers[literal->numbers.size() == 1 ? 0 : i];

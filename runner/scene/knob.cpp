@@ -34,7 +34,7 @@ std::string_view trimmed(std::string_view text) {
 
 std::optional<double> parse_number(std::string_view text) {
     text = trimmed(text);
-    if (text.starts_with('+'))
+    if (text.starts_with('+') && !text.starts_with("+-"))
         text.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -96,8 +96,11 @@ const KnobTypeInfo* find_knob_type(std::string_view directive_name) {
 Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text) {
     const KnobTypeInfo& type = info(knob.type);
     const auto refuse = [&] {
-        std::string form = type.components == 1 ? (type.whole ? "a whole number" : "a number")
-                                                : fmt::format("{} numbers, as in 1,2", type.components);
+        const std::string_view kind = type.whole ? "whole number" : "number";
+        std::string form = fmt::format("a {}", kind);
+        if (type.components > 1)
+            form = fmt::format("{} {}s, as in {}", type.components, kind,
+                               std::string_view("1,2,3,4").substr(0, size_t(2 * type.components - 1)));
         if (knob.type == KnobType::color3)
             form += " or #rrggbb";
         return fail(ErrorCode::usage, fmt::format("'{}' is no value for {} ({}): give {}", text, knob.name,
@@ -114,7 +117,7 @@ Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text) {
     KnobValue value{};
     for (size_t i = 0; i < size_t(type.components); ++i) {
         value[i] = (*numbers)[numbers->size() == 1 ? 0 : i];
-        if (type.whole && (value[i] != std::trunc(value[i]) || std::abs(value[i]) > 2147483647.0))
+        if (type.whole && (value[i] != std::trunc(value[i]) || !fits_int(value[i])))
             return refuse();
     }
     return value;

@@ -47,6 +47,11 @@ struct Knob {
 /// The error (ErrorCode::usage) says what the knob takes.
 Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text);
 
+/// Whether a component of a whole-number type can hold `number`, which is whole.
+inline bool fits_int(double number) {
+    return number >= -2147483648.0 && number <= 2147483647.0;
+}
+
 /// The knob of that name, or an error with the nearest name there is.
 Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name);
 

@@ -41,6 +41,10 @@ std::vector<Include> find_includes(std::string_view text) {
     return found;
 }
 
+/// Files that include others twice double at each step: a few small ones could keep us busy for ever.
+constexpr size_t k_most = 10'000;
+constexpr size_t k_deepest = 100;
+
 class Expander {
 public:
     explicit Expander(const ReadText& read) : read_(read) {}
@@ -76,9 +80,10 @@ private:
             line = include.line;
         }
         result_.text.append(std::string_view(text).substr(copied), path.string(), line);
-        chain_.pop_back();
+        chain_.back().line = 0;
         if (result_.text.text().size() > k_largest_text)
             return refuse(fmt::format("the includes add up to more than {} MiB", k_largest_text >> 20));
+        chain_.pop_back();
         return {};
     }
 
@@ -87,8 +92,10 @@ private:
         for (const Level& level : chain_)
             if (level.file == target)
                 return refuse(fmt::format("'{}' includes itself", include.name));
-        if (chain_.size() > 100)
-            return refuse("includes are nested more than 100 deep");
+        if (chain_.size() > k_deepest)
+            return refuse(fmt::format("includes are nested more than {} deep", k_deepest));
+        if (++followed_ > k_most)
+            return refuse(fmt::format("there are more than {} includes to follow", k_most));
         auto pasted = expand(target);
         if (pasted || !pasted.error().diagnostics.empty())
             return pasted;
@@ -112,6 +119,7 @@ private:
 
     const ReadText& read_;
     ExpandedText result_;
+    size_t followed_ = 0;
     std::vector<Level> chain_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace tidemark::text {
 
@@ -19,7 +20,8 @@ SourceLocation LineMap::locate(int line, int column) const {
         return {};
     const Run& run = *std::prev(next);
     const std::string& file = files_[size_t(run.file)];
-    if (file.empty())
+    const bool countable = line - run.line <= std::numeric_limits<int>::max() - run.source_line;
+    if (file.empty() || !countable)
         return {};
     return {file, run.source_line + (line - run.line), column};
 }

@@ -41,7 +41,7 @@ private:
     }
 
     bool skip_to_token() {
-        skipped_ = false;
+        skipped_ = position_ == 0;
         while (position_ < text_.size()) {
             if (at_line_joint()) {
                 ++position_;
@@ -95,27 +95,34 @@ private:
         return token;
     }
 
-    TokenKind kind_here() const {
+    TokenKind kind_here() {
         const char c = at(position_);
         if (is_digit(c) || (c == '.' && is_digit(at(position_ + 1))))
             return TokenKind::number;
         if (is_word(c))
             return TokenKind::identifier;
-        if ((c == '"' || c == '\'') && closing_quote() != std::string_view::npos)
+        if ((c == '"' || c == '\'') && closes_on_line())
             return TokenKind::string;
         return TokenKind::punctuation;
     }
 
-    /// The quote that ends the string here, on the same line.
-    size_t closing_quote() const {
+    /// Whether the string here ends on its line; if so, `closing_quote_` is where. A quote without an end is
+    /// remembered: those of its kind behind it on the line have none either, and need no search.
+    bool closes_on_line() {
         const char quote = at(position_);
-        for (size_t i = position_ + 1; i < text_.size() && text_[i] != '\n'; ++i) {
-            if (text_[i] == '\\')
-                ++i;
-            else if (text_[i] == quote)
-                return i;
+        size_t& open_until = quote == '"' ? double_open_until_ : single_open_until_;
+        if (position_ < open_until)
+            return false;
+        size_t i = position_ + 1;
+        while (i < text_.size() && text_[i] != '\n') {
+            if (text_[i] == quote) {
+                closing_quote_ = i;
+                return true;
+            }
+            i += text_[i] == '\\' && i + 1 < text_.size() && text_[i + 1] != '\n' ? 2 : 1;
         }
-        return std::string_view::npos;
+        open_until = i;
+        return false;
     }
 
     size_t end_of(TokenKind kind) const {
@@ -126,7 +133,7 @@ private:
                 ++i;
             return i;
         case TokenKind::number: return end_of_number();
-        case TokenKind::string: return closing_quote() + 1;
+        case TokenKind::string: return closing_quote_ + 1;
         case TokenKind::punctuation: return i;
         }
         return i;
@@ -164,9 +171,12 @@ private:
     std::vector<Token> tokens_;
     size_t position_ = 0;
     size_t line_begin_ = 0;
+    size_t closing_quote_ = 0;     ///< of the string at `position_`
+    size_t double_open_until_ = 0; ///< no string in these quotes ends before
+    size_t single_open_until_ = 0;
     int line_ = 1;
     bool first_on_line_ = true;
-    bool skipped_ = true;
+    bool skipped_ = false; ///< blanks or comments, or there is nothing before
 };
 
 } // namespace

@@ -139,6 +139,10 @@ protected:
     Events gather_until(const InputEvent& last) {
         return gather([&](const Events& events) { return std::ranges::find(events, last) != events.end(); });
     }
+    /// Those that opening a window brings along.
+    void let_events_pass() {
+        gather([](const Events&) { return false; }, 200ms);
+    }
     template <class Event>
     static std::vector<Event> only(const Events& events) {
         std::vector<Event> chosen;
@@ -244,6 +248,12 @@ TEST_F(WindowTest, title_changes) {
               title_ + " wäre besser\n");
 }
 
+TEST_F(WindowTest, asks_to_be_drawn_again_when_it_reappears) {
+    let_events_pass();
+    act("windowunmap --sync {} windowmap {}");
+    EXPECT_THAT(gather_until(RedrawNeeded{}), Contains(InputEvent(RedrawNeeded{})));
+}
+
 TEST_F(WindowTest, full_screen_and_back) {
     window_->toggle_full_screen();
     const std::string screen = output_of("xdotool getdisplaygeometry");
@@ -278,6 +288,7 @@ TEST_F(WindowTest, events_follow_a_move) {
 }
 
 TEST_F(WindowTest, wait_ends_when_another_thread_wakes_it) {
+    let_events_pass();
     const auto start = Clock::now();
     std::thread waker([] {
         std::this_thread::sleep_for(50ms);
@@ -290,6 +301,7 @@ TEST_F(WindowTest, wait_ends_when_another_thread_wakes_it) {
 }
 
 TEST_F(WindowTest, wait_sleeps) {
+    let_events_pass();
     const auto start = Clock::now();
     const std::clock_t before = std::clock();
     window_->wait(0.3);

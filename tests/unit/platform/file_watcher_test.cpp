@@ -254,13 +254,19 @@ TEST_F(FileWatcherTest, folder_deleted_while_something_has_it_open) {
     const fs::path file = folder_ / "scene/a.glsl";
     save_in_place(file);
     watch({file});
-    const fs::directory_iterator open(folder_ / "scene");
-    fs::remove_all(folder_ / "scene");
-    fs::create_directory(folder_ / "scene");
-    save_in_place(file);
-    EXPECT_EQ(next_change(), Paths{file});
-    save_in_place(file);
-    EXPECT_EQ(next_change(), Paths{file});
+    for (const auto pause : {0ms, 0ms, 0ms, 20ms}) {
+        const fs::directory_iterator open(folder_ / "scene");
+        fs::remove(file);
+        std::this_thread::sleep_for(pause);
+        fs::remove(folder_ / "scene");
+        std::this_thread::sleep_for(pause);
+        fs::create_directory(folder_ / "scene");
+        std::this_thread::sleep_for(pause);
+        save_in_place(file);
+        EXPECT_EQ(next_change(), Paths{file});
+        save_in_place(file);
+        EXPECT_EQ(next_change(), Paths{file});
+    }
 }
 
 TEST_F(FileWatcherTest, folder_swapped_for_another) {

@@ -1,0 +1,3 @@
+#ifndef PI
+#define PI 3.14159265
+#endif

@@ -1,0 +1,2 @@
+
+#include "../error_cycle.glsl"

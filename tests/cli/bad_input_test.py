@@ -1,0 +1,193 @@
+"""Scenes that are not scenes: one clear line (or the author's own lines), exit code 3, nothing written."""
+import os
+
+from support.program import ProgramTest, environment, main
+
+GOOD = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n"
+READS_CHANNEL = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p); }\n"
+
+
+class BadScene(ProgramTest):
+    """What every command that takes a scene says about one that does not load."""
+
+    def expect_refusal(self, scene: str, stderr: str) -> None:
+        for command in (["capture", "-o", "-"], ["inspect"], ["inspect", "--json"], ["view"], []):
+            with self.subTest(command=command):
+                self.expect_failure([*command, scene], 3, stderr)
+
+    def test_missing(self):
+        self.expect_refusal("none.glsl", "tidemark: error: cannot read 'none.glsl': no such file")
+
+    def test_directory(self):
+        (self.folder / "folder.glsl").mkdir()
+        self.expect_refusal("folder.glsl", "tidemark: error: cannot read 'folder.glsl': it is a directory")
+
+    def test_neither_file_nor_directory(self):
+        os.mkfifo(self.folder / "pipe.glsl")
+        self.expect_refusal("pipe.glsl", "tidemark: error: cannot read 'pipe.glsl': it is not a regular file")
+
+    def test_below_a_file(self):
+        self.write("a.glsl", GOOD)
+        self.expect_failure_like(["capture", "a.glsl/b.glsl"], 3,
+                                 "tidemark: error: cannot read 'a.glsl/b.glsl': [Nn]o.*")
+
+    def test_binary_junk(self):
+        self.write("junk.glsl", bytes(range(256)) * 40)
+        self.expect_refusal("junk.glsl", "tidemark: error: 'junk.glsl' is a binary file, not shader text")
+
+    def test_bytes_that_are_no_text_but_have_no_zero(self):
+        self.write("junk.glsl", bytes(range(128, 256)) * 40)
+        self.expect_refusal("junk.glsl", "tidemark: error: 'junk.glsl' has no mainImage: a scene defines "
+                                         "void mainImage(out vec4 fragColor, in vec2 fragCoord)")
+
+    def test_empty(self):
+        self.write("empty.glsl", "")
+        self.expect_refusal("empty.glsl", "tidemark: error: 'empty.glsl' is empty: a scene defines mainImage")
+
+    def test_nothing_but_comments(self):
+        self.write("blank.glsl", "// mainImage\n/* mainImage */\n")
+        self.expect_refusal("blank.glsl", "tidemark: error: 'blank.glsl' is empty: a scene defines mainImage")
+
+    def test_no_main_image(self):
+        self.write("helpers.glsl", "float twice(float x) { return 2.0 * x; }\n")
+        self.expect_refusal("helpers.glsl",
+                            "tidemark: error: 'helpers.glsl' has no mainImage: a scene defines "
+                            "void mainImage(out vec4 fragColor, in vec2 fragCoord)")
+
+    def test_include_missing_names_the_chain(self):
+        self.write("a.glsl", f'\n#include "lib/b.glsl"\n{GOOD}')
+        self.write("lib/b.glsl", 'float b;\n\n#include "c.glsl"\n')
+        self.expect_refusal("a.glsl", "lib/b.glsl:3: error: cannot read 'lib/c.glsl': no such file\n"
+                                      "a.glsl:2: note: included from here")
+
+    def test_include_cycle_names_the_chain(self):
+        self.write("a.glsl", f'#include "lib/b.glsl"\n{GOOD}')
+        self.write("lib/b.glsl", '\n#include "../a.glsl"\n')
+        self.expect_refusal("a.glsl", "lib/b.glsl:2: error: '../a.glsl' includes itself\n"
+                                      "a.glsl:1: note: included from here")
+
+    def test_include_of_itself(self):
+        self.write("a.glsl", f'{GOOD}#include "a.glsl"\n')
+        self.expect_refusal("a.glsl", "a.glsl:2: error: 'a.glsl' includes itself")
+
+    def test_directive_that_is_wrong(self):
+        self.write("a.glsl", f"\n#iUniform flaot speed = 1.0\n{GOOD}")
+        self.expect_refusal("a.glsl", "a.glsl:2: error: expected a type (float, vec2, vec3, vec4, color3, int, "
+                                      "ivec2, ivec3 or ivec4) but found 'flaot'")
+
+    def test_channel_that_does_not_exist(self):
+        self.write("a.glsl", f'#iChannel4 "noise"\n{GOOD}')
+        self.expect_refusal("a.glsl", "a.glsl:1: error: #iChannel4: the channels are iChannel0 to iChannel3")
+
+    def test_picture_from_the_net(self):
+        self.write("a.glsl", f'#iChannel0 "https://example.org/a.png"\n{READS_CHANNEL}')
+        self.expect_refusal("a.glsl", "a.glsl:1: error: 'https://example.org/a.png' is not a local file: "
+                                      "tidemark downloads nothing")
+
+
+class DoesNotCompile(ProgramTest):
+    """The words behind `file:line: error:` are the driver's."""
+
+    def expect_refusal(self, scene: str, pattern: str) -> None:
+        for command in (["capture", "-o", "-"], ["inspect"]):
+            with self.subTest(command=command):
+                self.expect_failure_like([*command, scene], 3, pattern)
+
+    def test_error_has_the_authors_line(self):
+        self.write("a.glsl", "\n\nvoid mainImage(out vec4 c, in vec2 p) {\n    c = nothing;\n}\n")
+        self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:4: error: [^\n]*"
+                                      r"(\n[^\n]+)*")
+
+    def test_error_in_an_included_file_has_that_files_line(self):
+        self.write("a.glsl", f'\n#include "lib/b.glsl"\n{GOOD}')
+        self.write("lib/b.glsl", "float f() { return 1.0; }\nfloat g() { return nothing; }\n")
+        self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\nlib/b\.glsl:2: error: .*"
+                                      r"(\n[^\n]+)*")
+
+    def test_error_behind_an_include_has_its_own_line(self):
+        self.write("a.glsl", '#include "b.glsl"\nvoid mainImage(out vec4 c, in vec2 p) { c = nothing; }\n')
+        self.write("b.glsl", "float f() {\n    return 1.0;\n}")
+        self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:2: error: .*"
+                                      r"(\n[^\n]+)*")
+
+    def test_directives_move_no_line(self):
+        self.write("a.glsl", "#iUniform float a = 1.0 in {\n 0.0,\n 2.0 }\n"
+                             "void mainImage(out vec4 c, in vec2 p) { c = nothing; }\n")
+        self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:4: error: .*"
+                                      r"(\n[^\n]+)*")
+
+    def test_carriage_returns_move_no_line(self):
+        self.write("a.glsl", "\r\n\r\nvoid mainImage(out vec4 c, in vec2 p) {\r\n c = nothing;\r\n}\r\n")
+        self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:4: error: .*"
+                                      r"(\n[^\n]+)*")
+
+    def test_main_image_of_another_shape(self):
+        self.write("a.glsl", "vec4 mainImage(vec2 p) { return vec4(p, 0.0, 1.0); }\n")
+        self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile(\n[^\n]+)+")
+
+
+class BadPicture(ProgramTest):
+    def capture_of(self, name: str, stderr: str) -> None:
+        self.write("a.glsl", f'\n#iChannel0 "{name}"\n{READS_CHANNEL}')
+        for command in ("capture", "inspect"):
+            with self.subTest(command=command):
+                self.expect_failure([command, "a.glsl"], 3, stderr)
+
+    def test_missing(self):
+        self.capture_of("none.png", "a.glsl:2: error: cannot read 'none.png': no such file")
+
+    def test_directory(self):
+        (self.folder / "folder.png").mkdir()
+        self.capture_of("folder.png", "a.glsl:2: error: cannot read 'folder.png': it is a directory")
+
+    def test_text(self):
+        self.write("text.png", "hello\n")
+        self.capture_of("text.png", "a.glsl:2: error: cannot read 'text.png': "
+                                    "it is no PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture")
+
+    def test_empty(self):
+        self.write("empty.png", "")
+        self.capture_of("empty.png", "a.glsl:2: error: cannot read 'empty.png': the file is empty")
+
+    def test_cut_short(self):
+        self.succeed("bake", "noise", "-o", "noise.png")
+        whole = (self.folder / "noise.png").read_bytes()
+        self.write("half.png", whole[:len(whole) // 2])
+        self.write("a.glsl", f'\n#iChannel0 "half.png"\n{READS_CHANNEL}')
+        self.expect_failure_like(["capture", "a.glsl"], 3, "a.glsl:2: error: cannot read 'half.png': .+")
+
+    def test_named_by_an_option(self):
+        self.write("a.glsl", READS_CHANNEL)
+        self.expect_failure(["capture", "a.glsl", "--channel", "0=none.png"], 3,
+                            "tidemark: error: cannot read 'none.png': no such file")
+
+    def test_that_nobody_reads_is_not_missed(self):
+        self.write("a.glsl", f'#iChannel0 "none.png"\n{GOOD}')
+        self.succeed("capture", "a.glsl", "--size", "4x4")
+
+
+class NoContext(ProgramTest):
+    WORDS = ("tidemark: error: no OpenGL 4.5 context without a window: surfaceless: no driver offers it "
+             "(EGL_BAD_PARAMETER); display: no driver offers it (EGL_BAD_PARAMETER). Install a driver (Debian's "
+             "libgl1-mesa-dri draws on the CPU; a graphics card needs its vendor's EGL driver); "
+             "`tidemark inspect --devices` lists what there is")
+
+    def test_says_what_was_tried_and_what_to_do(self):
+        self.write("a.glsl", GOOD)
+        without_driver = environment(__EGL_VENDOR_LIBRARY_FILENAMES="/dev/null")
+        for command in ("capture", "inspect"):
+            with self.subTest(command=command):
+                self.expect_failure([command, "a.glsl"], 77, self.WORDS, env=without_driver)
+
+    def test_a_scene_that_does_not_load_comes_first(self):
+        self.expect_failure(["capture", "none.glsl"], 3, "tidemark: error: cannot read 'none.glsl': no such file",
+                            env=environment(__EGL_VENDOR_LIBRARY_FILENAMES="/dev/null"))
+
+    def test_device_that_does_not_exist(self):
+        self.write("a.glsl", GOOD)
+        self.expect_failure_like(["capture", "a.glsl", "--device", "gpu"], 2,
+                                 "tidemark: error: unknown device 'gpu'; there are auto, surfaceless, .*display")
+
+
+if __name__ == "__main__":
+    main()

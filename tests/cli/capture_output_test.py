@@ -1,0 +1,279 @@
+"""What `capture` writes: names, formats, metadata, --json, raw frames; and what it says when it cannot."""
+import hashlib
+import json
+import resource
+import signal
+import struct
+import subprocess
+
+from support import png
+from support.program import PROGRAM, ProgramTest, environment, main
+
+# Every pixel and every frame is another one.
+SHADER = """void mainImage(out vec4 c, in vec2 p) {
+    c = vec4((p.x - 0.5) / 255.0, (p.y - 0.5) / 255.0, float(iFrame) / 255.0, 0.25);
+}
+"""
+SIZE = ("--size", "7x5")
+
+
+class CaptureTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("wave.glsl", SHADER)
+
+    def capture(self, *options: str, **more):
+        return self.succeed("capture", "wave.glsl", *SIZE, *options, **more)
+
+    def picture(self, name: str) -> png.Picture:
+        return png.read(self.folder / name)
+
+
+class Names(CaptureTest):
+    def test_default_is_the_scenes_name_in_this_folder(self):
+        done = self.capture()
+        self.assertEqual(done.stderr, "wrote wave.png\n")
+        self.assertEqual(done.stdout, b"")
+        self.assertEqual(self.files(), {"wave.glsl", "wave.png"})
+
+    def test_default_of_several_frames(self):
+        done = self.capture("--frames", "8-12x2")
+        self.assertEqual(self.files(), {"wave.glsl", "wave.0008.png", "wave.0010.png", "wave.0012.png"})
+        self.assertEqual(done.stderr.splitlines()[-1], "wrote 3 frames, wave.0008.png to wave.0012.png")
+
+    def test_ranges_are_inclusive_and_may_run_backwards(self):
+        done = self.capture("--frames", "3-1,7,10-14x3", "-o", "f%d.png")
+        self.assertEqual(self.files() - {"wave.glsl"}, {f"f{i}.png" for i in (1, 2, 3, 7, 10, 13)})
+        self.assertEqual(done.stderr.splitlines()[-1], "wrote 6 frames, f3.png to f13.png")
+
+    def test_patterns(self):
+        for pattern, name in [("a.%04d.png", "a.0003.png"), ("b%d.png", "b3.png"), ("c.###.png", "c.003.png"),
+                              ("d#.png", "d3.png"), ("100%%.png", "100%.png"), ("e.PNG", "e.PNG")]:
+            with self.subTest(pattern=pattern):
+                done = self.capture("--frame", "3", "-o", pattern)
+                self.assertEqual(done.stderr, f"wrote {name}\n")
+                self.assertTrue((self.folder / name).exists())
+
+    def test_a_frame_named_twice_is_one_file(self):
+        done = self.capture("--frames", "0-2,1-3,2", "-o", "f%d.png")
+        self.assertEqual(self.files() - {"wave.glsl"}, {f"f{i}.png" for i in range(4)})
+        self.assertEqual(done.stderr.splitlines()[-1], "wrote 4 frames, f0.png to f3.png")
+
+    def test_a_file_that_exists_is_replaced(self):
+        self.write("wave.png", "old")
+        self.capture()
+        self.assertEqual(self.picture("wave.png").width, 7)
+
+    def test_progress_has_a_line_for_each_tenth(self):
+        done = self.capture("--frames", "0-19", "-o", "f%d.png")
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 11)
+        for tenth, line in enumerate(lines[:10], 1):
+            self.assertRegex(line, rf"\A{2 * tenth}/20 frames, [0-9.]+ a second, \d+ s left\Z")
+        self.assertEqual(lines[10], "wrote 20 frames, f0.png to f19.png")
+
+    def test_errors(self):
+        formats = ".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr"
+        for options, words in [
+            ("-o a.xyz", f"cannot tell the picture format of 'a.xyz': its name must end in {formats}"),
+            ("-o a", f"cannot tell the picture format of 'a': its name must end in {formats}"),
+            ("-o a.png --frames 0-1", "-o a.png: 2 frames need a frame number in the name, as in wave.%04d.png"),
+            ("-o a%x.png", "-o a%x.png: write the frame number as %04d or ####"),
+            ("-o a%d.%d.png", "-o a%d.%d.png: it has two frame numbers; one is enough"),
+            ("-o - --json", "--json and -o - both want standard output: give one of them"),
+            ("-o - --depth 16", "--depth: raw frames on standard output always have 8 bits"),
+            ("--depth 12", "--depth 12: give 8, 16, half or float"),
+            ("-o a.exr --depth 16", "'a.exr' cannot hold u16 samples: .exr holds half, f32"),
+            ("-o a.jpg --depth float", "'a.jpg' cannot hold f32 samples: .jpg holds u8"),
+        ]:
+            with self.subTest(options=options):
+                self.expect_failure(["capture", "wave.glsl", *options.split()], 2, f"tidemark: error: {words}")
+
+
+class Formats(CaptureTest):
+    def test_png_holds_the_pixels(self):
+        self.capture("--frame", "9")
+        picture = self.picture("wave.png")
+        self.assertEqual((picture.depth, picture.channels), (8, 3))
+        for x in range(7):
+            for y in range(5):
+                self.assertEqual(picture.pixel(x, y), (x, y, 9))
+
+    def test_png_of_16_bits_is_drawn_in_floats(self):
+        self.capture("--depth", "16", "--frame", "3")
+        picture = self.picture("wave.png")
+        self.assertEqual(picture.depth, 16)
+        self.assertEqual(picture.pixel(3, 1), (3 * 257, 257, 3 * 257))
+
+    def test_metadata(self):
+        self.capture("--frame", "90", "--fps", "60")
+        text = self.picture("wave.png").text
+        self.assertEqual(text["tidemark:Scene"], "wave.glsl")
+        self.assertEqual(text["tidemark:Frame"], "90")
+        self.assertEqual(text["tidemark:iTime"], "1.5")
+        self.assertRegex(text["tidemark:Driver"], r"\A.+, OpenGL 4\..+\Z")
+        version = self.succeed("--version").stdout.decode().strip()
+        self.assertEqual(text["tidemark:Software"], version)
+
+    def test_other_formats(self):
+        for options, start in [("-o a.exr", b"\x76\x2f\x31\x01"), ("-o b.exr --depth float", b"\x76\x2f\x31\x01"),
+                               ("-o c.exr --depth half", b"\x76\x2f\x31\x01"), ("-o d.jpg", b"\xff\xd8\xff"),
+                               ("-o e.tif --depth 16", b"II*\0"), ("-o f.hdr", b"#?RADIANCE")]:
+            with self.subTest(options=options):
+                self.capture(*options.split())
+                name = options.split()[1]
+                self.assertTrue((self.folder / name).read_bytes().startswith(start))
+
+    def test_exr_channel_types(self):
+        # In the channel list of an EXR header the type stands behind the name: 1 is half, 2 is float.
+        for options, kind in [("-o a.exr", 1), ("-o a.exr --depth float", 2)]:
+            self.capture(*options.split())
+            header = (self.folder / "a.exr").read_bytes()[:2000]
+            at = header.index(b"chlist\0") + len(b"chlist\0") + 4
+            self.assertEqual(header[at:at + 6], b"B\0" + bytes([kind, 0, 0, 0]))
+
+    def test_float_picture_can_be_read_back_by_a_scene(self):
+        self.write("bright.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1000.5, -2.0, p.x, 1.0); }\n")
+        self.succeed("capture", "bright.glsl", *SIZE, "-o", "bright.exr", "--depth", "float")
+        self.write("reads.glsl", """#iChannel0 "bright.exr"
+            void mainImage(out vec4 c, in vec2 p) {
+                vec3 t = texelFetch(iChannel0, ivec2(p), 0).rgb;
+                c = vec4(t == vec3(1000.5, -2.0, p.x) ? 1.0 : 0.0);
+            }
+            """)
+        self.succeed("capture", "reads.glsl", *SIZE)
+        self.assertEqual(set(self.picture("reads.png").rows), {b"\xff" * 21})
+
+
+class RawFrames(CaptureTest):
+    def test_are_rgb_from_the_top_and_nothing_else(self):
+        done = self.capture("--frames", "4,2,2", "-o", "-")
+        self.assertEqual(len(done.stdout), 3 * 7 * 5 * 3)
+        self.assertEqual(self.files(), {"wave.glsl"})
+        frames = [done.stdout[i * 105:(i + 1) * 105] for i in range(3)]
+        self.capture("--frames", "2,4", "-o", "f%d.png")
+        self.assertEqual(frames[0], b"".join(self.picture("f4.png").rows))
+        self.assertEqual(frames[1], b"".join(self.picture("f2.png").rows))
+        self.assertEqual(frames[2], frames[1])
+
+    def test_of_one_frame_say_nothing(self):
+        self.assertEqual(self.capture("-o", "-").stderr, "")
+
+
+class Json(CaptureTest):
+    def test_object_is_complete_and_true(self):
+        done = self.capture("--frames", "0-4x2", "--fps", "30", "-o", "f%03d.png", "--json")
+        report = json.loads(done.stdout)
+        self.assertEqual(list(report), ["tidemark", "scene", "size", "driver", "renderer", "left_out", "frames"])
+        self.assertEqual(report["scene"], "wave.glsl")
+        self.assertEqual(report["size"], [7, 5])
+        self.assertEqual(f"tidemark {report['tidemark']}\n".encode(), self.succeed("--version").stdout)
+        self.assertEqual(report["left_out"], [
+            "uniforms: iResolution, iTime, iTimeDelta, iFrameRate, iMouse, iDate, iSampleRate, iChannelTime, "
+            "iChannelResolution, iCamera",
+            "channels: iChannel0, iChannel1, iChannel2, iChannel3", "noise texture"])
+        self.assertEqual([f["frame"] for f in report["frames"]], [0, 2, 4])
+        self.assertEqual([f["iTime"] for f in report["frames"]], [0, 2 / 30, 4 / 30])
+        self.assertEqual([f["file"] for f in report["frames"]], ["f000.png", "f002.png", "f004.png"])
+        for frame in report["frames"]:
+            self.assertEqual(list(frame), ["frame", "iTime", "file", "sha256", "milliseconds"])
+            self.assertEqual(frame["sha256"], self.picture(frame["file"]).sha256())
+            self.assertGreater(frame["milliseconds"], 0)
+
+    def test_frame_alone_equals_the_same_frame_of_a_sequence(self):
+        self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(p.x * 0.37 + iTime * "
+                                "7.3), iTimeDelta * 20.0, fract(float(iFrame) * 0.1), 1.0); }\n")
+        sequence = json.loads(self.capture("--frames", "0-12", "-o", "s%d.png", "--json").stdout)["frames"]
+        self.assertEqual(len({frame["sha256"] for frame in sequence}), 13)
+        for frame in (0, 7, 12):
+            alone = json.loads(self.capture("--frame", f"{frame}", "-o", "alone.png", "--json").stdout)["frames"]
+            self.assertEqual(alone[0]["sha256"], sequence[frame]["sha256"])
+            # The files are the same too, to the byte.
+            self.assertEqual((self.folder / "alone.png").read_bytes(),
+                             (self.folder / f"s{frame}.png").read_bytes())
+
+    def test_hash_of_a_float_picture_is_of_its_floats(self):
+        self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x, -p.y, 1000.25, 0.0); }\n")
+        report = json.loads(self.capture("-o", "a.exr", "--depth", "float", "--json").stdout)
+        floats = [value for y in range(5) for x in range(7) for value in (x + 0.5, -y - 0.5, 1000.25, 1.0)]
+        self.assertEqual(report["frames"][0]["sha256"],
+                         hashlib.sha256(struct.pack("<140f", *floats)).hexdigest())
+
+
+class CannotWrite(CaptureTest):
+    def test_folder_that_does_not_exist(self):
+        self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "none/a.png"], 4,
+                            "tidemark: error: cannot write 'none/a.png': No such file or directory")
+
+    def test_folder_that_is_a_file(self):
+        self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "wave.glsl/a.png"], 4,
+                            "tidemark: error: cannot write 'wave.glsl/a.png': Not a directory")
+
+    def test_name_that_is_a_folder(self):
+        (self.folder / "a.png").mkdir()
+        self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "a.png"], 4,
+                            "tidemark: error: cannot write 'a.png': Is a directory")
+
+    def test_full_disk(self):
+        def small_files_only():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        self.write("loud.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(sin(dot(p, vec2(91.7, 3.1))) * 4311.3)); }\n")
+        self.write("a.png", "what was there before")
+        self.expect_failure(["capture", "loud.glsl", "--size", "64x64", "-o", "a.png"], 4,
+                            "tidemark: error: cannot write 'a.png': File too large", preexec_fn=small_files_only)
+        self.assertEqual((self.folder / "a.png").read_text(), "what was there before")
+
+    def test_one_error_for_many_frames(self):
+        done = self.run_program("capture", "wave.glsl", *SIZE, "--frames", "0-20", "-o", "none/%d.png")
+        self.assertEqual(done.returncode, 4)
+        errors = [line for line in done.stderr.splitlines() if "error" in line]
+        self.assertEqual(errors, ["tidemark: error: cannot write 'none/0.png': No such file or directory"])
+        self.assertEqual(self.files(), {"wave.glsl"})
+
+    def test_standard_output_that_is_full(self):
+        for options in (["--json"], ["-o", "-"]):
+            with self.subTest(options=options), open("/dev/full", "wb") as full:
+                done = self.run_program("capture", "wave.glsl", *SIZE, *options, stdout=full)
+                self.assertEqual(done.stderr,
+                                 "tidemark: error: cannot write to standard output: No space left on device\n")
+                self.assertEqual(done.returncode, 4)
+
+    def test_standard_output_that_is_closed(self):
+        for options in ("--json", "-o -"):
+            with self.subTest(options=options):
+                line = f'exec "$0" capture wave.glsl {" ".join(SIZE)} {options} >&-'
+                done = subprocess.run(["bash", "-c", line, PROGRAM], cwd=self.folder, env=environment(),
+                                      stderr=subprocess.PIPE, text=True)
+                self.assertEqual(done.stderr,
+                                 "tidemark: error: cannot write to standard output: Bad file descriptor\n")
+                self.assertEqual(done.returncode, 4)
+
+    def test_reader_that_goes_away(self):
+        line = f'("$0" capture wave.glsl {" ".join(SIZE)} --frames 0-99999 -o - 2>err; echo $? >code) | head -c 105'
+        done = subprocess.run(["bash", "-c", line, PROGRAM], cwd=self.folder, env=environment(),
+                              stdout=subprocess.PIPE, timeout=120)
+        self.assertEqual(len(done.stdout), 105)
+        self.assertEqual((self.folder / "code").read_text(), "4\n")
+        self.assertEqual((self.folder / "err").read_text().splitlines()[-1],
+                         "tidemark: error: cannot write to standard output: Broken pipe")
+
+    def test_standard_error_that_is_closed_is_no_error(self):
+        line = f'exec "$0" capture wave.glsl {" ".join(SIZE)} 2>&-'
+        done = subprocess.run(["bash", "-c", line, PROGRAM], cwd=self.folder, env=environment())
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(self.picture("wave.png").width, 7)
+
+
+class Repeatable(CaptureTest):
+    def test_same_line_same_file(self):
+        self.capture("-o", "a.png")
+        self.capture("-o", "b.png")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        self.assertEqual(hashlib.sha256(self.picture("a.png").rgba_from_bottom()).hexdigest(),
+                         self.picture("b.png").sha256())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,39 @@
+"""`view` where there is no window to be had. What it does in one is in tests/live."""
+import unittest
+
+from support.program import ProgramTest, environment, main
+
+GOOD = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n"
+
+
+class NoDisplay(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.glsl", GOOD)
+        if b"\n  view " not in self.succeed("--help").stdout:
+            raise unittest.SkipTest("this build has no window")
+
+    def test_says_so_and_names_capture(self):
+        for arguments in (["view", "a.glsl"], ["a.glsl"]):
+            with self.subTest(arguments=arguments):
+                self.expect_failure(arguments, 77,
+                                    "tidemark: error: cannot open a window: there is no display (neither DISPLAY nor "
+                                    "WAYLAND_DISPLAY is set); `tidemark capture` draws without one")
+
+    def test_display_that_does_not_answer(self):
+        self.expect_failure(["view", "a.glsl"], 77,
+                            "tidemark: error: cannot open a window: X11: Failed to open display :4711; "
+                            "`tidemark capture` draws without one", env=environment(DISPLAY=":4711"))
+
+    def test_bad_options_come_first(self):
+        self.expect_failure(["view", "a.glsl", "--size", "0x5"], 2,
+                            "tidemark: error: --size 0x5: give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360")
+        self.expect_failure(["view", "a.glsl", "--camera", "1"], 2,
+                            "tidemark: error: --camera 1: give azimuth,elevation,distance as in 30,20,10 (degrees, "
+                            "degrees, a distance above 0)")
+        self.expect_failure(["view", "a.glsl", "--set", "x=1"], 2,
+                            "tidemark: error: the scene has no knob 'x': it declares none with #iUniform")
+
+
+if __name__ == "__main__":
+    main(needs_context=False)

@@ -1,0 +1,96 @@
+"""Runs the program under test and says what it did. The program is $TIDEMARK, else the release build."""
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = os.environ.get("TIDEMARK", str(ROOT / "build" / "release" / "tidemark"))
+SKIPPED = 77  # CTest's SKIP_RETURN_CODE
+
+# Long enough for a sanitized program on a busy machine; a test that runs into it hangs.
+TIME_LIMIT = 300
+
+
+def environment(**changes: str | None) -> dict[str, str]:
+    """The environment of a script with no display. A change to None removes the variable."""
+    variables = dict(os.environ, DISPLAY="", WAYLAND_DISPLAY="")
+    for name, value in changes.items():
+        if value is None:
+            variables.pop(name, None)
+        else:
+            variables[name] = value
+    return variables
+
+
+def has_context() -> bool:
+    """Whether this machine has an OpenGL context without a window."""
+    listed = subprocess.run([PROGRAM, "inspect", "--devices", "--json"], stdout=subprocess.PIPE,
+                            env=environment(), timeout=TIME_LIMIT, check=True)
+    return any("unusable" not in device for device in json.loads(listed.stdout)["devices"])
+
+
+def main(needs_context: bool = True) -> None:
+    """unittest.main for a file that CTest runs: says "skipped" where the machine cannot do it."""
+    if needs_context and not has_context():
+        print("skipped: no OpenGL context")
+        sys.exit(SKIPPED)
+    unittest.main()
+
+
+class ProgramTest(unittest.TestCase):
+    """Each test gets an empty folder, in which the program runs."""
+
+    maxDiff = None
+
+    def setUp(self) -> None:
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tidemark-test-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def write(self, name: str, content: str | bytes) -> pathlib.Path:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    def files(self) -> set[str]:
+        """Everything in the folder, hidden temporary files included."""
+        return {str(p.relative_to(self.folder)) for p in self.folder.rglob("*") if not p.is_dir()}
+
+    def run_program(self, *arguments: str, env: dict[str, str] | None = None, **options
+                    ) -> subprocess.CompletedProcess:
+        """stdout is bytes, stderr text."""
+        options.setdefault("stdout", subprocess.PIPE)
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, env=env or environment(), timeout=TIME_LIMIT, **options)
+        done.stderr = done.stderr.decode()
+        return done
+
+    def succeed(self, *arguments: str, **options) -> subprocess.CompletedProcess:
+        done = self.run_program(*arguments, **options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def expect_failure(self, arguments: list[str], code: int, stderr: str, **options) -> None:
+        """Fails with these very words, with nothing on standard output and no file made."""
+        before = self.files()
+        done = self.run_program(*arguments, **options)
+        self.assertEqual(done.stderr, stderr + "\n")
+        self.assertEqual(done.returncode, code)
+        self.assertFalse(done.stdout)
+        self.assertEqual(self.files(), before)
+
+    def expect_failure_like(self, arguments: list[str], code: int, pattern: str, **options) -> None:
+        """As expect_failure, where the driver or the machine chooses some of the words."""
+        before = self.files()
+        done = self.run_program(*arguments, **options)
+        self.assertRegex(done.stderr, rf"\A{pattern}\n\Z")
+        self.assertEqual(done.returncode, code)
+        self.assertFalse(done.stdout)
+        self.assertEqual(self.files(), before)

@@ -1,0 +1,42 @@
+// What the tests of GLSL text share: scenes that are nowhere but here.
+#pragma once
+
+#include "glsl/assemble.hpp"
+#include "scene/directives.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace tidemark::glsl {
+
+/// A scene of one pass, written in `a.glsl`.
+inline scene::Scene scene_of(std::string_view text) {
+    scene::Scene scene;
+    scene.passes.resize(1);
+    scene.passes[0].text.append(text, "a.glsl", 1);
+    if (auto directives = scene::take_directives(scene.passes[0].text))
+        scene.knobs = std::move(directives->knobs);
+    return scene;
+}
+
+/// What the driver gets for it.
+inline ShaderSource source_of(std::string_view text) {
+    const scene::Scene scene = scene_of(text);
+    return assemble(scene, scene.image());
+}
+
+/// How often `piece` stands in `text`.
+inline int count(std::string_view text, std::string_view piece) {
+    int found = 0;
+    for (size_t at = text.find(piece); at != text.npos; at = text.find(piece, at + piece.size()))
+        ++found;
+    return found;
+}
+
+/// The number of the line on which `piece` first stands, counted from 1.
+inline int line_of(const ShaderSource& source, std::string_view piece) {
+    const size_t at = source.text().find(piece);
+    return at == std::string::npos ? 0 : 1 + count(std::string_view(source.text()).substr(0, at), "\n");
+}
+
+} // namespace tidemark::glsl

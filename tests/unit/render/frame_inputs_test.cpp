@@ -1,0 +1,96 @@
+#include "render/frame_inputs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ctime>
+
+namespace tidemark::render {
+namespace {
+
+TEST(ParseDate, a_day_begins_at_midnight) {
+    EXPECT_EQ(parse_date("2024-12-31"), (Date{2024, 11, 31, 0}));
+    EXPECT_EQ(parse_date("1-1-1"), (Date{1, 0, 1, 0}));
+}
+
+TEST(ParseDate, months_count_from_zero_afterwards) {
+    EXPECT_EQ(parse_date("2024-01-05")->month, 0);
+    EXPECT_EQ(parse_date("2024-1-5")->month, 0);
+}
+
+TEST(ParseDate, with_a_time_of_day) {
+    EXPECT_EQ(parse_date("2024-12-31T23:59:58.5"), (Date{2024, 11, 31, 86398.5}));
+    EXPECT_EQ(parse_date("2024-12-31 00:00:00"), (Date{2024, 11, 31, 0}));
+    EXPECT_EQ(parse_date("2024-12-31T01:02:03.125")->seconds, 3723.125);
+    EXPECT_EQ(parse_date("2016-12-31T23:59:60")->seconds, 86400); // a leap second
+}
+
+TEST(ParseDate, leap_years) {
+    EXPECT_TRUE(parse_date("2024-02-29"));
+    EXPECT_TRUE(parse_date("2000-02-29"));
+    EXPECT_FALSE(parse_date("2023-02-29"));
+    EXPECT_FALSE(parse_date("1900-02-29"));
+}
+
+TEST(ParseDate, what_is_no_date) {
+    for (const std::string text :
+         {"", "2024", "2024-12", "2024-12-", "2024-13-01", "2024-00-01", "2024-12-00", "2024-12-32",
+          "2024-04-31", "-5-01-01", "2024-12-31T", "2024-12-31T24:00:00", "2024-12-31T23:60:00",
+          "2024-12-31T23:59:61", "2024-12-31T23:59", "2024-12-31T23:59:nan", "2024-12-31T23:59:-1",
+          "2024-12-31Tx", "2024-12-31Z", "2024-12-31T23:59:58Z", "2024/12/31", " 2024-12-31", "2024-12-31 ",
+          // where a month or a day is kept in a byte, and a year in two, these wrap into good ones
+          "2024-257-01", "2024-01-257", "67560-01-01", "10000-01-01", "99999999999-01-01"}) {
+        const auto date = parse_date(text);
+        ASSERT_FALSE(date) << text;
+        EXPECT_EQ(date.error().code, ErrorCode::usage);
+        EXPECT_EQ(date.error().message,
+                  "--date " + text + ": give a date as in 2024-12-31 or 2024-12-31T23:59:58.5");
+    }
+}
+
+TEST(LocalDate, is_the_clock_on_the_wall) {
+    const std::time_t before = std::time(nullptr);
+    const Date date = local_date();
+    const std::time_t after = std::time(nullptr);
+    std::tm day{};
+    day.tm_year = date.year - 1900;
+    day.tm_mon = date.month;
+    day.tm_mday = date.day;
+    day.tm_sec = int(date.seconds);
+    day.tm_isdst = -1;
+    const std::time_t said = std::mktime(&day);
+    EXPECT_GE(said, before - 3600); // a night on which the clocks change
+    EXPECT_LE(said, after + 3600);
+    EXPECT_GE(date.seconds, 0);
+    EXPECT_LT(date.seconds, 86401);
+}
+
+TEST(InputsOfFrame, time_is_the_frame_over_the_rate) {
+    const FrameInputs inputs = inputs_of_frame(90, 30);
+    EXPECT_EQ(inputs.frame, 90);
+    EXPECT_EQ(inputs.time, 3);
+    EXPECT_EQ(inputs.time_delta, 1 / 30.0);
+    EXPECT_EQ(inputs.frame_rate, 30);
+    EXPECT_EQ(inputs_of_frame(0, 60).time, 0);
+}
+
+TEST(InputsOfFrame, time_is_computed_in_double) {
+    EXPECT_EQ(inputs_of_frame(1'000'000, 60).time, 1'000'000 / 60.0);
+    EXPECT_NE(inputs_of_frame(1'000'000, 60).time, double(1'000'000 / 60.0f));
+    EXPECT_EQ(inputs_of_frame(100'000'000, 59.94).time, 100'000'000 / 59.94);
+    // Adding up steps of 1/60 would be off by then.
+    double sum = 0;
+    for (int i = 0; i < 1'000'000; ++i)
+        sum += 1 / 60.0;
+    EXPECT_NE(sum, inputs_of_frame(1'000'000, 60).time);
+}
+
+TEST(FrameInputs, deterministic_by_default) {
+    const FrameInputs inputs;
+    EXPECT_EQ(inputs.date, (Date{2024, 0, 1, 43200}));
+    EXPECT_EQ(inputs.mouse, glm::vec4(0));
+    EXPECT_EQ(inputs.camera, glm::mat4(1));
+    EXPECT_EQ(k_sample_rate, 44100);
+}
+
+} // namespace
+} // namespace tidemark::render

@@ -1,0 +1,155 @@
+// #iChannelN: what a channel reads and how it is sampled.
+#include "directives_support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::scene {
+namespace {
+
+constexpr Sampling k_extension{Filter::linear, Filter::linear, Mipmaps::none, Wrap::repeat, true};
+
+Channel channel_0(std::string_view text) {
+    const auto directives = read(text);
+    EXPECT_TRUE(directives) << to_string(directives.error());
+    return directives ? directives->channels[0] : Channel{};
+}
+
+TEST(ChannelDirectives, a_channel_that_nobody_names_reads_noise_as_shadertoy_samples_it) {
+    const auto directives = read("void mainImage() {}");
+    ASSERT_TRUE(directives);
+    for (const Channel& channel : directives->channels) {
+        EXPECT_EQ(channel.input, ChannelInput(Noise{}));
+        EXPECT_EQ(channel.sampling, k_texture_sampling);
+        EXPECT_EQ(channel.where, SourceLocation{});
+    }
+    EXPECT_TRUE(directives->knobs.empty());
+}
+
+TEST(ChannelDirectives, each_number_is_a_channel_of_its_own) {
+    const auto directives =
+        read("#iChannel0 \"0.png\"\n#iChannel1 '1.png'\n#iChannel2 \"2.png\"\n#iChannel3 \"3.png\"");
+    ASSERT_TRUE(directives);
+    for (size_t i = 0; i < 4; ++i) {
+        const std::string name = std::to_string(i) + ".png";
+        EXPECT_EQ(directives->channels[i].input, ChannelInput(Picture{"dir/" + name}));
+        EXPECT_EQ(directives->channels[i].where, (SourceLocation{"dir/a.glsl", int(i) + 1, 0}));
+    }
+}
+
+TEST(ChannelDirectives, a_picture_is_sampled_as_the_extension_samples_it) {
+    EXPECT_EQ(channel_0("#iChannel0 \"a.png\"").sampling, k_extension);
+}
+
+TEST(ChannelDirectives, noise_by_name) {
+    const Channel channel = channel_0("\n#iChannel0 \"noise\"");
+    EXPECT_EQ(channel.input, ChannelInput(Noise{}));
+    EXPECT_EQ(channel.sampling, k_texture_sampling);
+    EXPECT_EQ(channel.where, (SourceLocation{"dir/a.glsl", 2, 0}));
+}
+
+TEST(ChannelDirectives, names_are_relative_to_the_file_that_says_them) {
+    const auto input = [](std::string_view text) { return std::get<Picture>(channel_0(text).input).file; };
+    EXPECT_EQ(input("#iChannel0 \"../textures/a.png\""), "textures/a.png");
+    EXPECT_EQ(input("#iChannel0 \"/abs/a.png\""), "/abs/a.png");
+    EXPECT_EQ(input("#iChannel0 \"file://a.png\""), "dir/a.png");
+    EXPECT_EQ(input("#iChannel0 \"file:///abs/a.png\""), "/abs/a.png");
+    EXPECT_EQ(input(R"(#iChannel0 "a \"b\" \c.png")"), "dir/a \"b\" c.png");
+}
+
+TEST(ChannelDirectives, nothing_is_downloaded) {
+    EXPECT_EQ(refusal("\n#iChannel0 \"https://x.org/a.png\""),
+              "dir/a.glsl:2: error: 'https://x.org/a.png' is not a local file: tidemark downloads nothing");
+}
+
+TEST(ChannelDirectives, every_minification_filter) {
+    struct Case {
+        const char* name;
+        Filter filter;
+        Mipmaps mipmaps;
+    };
+    for (const Case& wanted : {Case{"Nearest", Filter::nearest, Mipmaps::none},
+                               Case{"NearestMipMapNearest", Filter::nearest, Mipmaps::nearest},
+                               Case{"NearestMipMapLinear", Filter::nearest, Mipmaps::linear},
+                               Case{"Linear", Filter::linear, Mipmaps::none},
+                               Case{"LinearMipMapNearest", Filter::linear, Mipmaps::nearest},
+                               Case{"LinearMipMapLinear", Filter::linear, Mipmaps::linear}}) {
+        Sampling expected = k_extension;
+        expected.minify = wanted.filter;
+        expected.mipmaps = wanted.mipmaps;
+        const std::string parameter = std::string("#iChannel0::MinFilter \"") + wanted.name + "\"";
+        EXPECT_EQ(channel_0("#iChannel0 \"a.png\"\n" + parameter).sampling, expected) << wanted.name;
+        EXPECT_EQ(channel_0(parameter + "\n#iChannel0 \"a.png\"").sampling, expected) << wanted.name;
+    }
+}
+
+TEST(ChannelDirectives, every_magnification_filter_and_wrap_mode) {
+    Sampling expected = k_extension;
+    for (const auto& [name, filter] : {std::pair("Nearest", Filter::nearest), {"Linear", Filter::linear}}) {
+        expected.magnify = filter;
+        EXPECT_EQ(channel_0(std::string("#iChannel0 \"a\" #iChannel0::MagFilter \"") + name + "\"").sampling,
+                  expected);
+    }
+    expected = k_extension;
+    for (const auto& [name, wrap] :
+         {std::pair("Repeat", Wrap::repeat), {"Clamp", Wrap::clamp}, {"Mirror", Wrap::mirror}}) {
+        expected.wrap = wrap;
+        EXPECT_EQ(channel_0(std::string("#iChannel0 \"a\" #iChannel0::WrapMode \"") + name + "\"").sampling,
+                  expected);
+    }
+}
+
+TEST(ChannelDirectives, parameters_of_noise_change_only_what_they_name) {
+    Sampling expected = k_texture_sampling;
+    expected.wrap = Wrap::clamp;
+    EXPECT_EQ(channel_0("#iChannel0 \"noise\"\n#iChannel0::WrapMode \"Clamp\"").sampling, expected);
+    EXPECT_EQ(channel_0("#iChannel0::WrapMode \"Clamp\"\n#iChannel0 \"noise\"").sampling, expected);
+    EXPECT_EQ(channel_0("#iChannel0::WrapMode \"Clamp\"").sampling, expected);
+}
+
+TEST(ChannelDirectives, the_type_is_a_plain_texture) {
+    EXPECT_EQ(channel_0("#iChannel0 \"a.png\"\n#iChannel0::Type \"Texture2D\"").sampling, k_extension);
+    EXPECT_EQ(refusal("#iChannel0::Type \"CubeMap\""),
+              "dir/a.glsl:1: error: Type \"CubeMap\" is not supported: give Texture2D");
+}
+
+TEST(ChannelDirectives, may_run_over_lines_and_around_comments) {
+    const Channel channel = channel_0("#iChannel0 // why\n  ::\n MinFilter /* how */ \\\n \"Nearest\"");
+    EXPECT_EQ(channel.sampling.minify, Filter::nearest);
+}
+
+TEST(ChannelDirectives, values_that_there_are_not) {
+    EXPECT_EQ(refusal("#iChannel0::MinFilter \"nearest\""),
+              "dir/a.glsl:1: error: MinFilter \"nearest\": give Nearest, Linear, or one of the two with "
+              "MipMapNearest or MipMapLinear behind it");
+    EXPECT_EQ(refusal("#iChannel0::MagFilter \"NearestMipMapLinear\""),
+              "dir/a.glsl:1: error: MagFilter \"NearestMipMapLinear\": give Nearest or Linear");
+    EXPECT_EQ(refusal("#iChannel0::WrapMode \"Border\""),
+              "dir/a.glsl:1: error: WrapMode \"Border\": give Repeat, Clamp or Mirror");
+    EXPECT_EQ(refusal("\n#iChannel0::Filter \"Linear\""),
+              "dir/a.glsl:2: error: unknown parameter 'Filter': give MinFilter, MagFilter, WrapMode or Type");
+}
+
+TEST(ChannelDirectives, channels_that_there_are_not) {
+    for (const std::string name : {"iChannel4", "iChannel9", "iChannel", "iChannel00", "iChannelA"})
+        EXPECT_EQ(refusal("#" + name + " \"a.png\""),
+                  "dir/a.glsl:1: error: #" + name + ": the channels are iChannel0 to iChannel3");
+}
+
+TEST(ChannelDirectives, what_is_missing_is_said) {
+    EXPECT_EQ(refusal("#iChannel0 noise\n"),
+              "dir/a.glsl:1: error: expected a name in quotes but found 'noise'");
+    EXPECT_EQ(refusal("#iChannel0"),
+              "dir/a.glsl:1: error: expected a name in quotes but found the end of the file");
+    EXPECT_EQ(refusal("#iChannel0 \"a.png\nfloat x;"),
+              "dir/a.glsl:1: error: expected a name in quotes but found '\"'");
+    EXPECT_EQ(refusal("#iChannel0:WrapMode \"Clamp\""),
+              "dir/a.glsl:1: error: expected ':' but found 'WrapMode'");
+    EXPECT_EQ(refusal("#iChannel0::WrapMode Clamp"),
+              "dir/a.glsl:1: error: expected a name in quotes but found 'Clamp'");
+    EXPECT_EQ(refusal("#iChannel0::"),
+              "dir/a.glsl:1: error: expected a name in quotes but found the end of the file");
+    EXPECT_EQ(refusal("#iChannel0 \"\""), "dir/a.glsl:1: error: the name of the picture is empty");
+}
+
+} // namespace
+} // namespace tidemark::scene

@@ -1,0 +1,63 @@
+// Where directives are found, and what stays of the text.
+#include "directives_support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::scene {
+namespace {
+
+std::string rest(std::string_view text) {
+    text::MappedText mapped;
+    mapped.append(text, "a.glsl", 1);
+    const auto taken = take_directives(mapped);
+    return taken ? mapped.text() : to_string(taken.error());
+}
+
+TEST(Directives, are_blanked_out_and_move_no_line) {
+    EXPECT_EQ(rest("a\n#iChannel0 \"noise\" // why\nb\n#iUniform float c\n= 1.0\nd;"),
+              "a\n // why\nb\n\n\nd;\n");
+    EXPECT_EQ(rest("#iUniform float a = 1.0 #iUniform float b = 2.0 c"), "  c\n");
+    EXPECT_EQ(rest("#iUniform float a = 1.0"), "\n");
+}
+
+TEST(Directives, in_comments_are_none) {
+    const std::string text = "// #iUniform bool a\n/* #iKeyboard */\n";
+    EXPECT_EQ(rest(text), text);
+}
+
+TEST(Directives, that_the_preprocessor_knows_are_left_alone) {
+    const std::string text = "#define A 1\n#if A\n#endif\n# iUniform bool a\n#pragma x\n#";
+    EXPECT_EQ(rest(text), text + "\n");
+}
+
+TEST(Directives, strict_compatibility_is_what_we_do_anyway) {
+    EXPECT_EQ(rest("#StrictCompatibility\na"), "\na\n");
+}
+
+TEST(Directives, we_do_not_have_are_said) {
+    EXPECT_EQ(refusal("a;\n#iKeyboard"), "dir/a.glsl:2: error: #iKeyboard is not supported");
+    EXPECT_EQ(refusal("#iVertex \"a.glsl\""), "dir/a.glsl:1: error: #iVertex is not supported");
+    EXPECT_EQ(refusal("#iFirstPersonControls"),
+              "dir/a.glsl:1: error: #iFirstPersonControls is not supported");
+}
+
+TEST(Directives, of_an_included_file_are_placed_there) {
+    text::MappedText mapped;
+    mapped.append("a;", "scenes/main.glsl", 1);
+    mapped.append("\n#iChannel0 \"t.png\"\n#iUniform float k = 1.0\n", "lib/b.glsl", 5);
+    mapped.append("#iUniform int k = 1", "scenes/main.glsl", 3);
+    const auto directives = take_directives(mapped);
+    ASSERT_FALSE(directives);
+    EXPECT_EQ(to_string(directives.error()), "scenes/main.glsl:3: error: the knob 'k' is declared twice\n"
+                                             "lib/b.glsl:7: note: first declared here");
+    text::MappedText good;
+    good.append("a;", "scenes/main.glsl", 1);
+    good.append("\n#iChannel0 \"t.png\"", "lib/b.glsl", 5);
+    const auto read = take_directives(good);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->channels[0].input, ChannelInput(Picture{"lib/t.png"}));
+    EXPECT_EQ(read->channels[0].where, (SourceLocation{"lib/b.glsl", 6, 0}));
+}
+
+} // namespace
+} // namespace tidemark::scene

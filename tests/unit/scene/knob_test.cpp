@@ -1,0 +1,118 @@
+// Values of knobs as people type them, and knobs by name.
+#include "scene/knob.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::scene {
+namespace {
+
+std::string parsed(KnobType type, std::string_view text) {
+    Knob knob;
+    knob.name = "k";
+    knob.type = type;
+    const auto value = parse_knob_value(knob, text);
+    if (value)
+        return to_string(knob, *value);
+    EXPECT_EQ(value.error().code, ErrorCode::usage);
+    return value.error().message;
+}
+
+TEST(KnobValue, a_number) {
+    EXPECT_EQ(parsed(KnobType::float1, "0.5"), "0.5");
+    EXPECT_EQ(parsed(KnobType::float1, " -1e-3 "), "-0.001");
+    EXPECT_EQ(parsed(KnobType::float1, "+2."), "2");
+    EXPECT_EQ(parsed(KnobType::float1, ".5"), "0.5");
+    EXPECT_EQ(parsed(KnobType::float1, "float(3)"), "3");
+    EXPECT_EQ(parsed(KnobType::int1, "-3"), "-3");
+    EXPECT_EQ(parsed(KnobType::int1, "1e3"), "1000");
+    EXPECT_EQ(parsed(KnobType::int1, "int(3)"), "3");
+}
+
+TEST(KnobValue, a_list) {
+    EXPECT_EQ(parsed(KnobType::vec2, "1,2"), "vec2(1, 2)");
+    EXPECT_EQ(parsed(KnobType::vec3, " 1 , 2 , 3.5 "), "vec3(1, 2, 3.5)");
+    EXPECT_EQ(parsed(KnobType::vec4, "1,2,3,4"), "vec4(1, 2, 3, 4)");
+    EXPECT_EQ(parsed(KnobType::ivec2, "1,-2"), "ivec2(1, -2)");
+    EXPECT_EQ(parsed(KnobType::ivec3, "1,2,3"), "ivec3(1, 2, 3)");
+    EXPECT_EQ(parsed(KnobType::ivec4, "1,2,3,4"), "ivec4(1, 2, 3, 4)");
+}
+
+TEST(KnobValue, a_constructor) {
+    EXPECT_EQ(parsed(KnobType::vec3, "vec3(1, 2, 3)"), "vec3(1, 2, 3)");
+    EXPECT_EQ(parsed(KnobType::vec3, "vec3 ( 1 )"), "vec3(1, 1, 1)");
+    EXPECT_EQ(parsed(KnobType::color3, "color3(1,2,3)"), "vec3(1, 2, 3)");
+    EXPECT_EQ(parsed(KnobType::color3, "vec3(1,2,3)"), "vec3(1, 2, 3)");
+    EXPECT_EQ(parsed(KnobType::ivec2, "ivec2(1,2)"), "ivec2(1, 2)");
+}
+
+TEST(KnobValue, one_number_for_all) {
+    EXPECT_EQ(parsed(KnobType::vec3, "2"), "vec3(2, 2, 2)");
+    EXPECT_EQ(parsed(KnobType::ivec4, "2"), "ivec4(2, 2, 2, 2)");
+}
+
+TEST(KnobValue, a_colour) {
+    EXPECT_EQ(parsed(KnobType::color3, "#ff8000"), "vec3(1, 0.5019607843137255, 0)");
+    EXPECT_EQ(parsed(KnobType::color3, "#0000FF"), "vec3(0, 0, 1)");
+    EXPECT_EQ(parsed(KnobType::color3, "0.5"), "vec3(0.5, 0.5, 0.5)");
+}
+
+TEST(KnobValue, what_a_number_takes) {
+    for (const std::string text : {"", " ", "x", "1x", "1,2", "nan", "inf", "1e999", "0x10", "1,", ",1",
+                                   "--1", "+-1", "float(1", "float()", "vec2(1)", "#ffffff", "1 2"})
+        EXPECT_EQ(parsed(KnobType::float1, text),
+                  "'" + std::string(text == " " ? "" : text) + "' is no value for k (float): give a number");
+}
+
+TEST(KnobValue, what_a_whole_number_takes) {
+    EXPECT_EQ(parsed(KnobType::int1, "2147483647"), "2147483647");
+    EXPECT_EQ(parsed(KnobType::int1, "-2147483648"), "-2147483648");
+    for (const std::string text : {"1.5", "2147483648", "-2147483649", "1e10", "x"})
+        EXPECT_EQ(parsed(KnobType::int1, text),
+                  "'" + text + "' is no value for k (int): give a whole number");
+}
+
+TEST(KnobValue, what_a_vector_takes) {
+    EXPECT_EQ(parsed(KnobType::vec2, "1,2,3"), "'1,2,3' is no value for k (vec2): give 2 numbers, as in 1,2");
+    EXPECT_EQ(parsed(KnobType::vec3, "1,2"), "'1,2' is no value for k (vec3): give 3 numbers, as in 1,2,3");
+    EXPECT_EQ(parsed(KnobType::vec4, "1,2,3,4,5"),
+              "'1,2,3,4,5' is no value for k (vec4): give 4 numbers, as in 1,2,3,4");
+    EXPECT_EQ(parsed(KnobType::ivec2, "1,2.5"),
+              "'1,2.5' is no value for k (ivec2): give 2 whole numbers, as in 1,2");
+}
+
+TEST(KnobValue, what_a_colour_takes) {
+    for (const std::string text : {"#", "#fff", "#ff80000", "#gg8000", "#-f8000", "1,2"})
+        EXPECT_EQ(parsed(KnobType::color3, text),
+                  "'" + text + "' is no value for k (color3): give 3 numbers, as in 1,2,3 or #rrggbb");
+}
+
+TEST(KnobType, names_and_back) {
+    for (const char* name : {"float", "vec2", "vec3", "vec4", "color3", "int", "ivec2", "ivec3", "ivec4"}) {
+        const KnobTypeInfo* type = find_knob_type(name);
+        ASSERT_TRUE(type) << name;
+        EXPECT_EQ(type->directive_name, name);
+        EXPECT_EQ(&info(type->type), type) << name;
+    }
+    EXPECT_EQ(info(KnobType::color3).glsl_name, "vec3");
+    EXPECT_EQ(find_knob_type("bool"), nullptr);
+}
+
+TEST(FindKnob, by_name_or_with_a_hint) {
+    std::vector<Knob> knobs(2);
+    knobs[0].name = "wave_height";
+    knobs[1].name = "fog";
+    const auto message = [&](std::string_view name) {
+        const auto found = find_knob(knobs, name);
+        return found ? (*found)->name : found.error().message;
+    };
+    EXPECT_EQ(message("fog"), "fog");
+    EXPECT_EQ(*find_knob(knobs, "fog"), &knobs[1]);
+    EXPECT_EQ(message("wave_hight"), "the scene has no knob 'wave_hight': did you mean 'wave_height'?");
+    EXPECT_EQ(message("speed"), "the scene has no knob 'speed': it has wave_height, fog");
+    knobs.clear();
+    EXPECT_EQ(message("fog"), "the scene has no knob 'fog': it declares none with #iUniform");
+    EXPECT_EQ(find_knob(knobs, "fog").error().code, ErrorCode::usage);
+}
+
+} // namespace
+} // namespace tidemark::scene

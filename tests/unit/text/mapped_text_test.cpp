@@ -1,0 +1,123 @@
+#include "text/mapped_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace tidemark::text {
+namespace {
+
+std::string at(const LineMap& lines, int line) {
+    const SourceLocation where = lines.locate(line);
+    return where.file + ":" + std::to_string(where.line);
+}
+
+TEST(LineMap, a_run_lasts_until_the_next) {
+    LineMap lines;
+    lines.begin_run(1, "a", 10);
+    lines.begin_run(4, "b", 1);
+    lines.begin_run(5, "a", 13);
+    EXPECT_EQ(at(lines, 1), "a:10");
+    EXPECT_EQ(at(lines, 3), "a:12");
+    EXPECT_EQ(at(lines, 4), "b:1");
+    EXPECT_EQ(at(lines, 5), "a:13");
+    EXPECT_EQ(at(lines, 100), "a:108");
+}
+
+TEST(LineMap, the_last_of_two_runs_on_a_line_counts) {
+    LineMap lines;
+    lines.begin_run(1, "a", 1);
+    lines.begin_run(1, "b", 7);
+    EXPECT_EQ(at(lines, 1), "b:7");
+}
+
+TEST(LineMap, columns_are_passed_on) {
+    LineMap lines;
+    lines.begin_run(1, "a", 10);
+    EXPECT_EQ(lines.locate(2, 5), (SourceLocation{"a", 11, 5}));
+}
+
+TEST(LineMap, lines_of_nobody_have_no_place) {
+    EXPECT_EQ(LineMap().locate(1), SourceLocation{});
+    LineMap lines;
+    lines.begin_run(3, "a", 1);
+    lines.begin_run(5, "", 0);
+    for (const int line : {std::numeric_limits<int>::min(), -1, 0, 2, 5, 6})
+        EXPECT_EQ(lines.locate(line, 4), SourceLocation{}) << line;
+}
+
+TEST(LineMap, a_line_beyond_all_counting_has_no_place) {
+    LineMap lines;
+    lines.begin_run(1, "a", 10);
+    EXPECT_EQ(lines.locate(std::numeric_limits<int>::max()), SourceLocation{});
+}
+
+TEST(MappedText, every_chunk_starts_a_line) {
+    MappedText text;
+    text.append("one\ntwo", "a", 1);
+    text.append_generated("three");
+    text.append("", "nothing", 1);
+    text.append("four\n", "b", 7);
+    EXPECT_EQ(text.text(), "one\ntwo\nthree\nfour\n");
+    EXPECT_EQ(text.line_count(), 4);
+    EXPECT_EQ(at(text.lines(), 2), "a:2");
+    EXPECT_EQ(at(text.lines(), 3), ":0");
+    EXPECT_EQ(at(text.lines(), 4), "b:7");
+}
+
+TEST(MappedText, empty_has_no_lines) {
+    const MappedText text;
+    EXPECT_EQ(text.text(), "");
+    EXPECT_EQ(text.line_count(), 0);
+    EXPECT_EQ(at(text.lines(), 1), ":0");
+}
+
+TEST(MappedText, appending_another_keeps_its_places) {
+    MappedText inner;
+    inner.append("i1\ni2\n", "inner", 5);
+    inner.append_generated("made\n");
+    MappedText text;
+    text.append_generated("prologue\n");
+    text.append(inner);
+    text.append("o\n", "outer", 2);
+    EXPECT_EQ(text.text(), "prologue\ni1\ni2\nmade\no\n");
+    EXPECT_EQ(text.line_count(), 5);
+    EXPECT_EQ(at(text.lines(), 1), ":0");
+    EXPECT_EQ(at(text.lines(), 2), "inner:5");
+    EXPECT_EQ(at(text.lines(), 3), "inner:6");
+    EXPECT_EQ(at(text.lines(), 4), ":0");
+    EXPECT_EQ(at(text.lines(), 5), "outer:2");
+}
+
+TEST(MappedText, edits_change_what_they_cover) {
+    MappedText text;
+    text.append("0123456789", "a", 1);
+    text.apply({{0, 1, "X"}, {3, 3, "-"}, {4, 6, ""}, {9, 10, "end"}});
+    EXPECT_EQ(text.text(), "X12-3678end\n");
+    text.apply({});
+    EXPECT_EQ(text.text(), "X12-3678end\n");
+}
+
+TEST(MappedText, edits_move_no_line) {
+    MappedText text;
+    text.append("a = (1 +\n2 +\n3);\nb\n", "a", 1);
+    text.apply({{4, 15, "x"}});
+    EXPECT_EQ(text.text(), "a = x\n\n;\nb\n");
+    EXPECT_EQ(text.line_count(), 4);
+    EXPECT_EQ(at(text.lines(), 4), "a:4");
+}
+
+TEST(PlainLineEnds, every_system_s_line_ends_become_one) {
+    EXPECT_EQ(with_plain_line_ends("a\r\nb\rc\nd\n\re\r\r\nf\r"), "a\nb\nc\nd\n\ne\n\nf\n");
+    EXPECT_EQ(with_plain_line_ends(""), "");
+    EXPECT_EQ(with_plain_line_ends("\r\n"), "\n");
+}
+
+TEST(PlainLineEnds, only_a_leading_byte_order_mark_goes) {
+    EXPECT_EQ(with_plain_line_ends("\xEF\xBB\xBF#define A"), "#define A");
+    EXPECT_EQ(with_plain_line_ends("a\xEF\xBB\xBF"), "a\xEF\xBB\xBF");
+    EXPECT_EQ(with_plain_line_ends("\xEF\xBB"), "\xEF\xBB");
+}
+
+} // namespace
+} // namespace tidemark::text
