@@ -14,7 +14,7 @@ Interrupt::Interrupt() {
         while (sigwait(&signals_, &signal) == 0) {
             if (ending_)
                 return;
-            if (signal != SIGUSR1 && requested_.exchange(true))
+            if (signal != SIGUSR1 && (requested_.exchange(true) || immediate_))
                 ::_exit(k_exit_code);
         }
     });

@@ -18,12 +18,26 @@ public:
 
     bool requested() const { return requested_; }
 
+    /// While it lives the first request ends the process too: the driver is at work, and nothing that could
+    /// be finished is in hand.
+    class Immediate {
+    public:
+        explicit Immediate(Interrupt& interrupt) : interrupt_(interrupt) { interrupt_.immediate_ = true; }
+        ~Immediate() { interrupt_.immediate_ = false; }
+        Immediate(const Immediate&) = delete;
+        Immediate& operator=(const Immediate&) = delete;
+
+    private:
+        Interrupt& interrupt_;
+    };
+
     static constexpr int k_exit_code = 130; ///< as shells report SIGINT
 
 private:
     sigset_t signals_{};
     sigset_t previous_mask_{};
     std::atomic<bool> requested_ = false;
+    std::atomic<bool> immediate_ = false;
     std::atomic<bool> ending_ = false;
     std::thread listener_;
 };

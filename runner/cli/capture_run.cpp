@@ -1,0 +1,153 @@
+#include "cli/capture_run.hpp"
+
+#include "base/hash.hpp"
+#include "cli/console.hpp"
+#include "cli/omissions.hpp"
+#include "cli/progress.hpp"
+#include "cli/version.hpp"
+#include "image/cubemap_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+namespace tidemark::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Rows from the top down, RGB, as video tools take raw frames.
+Result<void> put_raw(const image::Image& image) {
+    const image::Image upright = image::flipped(image);
+    const auto samples = upright.u8();
+    std::vector<std::byte> rgb;
+    rgb.reserve(image.extent.pixels() * 3);
+    for (size_t pixel = 0; pixel < image.extent.pixels(); ++pixel)
+        for (size_t channel = 0; channel < 3; ++channel)
+            rgb.push_back(std::byte(samples[pixel * 4 + channel]));
+    return put(rgb);
+}
+
+} // namespace
+
+Capture::Capture(const CapturePlan& plan, render::Renderer& renderer)
+    : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()),
+      stepper_(renderer, [this](int frame) { return inputs_of(plan_.frames, frame); }),
+      watchdog_([this] { finish_writing(); }) {}
+
+Result<bool> Capture::run(Interrupt& interrupt) {
+    // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
+    const auto workers = unsigned(std::min<size_t>(2, plan_.frames.frames.size()));
+    if (!plan_.output.standard_output())
+        writer_ = std::make_unique<FrameWriter>(workers);
+    prepare(interrupt);
+    Progress progress("frames", plan_.frames.frames.size());
+    for (const int frame : plan_.frames.frames) {
+        image::Image image;
+        FrameRecord record;
+        if (draw(frame, interrupt, record, image) == Outcome::interrupted)
+            return writer_ ? writer_->finish().map([] { return false; }) : Result<bool>(false);
+        const auto wanted = deliver(record, std::move(image));
+        if (!wanted)
+            return wanted;
+        if (!*wanted)
+            break;
+        records_.push_back(std::move(record));
+        progress.advance();
+    }
+    return writer_ ? writer_->finish().map([] { return true; }) : Result<bool>(true);
+}
+
+/// What the driver puts off until the first draw, so that no frame pays for it, in time or against its limit.
+void Capture::prepare(Interrupt& interrupt) {
+    const Interrupt::Immediate at_once(interrupt);
+    const Watchdog::Watch watch(watchdog_, "preparing the first frame", std::nullopt);
+    const auto start = Clock::now();
+    renderer_.warm_up(inputs_of(plan_.frames, plan_.frames.frames.front()));
+    prepare_milliseconds_ = milliseconds_since(start);
+}
+
+Capture::Outcome Capture::draw(int frame, const Interrupt& interrupt, FrameRecord& record,
+                               image::Image& image) {
+    std::optional<Watchdog::Watch> watch;
+    std::optional<Progress> steps;
+    Clock::time_point start;
+    record.inputs = inputs_of(plan_.frames, frame);
+    // With --time the frame follows from the time.
+    const bool drawn = stepper_.draw(record.inputs.frame, [&](int step, int last) {
+        if (interrupt.requested())
+            return false;
+        if (step < last && !steps)
+            steps.emplace("frames stepped", size_t(last - step));
+        else if (steps)
+            steps->advance();
+        watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout);
+        start = Clock::now();
+        return true;
+    });
+    if (!drawn)
+        return Outcome::interrupted;
+    image = read_back();
+    record.milliseconds = milliseconds_since(start);
+    record.file = plan_.output.of_frame(frame).string();
+    if (plan_.hashes)
+        record.sha256 = sha256(image.bytes);
+    return Outcome::drawn;
+}
+
+/// A cube is saved as the panorama that ShaderToy exports.
+image::Image Capture::read_back() const {
+    if (renderer_.shown_pass().kind == scene::PassKind::cubemap)
+        return image::equirectangular_of(renderer_.read_back_cube());
+    return renderer_.read_back();
+}
+
+/// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved.
+void Capture::finish_writing() {
+    if (writer_)
+        (void)writer_->finish();
+}
+
+/// False when the writer has failed and no more frames are wanted.
+Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
+    if (!writer_)
+        return put_raw(image).map([] { return true; });
+    return writer_->push({record.inputs.frame, record.file, std::move(image), format_of(record.inputs)});
+}
+
+image::PictureFormat Capture::format_of(const render::FrameInputs& inputs) const {
+    return {plan_.depth,
+            {{"Scene", renderer_.scene().file.string()},
+             {"Frame", fmt::format("{}", inputs.frame)},
+             {"iTime", fmt::format("{}", inputs.time)},
+             {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)},
+             {"Software", fmt::format("tidemark {}", k_version)}}};
+}
+
+nlohmann::ordered_json Capture::report() const {
+    nlohmann::ordered_json report;
+    report["tidemark"] = k_version;
+    report["scene"] = renderer_.scene().file.string();
+    report["size"] = {renderer_.extent().width, renderer_.extent().height};
+    report["driver"] = driver_.version;
+    report["renderer"] = driver_.renderer;
+    report["pass"] = renderer_.shown_pass().name;
+    report["prepare_milliseconds"] = prepare_milliseconds_;
+    report["left_out"] = facts_of(renderer_).left_out;
+    report["frames"] = nlohmann::ordered_json::array();
+    for (const FrameRecord& record : records_)
+        report["frames"].push_back({{"frame", record.inputs.frame},
+                                    {"iTime", record.inputs.time},
+                                    {"file", record.file},
+                                    {"sha256", record.sha256},
+                                    {"milliseconds", record.milliseconds}});
+    return report;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,71 @@
+// The work of `tidemark capture`: draws the frames of a plan and hands them to the encoders.
+#pragma once
+
+#include "cli/frame_writer.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_name.hpp"
+#include "cli/requests.hpp"
+#include "cli/stepper.hpp"
+#include "cli/watchdog.hpp"
+#include "gl/capabilities.hpp"
+#include "render/renderer.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+/// What is known before anything is drawn.
+struct CapturePlan {
+    FrameRequest frames;
+    OutputName output;
+    image::SampleDepth depth = image::SampleDepth::u8;
+    std::optional<double> timeout; ///< seconds for a frame
+    bool hashes = false;           ///< SHA-256 of every frame's pixels
+};
+
+/// One frame as `--json` reports it.
+struct FrameRecord {
+    render::FrameInputs inputs;
+    std::string file;
+    std::string sha256;
+    double milliseconds = 0;
+};
+
+class Capture {
+public:
+    /// `plan` and `renderer` must outlive it.
+    Capture(const CapturePlan& plan, render::Renderer& renderer);
+
+    /// Draws and hands over every frame; true when all were made before an interrupt.
+    Result<bool> run(Interrupt& interrupt);
+
+    const std::vector<FrameRecord>& records() const { return records_; }
+    /// What `--json` prints.
+    nlohmann::ordered_json report() const;
+
+private:
+    enum class Outcome { drawn, interrupted };
+
+    void prepare(Interrupt& interrupt);
+    Outcome draw(int frame, const Interrupt& interrupt, FrameRecord& record, image::Image& image);
+    image::Image read_back() const;
+    Result<bool> deliver(const FrameRecord& record, image::Image image);
+    image::PictureFormat format_of(const render::FrameInputs& inputs) const;
+    void finish_writing();
+
+    const CapturePlan& plan_;
+    render::Renderer& renderer_;
+    gl::Capabilities driver_;
+    Stepper stepper_;
+    double prepare_milliseconds_ = 0;
+    std::unique_ptr<FrameWriter> writer_;
+    Watchdog watchdog_; ///< last: its thread may use the writer
+    std::vector<FrameRecord> records_;
+};
+
+} // namespace tidemark::cli

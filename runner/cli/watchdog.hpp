@@ -1,0 +1,57 @@
+// Keeps an eye on work that may never end: a driver that compiles, a frame that is drawn. Says that it still
+// goes on, and gives up when it takes too long. A driver cannot be interrupted, so giving up ends the
+// process.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace tidemark::cli {
+
+class Watchdog {
+public:
+    /// `before_exit` is called (on the watchdog's thread) before the process ends by a limit: what can be
+    /// finished without the stuck thread is finished there.
+    explicit Watchdog(std::function<void()> before_exit = {});
+    ~Watchdog();
+    Watchdog(const Watchdog&) = delete;
+    Watchdog& operator=(const Watchdog&) = delete;
+
+    /// Watches until it is destroyed. `what` completes "still …" and "gave up on …".
+    class Watch {
+    public:
+        Watch(Watchdog& dog, std::string what, std::optional<double> limit_seconds);
+        ~Watch();
+        Watch(const Watch&) = delete;
+        Watch& operator=(const Watch&) = delete;
+
+    private:
+        Watchdog& dog_;
+    };
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Work {
+        std::string what;
+        Clock::time_point start;
+        std::optional<Clock::time_point> deadline;
+        Clock::time_point next_word;
+    };
+
+    void run();
+    void speak_or_end(std::unique_lock<std::mutex>& lock);
+
+    std::function<void()> before_exit_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<Work> work_;
+    bool ending_ = false;
+    std::thread thread_;
+};
+
+} // namespace tidemark::cli
