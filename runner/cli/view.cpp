@@ -19,6 +19,7 @@ Result<int> view(const ViewOptions& options) {
     if (!frames)
         return fail(std::move(frames.error()));
     Viewer::Settings settings{options.scene, *std::move(frames)};
+    settings.pass = options.frames.pass;
     if (options.frames.date)
         settings.date = settings.frames.date;
     auto viewer = Viewer::open(std::move(settings));

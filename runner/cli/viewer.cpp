@@ -22,7 +22,8 @@ constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scen
 wheel       zooms that camera     middle drag  pans it     R  resets it
 space       pause                 left, right  a frame back, forward
 Home        restart               S            save a picture
-F           full screen           Esc          quit        H  this help)";
+F           full screen           Esc          quit        H  this help
+A scene that reads the keyboard gets all keys but Esc: hold Ctrl for the above.)";
 
 /// How long a scene that does not load may still be in the middle of being saved. An editor's pause between
 /// two writes is shorter, a person's patience longer.
@@ -60,7 +61,8 @@ Result<Viewer> Viewer::open(Settings settings) {
         return fail(std::move(watcher.error()));
     if (auto watched = watcher->watch(scene->files); !watched)
         say(to_string(watched.error())); // it can still be looked at
-    auto renderer = render::Renderer::create(*std::move(scene), {window->framebuffer_extent()});
+    auto renderer = render::Renderer::create(
+        *std::move(scene), {window->framebuffer_extent(), image::SampleType::u8, settings.pass});
     if (!renderer)
         return fail(std::move(renderer.error()));
     return Viewer(std::move(settings), *std::move(window), *std::move(watcher), *std::move(renderer));
@@ -104,10 +106,12 @@ void Viewer::draw(double now) {
     shown_.mouse = mouse_.uniform();
     shown_.date = settings_.date ? *settings_.date : render::local_date();
     shown_.camera = camera_.matrix();
+    shown_.keyboard = keyboard_.texels();
     renderer_.draw(shown_);
     gl::blit_to_window(renderer_.target(), window_.framebuffer_extent());
     window_.swap();
     mouse_.frame_drawn();
+    keyboard_.frame_drawn();
     stale_ = false;
     if (reloaded_)
         report_reload();
@@ -167,25 +171,47 @@ void Viewer::handle(const platform::WheelTurned& event) {
 }
 
 void Viewer::handle(const platform::KeyPressed& event) {
-    const double now = now_seconds();
-    switch (event.key) {
-    case Key::left: clock_.step(-1, settings_.frames.fps, now); break;
-    case Key::right: clock_.step(1, settings_.frames.fps, now); break;
-    default:
-        if (event.repeat)
-            return;
-    }
-    switch (event.key) {
-    case Key::space: clock_.toggle_pause(now); break;
-    case Key::home: clock_.restart(now); break;
-    case Key::r: camera_ = settings_.frames.camera; break;
-    case Key::s: return save_picture();
-    case Key::f: window_.toggle_full_screen(); break;
-    case Key::h: return say(k_help);
-    case Key::escape: closing_ = true; break;
-    default: break;
-    }
+    if (event.key == Key::control)
+        control_down_ = true;
+    keyboard_.press(platform::js_key_code(event.key));
+    const bool repeats = event.key == Key::left || event.key == Key::right;
+    if ((!event.repeat || repeats) && !keys_are_the_scenes(event.key))
+        obey(event.key, now_seconds());
     stale_ = true;
+}
+
+void Viewer::handle(const platform::KeyReleased& event) {
+    if (event.key == Key::control)
+        control_down_ = false;
+    keyboard_.release(platform::js_key_code(event.key));
+    stale_ = true;
+}
+
+/// A scene that reads the keyboard has the keys to itself; with Ctrl they are the viewer's again.
+bool Viewer::keys_are_the_scenes(Key key) const {
+    if (control_down_ || key == Key::escape)
+        return false;
+    for (const render::PlannedPass& planned : renderer_.plan().passes)
+        for (const int channel : planned.channels)
+            if (std::holds_alternative<scene::Keyboard>(
+                    renderer_.scene().passes[planned.pass].channels[size_t(channel)].input))
+                return true;
+    return false;
+}
+
+void Viewer::obey(Key key, double now) {
+    switch (key) {
+    case Key::left: return clock_.step(-1, settings_.frames.fps, now);
+    case Key::right: return clock_.step(1, settings_.frames.fps, now);
+    case Key::space: return clock_.toggle_pause(now);
+    case Key::home: renderer_.reset(); return clock_.restart(now);
+    case Key::r: camera_ = settings_.frames.camera; return;
+    case Key::s: return save_picture();
+    case Key::f: return window_.toggle_full_screen();
+    case Key::h: return say(k_help);
+    case Key::escape: closing_ = true; return;
+    default: return;
+    }
 }
 
 void Viewer::handle(const platform::FramebufferResized& event) {
@@ -251,7 +277,8 @@ Result<Viewer::ReloadTimes> Viewer::reload() {
     if (auto watched = watcher_.watch(scene->files); !watched)
         return fail(std::move(watched.error()));
     times.loaded = now_seconds();
-    auto fresh = render::Renderer::create(*std::move(scene), {renderer_.extent()});
+    auto fresh = render::Renderer::create(*std::move(scene),
+                                          {renderer_.extent(), image::SampleType::u8, settings_.pass});
     if (!fresh)
         return fail(std::move(fresh.error()));
     renderer_ = *std::move(fresh);

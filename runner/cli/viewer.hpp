@@ -6,6 +6,7 @@
 #include "cli/requests.hpp"
 #include "platform/file_watcher.hpp"
 #include "platform/window.hpp"
+#include "render/keyboard.hpp"
 #include "render/live_clock.hpp"
 #include "render/mouse.hpp"
 #include "render/orbit_camera.hpp"
@@ -23,6 +24,7 @@ public:
     struct Settings {
         SceneRequest scene;
         FrameRequest frames;                   ///< extent, fps, camera
+        std::string pass = {};                 ///< the pass to show; empty: Image
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
     };
 
@@ -50,7 +52,9 @@ private:
     void handle(const platform::ButtonReleased& event);
     void handle(const platform::WheelTurned& event);
     void handle(const platform::KeyPressed& event);
-    void handle(const platform::KeyReleased&) {}
+    void handle(const platform::KeyReleased& event);
+    void obey(platform::Key key, double now);
+    bool keys_are_the_scenes(platform::Key key) const;
     void handle(const platform::FramebufferResized& event);
     void handle(const platform::RedrawNeeded&) { stale_ = true; }
     void handle(const platform::CloseRequested&) { closing_ = true; }
@@ -76,6 +80,7 @@ private:
     render::LiveClock clock_;
     render::Mouse mouse_;
     render::OrbitCamera camera_;
+    render::Keyboard keyboard_;
     std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
     std::optional<Error> failure_;        ///< of the last reload, until mended
     std::optional<double> report_at_;     ///< when the failure is news; before, the file may be half-written
@@ -86,6 +91,7 @@ private:
     double next_draw_ = 0;
     bool turning_ = false;
     bool panning_ = false;
+    bool control_down_ = false;
     bool stale_ = true; ///< the window does not show what it should
     bool closing_ = false;
 };
