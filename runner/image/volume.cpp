@@ -1,0 +1,72 @@
+#include "image/volume.hpp"
+
+#include "base/file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+namespace tidemark::image {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view k_signature = "BIN\0"sv;
+constexpr size_t k_header = 20;
+
+uint32_t little_endian(std::string_view file, size_t at, size_t bytes) {
+    uint32_t value = 0;
+    for (size_t i = bytes; i-- > 0;)
+        value = value << 8 | uint8_t(file[at + i]);
+    return value;
+}
+
+} // namespace
+
+Result<VolumeData> volume_of(std::string_view file, const std::string& name) {
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", name, why));
+    };
+    if (!file.starts_with(k_signature))
+        return refuse("it is no ShaderToy volume: it does not start with \"BIN\" and a zero byte");
+    if (file.size() < k_header)
+        return refuse("the file is cut short: a volume's header has 20 bytes");
+    const uint32_t width = little_endian(file, 4, 4);
+    const uint32_t height = little_endian(file, 8, 4);
+    const uint32_t depth = little_endian(file, 12, 4);
+    const uint32_t channels = little_endian(file, 16, 1);
+    const uint32_t format = little_endian(file, 18, 2);
+    if (width == 0 || height == 0 || depth == 0)
+        return refuse(fmt::format("its size is {}x{}x{}: it has no texels", width, height, depth));
+    constexpr uint32_t limit = k_largest_volume_side;
+    if (width > limit || height > limit || depth > limit)
+        return refuse(fmt::format("its size is {}x{}x{}; the limit is {} on a side", width, height, depth,
+                                  k_largest_volume_side));
+    if (channels < 1 || channels > 4)
+        return refuse(fmt::format("it has {} channels; there may be 1 to 4", channels));
+    if (format != 0 && format != 10)
+        return refuse(
+            fmt::format("its sample format is {}; known are 0 (bytes) and 10 (32-bit floats)", format));
+    VolumeData volume{int(width), int(height), int(depth), int(channels),
+                      format == 0 ? SampleType::u8 : SampleType::f32};
+    const size_t wanted = volume.samples() * size_of(volume.type);
+    const std::string_view samples = file.substr(k_header);
+    if (wanted > k_largest_volume)
+        return refuse(
+            fmt::format("it has {} bytes of samples; the limit is {} MiB", wanted, k_largest_volume >> 20));
+    if (samples.size() != wanted)
+        return refuse(fmt::format("{}x{}x{} texels of {} channel{} are {} bytes of samples, and it has {}",
+                                  width, height, depth, channels, channels == 1 ? "" : "s", wanted,
+                                  samples.size()));
+    volume.bytes.resize(wanted);
+    std::memcpy(volume.bytes.data(), samples.data(), wanted);
+    return volume;
+}
+
+Result<VolumeData> read_volume(const std::filesystem::path& path) {
+    return read_file(path, k_largest_volume + k_header).and_then([&](const std::string& file) {
+        return volume_of(file, path.string());
+    });
+}
+
+} // namespace tidemark::image
