@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace tidemark::image {
@@ -22,13 +23,15 @@ using CubeFaces = std::array<Image, 6>;
 /// * 4:3 or 3:4, a cross: +Y above and -Y below +Z, in whose row stand -X +Z +X -Z. In the tall cross -Z is
 ///   below -Y, upside down, so that its edge meets that of -Y.
 /// * 6:1 or 1:6: the six faces from left to right or from the top.
-/// * 2:1: a panorama, as `equirectangular_of` makes it, resampled to faces of a quarter of its width.
-/// ErrorCode::load names the file and what is wrong.
+/// * 2:1: a panorama, as `equirectangular_of` makes it, resampled to faces of a quarter of its width, but of
+///   2048 texels at most.
+/// Six faces that differ in channels or type are made alike: grey is spread, alpha 1 added, bytes made
+/// floats. ErrorCode::load names the file and what is wrong.
 Result<CubeFaces> read_cubemap(const std::vector<std::filesystem::path>& files);
 
-/// The same for pictures that are in memory as read_picture gives them.
+/// The same for pictures that are in memory as read_picture gives them. `name` is what messages call it.
 Result<CubeFaces> cube_of_faces(std::array<Image, 6> pictures);
-Result<CubeFaces> cube_of_picture(const Image& picture);
+Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name = "the picture");
 
 /// ShaderToy's vflip of a cubemap: rows of every face reversed, and +Y and -Y change places. A direction then
 /// shows what its mirror image (x,-y,z) showed.
