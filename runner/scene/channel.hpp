@@ -38,8 +38,20 @@ inline constexpr Sampling k_buffer_sampling{Filter::linear, Filter::linear, Mipm
 inline constexpr Sampling k_cubemap_sampling{Filter::linear, Filter::linear, Mipmaps::none, Wrap::clamp,
                                              false};
 
-/// Nothing: reads give black.
+/// What ShaderToy's editor gives a volume.
+inline constexpr Sampling k_volume_sampling{Filter::linear, Filter::linear, Mipmaps::linear, Wrap::repeat,
+                                            false};
+/// Keys are bits: nothing between them.
+inline constexpr Sampling k_keyboard_sampling{Filter::nearest, Filter::nearest, Mipmaps::none, Wrap::clamp,
+                                              true};
+
+/// The kind of sampler that GLSL needs for an input.
+enum class TextureKind { flat, cube, volume };
+
+/// Nothing: reads give black. The kind is that of the sampler: a read of a cubemap pass that the project
+/// lacks still is a read of a cube.
 struct Unbound {
+    TextureKind kind = TextureKind::flat;
     bool operator==(const Unbound&) const = default;
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/file.hpp"
 #include "scene/directives.hpp"
+#include "scene/json_scene.hpp"
 #include "text/includes.hpp"
 #include "text/tokens.hpp"
 
@@ -59,12 +60,16 @@ TextureKind texture_kind(const Scene& scene, const ChannelInput& input) {
         return stand_in->kind == StandIn::Kind::cubemap  ? TextureKind::cube
                : stand_in->kind == StandIn::Kind::volume ? TextureKind::volume
                                                          : TextureKind::flat;
+    if (const auto* unbound = std::get_if<Unbound>(&input))
+        return unbound->kind;
     if (std::holds_alternative<Cubemap>(input))
         return TextureKind::cube;
     return std::holds_alternative<Volume>(input) ? TextureKind::volume : TextureKind::flat;
 }
 
-Result<Scene> load_scene(const fs::path& path, const LoadOptions&) {
+Result<Scene> load_scene(const fs::path& path, const LoadOptions& options) {
+    if (path.extension() == ".json")
+        return load_json_scene(path, options);
     auto expanded = text::expand_includes(path, read_text_file);
     if (!expanded)
         return fail(std::move(expanded.error()));

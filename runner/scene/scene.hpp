@@ -21,6 +21,7 @@ struct Pass {
     std::string name;      ///< "Image", "Buffer A": unique in its scene
     text::MappedText text; ///< includes pasted, directives blanked out, every line where its author put it
     Channels channels;
+    bool keyboard_helpers = false; ///< says `#iKeyboard`: wants isKeyDown(Key_A) and the like declared
 };
 
 struct Scene {
@@ -37,8 +38,6 @@ struct Scene {
     const Pass& image() const { return passes[image_index()]; }
 };
 
-/// The kind of sampler that GLSL needs for an input.
-enum class TextureKind { flat, cube, volume };
 TextureKind texture_kind(const Scene& scene, const ChannelInput& input);
 
 struct LoadOptions {

@@ -1,0 +1,59 @@
+#include "scene/bounds.hpp"
+
+#include "base/file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::scene {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_inside(const fs::path& file, const fs::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+/// Empty when there is no such folder.
+fs::path real_path(const fs::path& path) {
+    std::error_code error;
+    fs::path real = fs::canonical(path, error);
+    return error ? fs::path() : real;
+}
+
+} // namespace
+
+Bounds::Bounds(const fs::path& folder, bool allow_outside)
+    : folder_(folder.empty() ? "." : folder.string()), everything_(allow_outside) {
+    const fs::path root = real_path(folder.empty() ? fs::path(".") : folder);
+    if (root.empty())
+        return;
+    roots_.push_back(root);
+    for (const char* name : {"textures", "lib"}) {
+        // A link of that name would lead anywhere: only a folder that really lies there.
+        const fs::path beside = root.parent_path() / name;
+        if (real_path(beside) == beside)
+            roots_.push_back(beside);
+    }
+}
+
+Result<void> Bounds::check(const fs::path& file) const {
+    if (everything_)
+        return {};
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(fs::absolute(file), error);
+    if (!error && std::any_of(roots_.begin(), roots_.end(),
+                              [&](const fs::path& root) { return is_inside(real, root); }))
+        return {};
+    return fail(
+        ErrorCode::load,
+        fmt::format("'{}' lies outside the scene's folder '{}': move it there, into a folder 'textures' "
+                    "or 'lib' beside it, or give --allow-outside",
+                    file.string(), folder_));
+}
+
+Result<std::string> Bounds::read_text(const fs::path& file) const {
+    return check(file).and_then([&] { return read_text_file(file); });
+}
+
+} // namespace tidemark::scene

@@ -1,0 +1,47 @@
+#include "scene/json_scene.hpp"
+
+#include "base/file.hpp"
+#include "scene/bounds.hpp"
+#include "scene/builder.hpp"
+#include "scene/media.hpp"
+#include "scene/project.hpp"
+#include "scene/project_drafts.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::scene {
+namespace fs = std::filesystem;
+
+Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) {
+    auto bytes = read_file(path);
+    if (!bytes)
+        return fail(std::move(bytes.error()));
+    auto project = read_project(*bytes, path.string());
+    if (!project)
+        return fail(std::move(project.error()));
+    const std::vector<std::string> names = pass_names(*project);
+    for (size_t i = 0; i < names.size(); ++i)
+        if (project->passes[i].file)
+            return fail(
+                error_at({path.string()}, fmt::format("the code of '{}' stands in the file '{}': this is "
+                                                      "a scene folder, so give the folder",
+                                                      names[i], *project->passes[i].file)));
+    Scene scene;
+    scene.file = path;
+    scene.files.push_back(path);
+    const Bounds bounds(path.parent_path(), options.allow_outside);
+    const MediaFolder media(options.media);
+    auto drafts = draft_project(scene, {*project, names, path.parent_path(), media, bounds, path.string()});
+    if (!drafts)
+        return fail(std::move(drafts.error()));
+    for (size_t i = 0; i < names.size(); ++i) {
+        const std::string place = fmt::format("{}:{}", path.string(), names[i]);
+        text::MappedText& text = drafts->text_of(i, scene);
+        text.append(plain_text(std::move(project->passes[i].code)), place, 1);
+    }
+    if (auto finished = finish_scene(scene, std::move(drafts->drafts), drafts->order); !finished)
+        return fail(std::move(finished.error()));
+    return scene;
+}
+
+} // namespace tidemark::scene

@@ -1,0 +1,212 @@
+#include "scene/project.hpp"
+
+#include "scene/json_text.hpp"
+#include "scene/pass_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::scene {
+namespace {
+
+using Kind = ProjectPass::Kind;
+
+constexpr std::pair<std::string_view, Kind> k_kinds[] = {
+    {"image", Kind::image}, {"buffer", Kind::buffer},   {"common", Kind::common},
+    {"sound", Kind::sound}, {"cubemap", Kind::cubemap},
+};
+
+/// The first of the two keys that says something: the API's, then the site's.
+std::string either(const Json& object, const char* first, const char* second) {
+    std::string text = as_text(object, first);
+    return text.empty() ? as_text(object, second) : text;
+}
+
+/// ShaderToy's truth is a string.
+std::string flag(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found != object.end() && found->is_boolean())
+        return found->get<bool>() ? "true" : "false";
+    return as_text(object, key);
+}
+
+class ProjectReader {
+public:
+    ProjectReader(const Json& json, const std::string& file) : json_(json), file_(file) {}
+
+    Result<Project> read() {
+        const Json& passes = json_.at("renderpass");
+        if (!passes.is_array() || passes.empty())
+            return refuse("renderpass is no list of passes");
+        if (passes.size() > k_most_passes)
+            return refuse(fmt::format("it has {} passes: ShaderToy has at most 8", passes.size()));
+        for (const Json& pass : passes)
+            if (auto read = read_pass(pass); !read)
+                return fail(std::move(read.error()));
+        return std::move(project_);
+    }
+
+private:
+    /// More than ShaderToy ever allowed; a list of thousands is something else.
+    static constexpr size_t k_most_passes = 64;
+
+    tl::unexpected<Error> refuse(std::string message) const {
+        return fail(error_at({file_}, std::move(message)));
+    }
+
+    Result<void> read_pass(const Json& json) {
+        const size_t number = project_.passes.size() + 1;
+        if (!json.is_object())
+            return refuse(fmt::format("pass {} is no object", number));
+        ProjectPass pass;
+        pass.name = as_text(json, "name");
+        const std::string called =
+            pass.name.empty() ? fmt::format("pass {}", number) : fmt::format("the pass '{}'", pass.name);
+        const auto kind = kind_of(json, pass.name);
+        if (!kind)
+            return refuse(fmt::format("{} is of the unknown type '{}': ShaderToy has image, buffer, common, "
+                                      "cubemap and sound",
+                                      called, as_text(json, "type")));
+        pass.kind = *kind;
+        const auto code = json.find("code");
+        if (code != json.end() && code->is_string())
+            pass.code = code->get<std::string>();
+        else if (code != json.end() && code->is_object() && code->contains("file"))
+            pass.file = as_text(*code, "file");
+        else
+            return refuse(fmt::format("{} has no code", called));
+        read_outputs(json, pass);
+        read_inputs(json, called, pass);
+        project_.passes.push_back(std::move(pass));
+        return {};
+    }
+
+    /// By its type; where that is missing, by its name.
+    static std::optional<Kind> kind_of(const Json& json, std::string_view name) {
+        const std::string type = as_text(json, "type");
+        for (const auto& [word, kind] : k_kinds)
+            if (word == type)
+                return kind;
+        if (!type.empty())
+            return std::nullopt;
+        const auto named = parse_pass_name(name);
+        return named ? named->kind : Kind::image;
+    }
+
+    static void read_outputs(const Json& json, ProjectPass& pass) {
+        const auto outputs = json.find("outputs");
+        if (outputs == json.end() || !outputs->is_array())
+            return;
+        for (const Json& output : *outputs)
+            if (output.is_object() && (pass.output.empty() || as_text(output, "channel") == "0"))
+                pass.output = as_text(output, "id");
+    }
+
+    void read_inputs(const Json& json, const std::string& called, ProjectPass& pass) {
+        const auto inputs = json.find("inputs");
+        if (inputs == json.end() || !inputs->is_array())
+            return;
+        for (const Json& input : *inputs)
+            if (input.is_object())
+                read_input(input, called, pass);
+    }
+
+    void read_input(const Json& json, const std::string& called, ProjectPass& pass) {
+        ProjectInput input;
+        const std::string channel = as_text(json, "channel");
+        if (channel.size() != 1 || channel[0] < '0' || channel[0] > '3') {
+            project_.warnings.push_back(
+                {{file_},
+                 Severity::warning,
+                 fmt::format("{} has an input of channel '{}': left out, for there are 0 to 3", called,
+                             channel)});
+            return;
+        }
+        input.channel = channel[0] - '0';
+        input.type = either(json, "ctype", "type");
+        input.id = as_text(json, "id");
+        input.source = either(json, "src", "filepath");
+        const auto sampler = json.find("sampler");
+        if (sampler != json.end() && sampler->is_object()) {
+            input.filter = as_text(*sampler, "filter");
+            input.wrap = as_text(*sampler, "wrap");
+            input.vflip = flag(*sampler, "vflip");
+        }
+        pass.inputs.push_back(std::move(input));
+    }
+
+    const Json& json_;
+    const std::string& file_;
+    Project project_;
+};
+
+/// Names for the passes of one kind that ShaderToy has only once.
+std::string numbered(std::string_view name, int count) {
+    return count == 1 ? std::string(name) : fmt::format("{} {}", name, count);
+}
+
+} // namespace
+
+Result<Project> read_project(std::string_view text, const std::string& file) {
+    auto json = parse_json(text, file);
+    if (!json)
+        return fail(std::move(json.error()));
+    const auto project = find_project(*json, file);
+    if (!project)
+        return fail(project.error());
+    return ProjectReader(**project, file).read();
+}
+
+std::vector<std::string> pass_names(const Project& project) {
+    std::vector<std::string> names(project.passes.size());
+    const auto is_free = [&](const std::string& name) {
+        return std::find(names.begin(), names.end(), name) == names.end();
+    };
+    // What it draws tells which buffer it is; then what its author called it; then what is left.
+    for (int round = 0; round < 3; ++round)
+        for (size_t i = 0; i < names.size(); ++i) {
+            const ProjectPass& pass = project.passes[i];
+            if (pass.kind != Kind::buffer || !names[i].empty())
+                continue;
+            const auto named = parse_pass_name(pass.name);
+            std::optional<int> number;
+            if (round == 0)
+                number = buffer_number(pass.output);
+            else if (round == 1 && named && named->kind == Kind::buffer)
+                number = named->number;
+            else if (round == 2)
+                for (number = 0; !is_free(buffer_name(*number));)
+                    ++*number;
+            if (number && is_free(buffer_name(*number)))
+                names[i] = buffer_name(*number);
+        }
+    int counts[5] = {};
+    for (size_t i = 0; i < names.size(); ++i) {
+        const Kind kind = project.passes[i].kind;
+        const int count = ++counts[size_t(kind)];
+        switch (kind) {
+        case Kind::common: names[i] = numbered("Common", count); break;
+        case Kind::cubemap: names[i] = numbered("Cube A", count); break;
+        case Kind::image: names[i] = numbered("Image", count); break;
+        case Kind::sound: names[i] = numbered("Sound", count); break;
+        case Kind::buffer: break;
+        }
+    }
+    return names;
+}
+
+std::optional<int> buffer_number(std::string_view id) {
+    constexpr std::string_view k_ids[][2] = {
+        {"257", "4dXGR8"}, {"258", "XsXGR8"}, {"259", "4sXGR8"}, {"260", "XdfGR8"}};
+    for (int i = 0; i < 4; ++i)
+        if (id == k_ids[i][0] || id == k_ids[i][1])
+            return i;
+    return std::nullopt;
+}
+
+bool is_cube_id(std::string_view id) {
+    return id == "41" || id == "4dX3Rr";
+}
+
+} // namespace tidemark::scene

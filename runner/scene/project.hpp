@@ -1,0 +1,54 @@
+// A ShaderToy project as its JSON tells it, whatever the dialect of the JSON: passes with their code and
+// their inputs, still by ShaderToy's names. What the names mean is decided in compose.hpp.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::scene {
+
+/// What one channel of a pass reads. All texts are as the JSON has them (numbers as their digits), empty
+/// where it has nothing.
+struct ProjectInput {
+    int channel = 0;
+    std::string type; ///< texture, buffer, cubemap, volume, keyboard, music, musicstream, mic, video, webcam
+    std::string id;   ///< 257 or 4dXGR8
+    std::string source; ///< /media/a/….png
+    std::string filter; ///< nearest, linear, mipmap
+    std::string wrap;   ///< clamp, repeat
+    std::string vflip;  ///< true, false
+};
+
+struct ProjectPass {
+    enum class Kind { common, buffer, cubemap, image, sound };
+    Kind kind = Kind::image;
+    std::string name;   ///< the author's, for messages only
+    std::string output; ///< id of what it draws
+    std::string code;
+    std::optional<std::string> file; ///< scene.json: the code stands in that file of the folder
+    std::vector<ProjectInput> inputs;
+};
+
+struct Project {
+    std::vector<ProjectPass> passes; ///< in the order of the JSON
+    std::vector<Diagnostic> warnings;
+};
+
+/// Reads the JSON of ShaderToy's API, of its site, or of 2014, alone or as a list of one. `file` is for the
+/// messages.
+Result<Project> read_project(std::string_view json, const std::string& file);
+
+/// A name for each pass, unique and the same in every project: `Common`, `Buffer A` … by what it draws, not
+/// by the author's name; `Cube A`, `Image`, `Sound`.
+std::vector<std::string> pass_names(const Project& project);
+
+/// 0 to 3 for the id of Buffer A to D in either form.
+std::optional<int> buffer_number(std::string_view id);
+/// Whether that is the id of Cube A.
+bool is_cube_id(std::string_view id);
+
+} // namespace tidemark::scene
