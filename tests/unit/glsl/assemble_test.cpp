@@ -47,9 +47,10 @@ TEST(Assemble, the_author_s_text_is_untouched) {
 
 TEST(Assemble, alpha_is_one_and_the_colour_starts_black) {
     const std::string text = source_of(k_main_image).text();
-    EXPECT_EQ(count(text, "    vec4 color = vec4(0.0, 0.0, 0.0, 1.0);\n"
-                          "    mainImage(color, gl_FragCoord.xy);\n"
-                          "    tidemark_color = vec4(color.rgb, 1.0);\n"),
+    EXPECT_EQ(count(text, "    vec4 tidemark_pixel = vec4(0.0, 0.0, 0.0, 1.0);\n"
+                          "    vec2 tidemark_at = gl_FragCoord.xy;\n"
+                          "    mainImage(tidemark_pixel, tidemark_at);\n"
+                          "    tidemark_color = vec4(tidemark_pixel.rgb, 1.0);\n"),
               1);
 }
 

@@ -1,0 +1,196 @@
+#include "glsl/prologue.hpp"
+
+#include "glsl/assemble.hpp"
+#include "glsl/rewrite.hpp"
+#include "glsl/words.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::glsl {
+namespace {
+
+/// WebGL 2 has these; `330 core` needs to be told.
+constexpr std::string_view k_core_330 = R"(#version 330 core
+#extension GL_ARB_shading_language_packing : enable
+#extension GL_ARB_shading_language_420pack : enable
+#extension GL_ARB_shader_bit_encoding : enable
+#extension GL_ARB_gpu_shader5 : enable
+#extension GL_ARB_texture_gather : enable
+#extension GL_ARB_arrays_of_arrays : enable
+)";
+
+/// Samplers too: by default they are lowp, and Mesa then reads float buffers as halves.
+constexpr std::string_view k_es_precision = R"(precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp samplerCube;
+precision highp sampler3D;
+)";
+
+constexpr std::string_view k_assertions = R"(int tidemark_failed = -1;
+void st_assert(bool holds, int kind) {
+    if (!holds)
+        tidemark_failed = kind;
+}
+void st_assert(bool holds) {
+    st_assert(holds, 0);
+}
+)";
+
+constexpr std::string_view k_paint_assertions =
+    R"(    if (tidemark_failed >= 0)
+        tidemark_color.rgb = tidemark_failed == 0   ? vec3(1.0, 0.0, 0.0)
+                             : tidemark_failed == 1 ? vec3(0.0, 1.0, 0.0)
+                             : tidemark_failed == 2 ? vec3(0.0, 0.0, 1.0)
+                                                    : vec3(1.0, 1.0, 0.0);
+)";
+
+constexpr const char* k_image_main = R"(void main() {{
+    vec4 tidemark_pixel = vec4(0.0, 0.0, 0.0, 1.0);
+    vec2 tidemark_at = gl_FragCoord.xy;
+    mainImage(tidemark_pixel, tidemark_at);
+    tidemark_color = vec4(tidemark_pixel.rgb, 1.0);
+{}}}
+)";
+
+constexpr std::string_view k_buffer_main = R"(void main() {
+    tidemark_color = vec4(0.0, 0.0, 0.0, 1.0);
+    vec2 tidemark_at = gl_FragCoord.xy;
+    mainImage(tidemark_color, tidemark_at);
+}
+)";
+
+constexpr std::string_view k_cubemap_main = R"(uniform vec3 tidemark_corners[4];
+void main() {
+    vec2 tidemark_at = gl_FragCoord.xy / iResolution.xy;
+    vec3 tidemark_direction = mix(mix(tidemark_corners[0], tidemark_corners[1], tidemark_at.x),
+                                  mix(tidemark_corners[3], tidemark_corners[2], tidemark_at.x), tidemark_at.y);
+    tidemark_color = vec4(0.0, 0.0, 0.0, 1.0);
+    mainCubemap(tidemark_color, gl_FragCoord.xy, vec3(0.0), normalize(tidemark_direction));
+}
+)";
+
+constexpr const char* k_sound_main = R"(void main() {{
+    int tidemark_local = int(gl_FragCoord.y) * {} + int(gl_FragCoord.x);
+    vec2 tidemark_level = mainSound({}iTimeOffset + float(tidemark_local) / iSampleRate);
+    vec2 tidemark_whole = floor((0.5 + 0.5 * tidemark_level) * 65536.0);
+    vec2 tidemark_low = mod(tidemark_whole, 256.0) / 255.0;
+    vec2 tidemark_high = floor(tidemark_whole / 256.0) / 255.0;
+    tidemark_color = vec4(tidemark_low.x, tidemark_high.x, tidemark_low.y, tidemark_high.y);
+}}
+)";
+
+std::string_view sampler_type(scene::TextureKind kind) {
+    switch (kind) {
+    case scene::TextureKind::flat: return "sampler2D";
+    case scene::TextureKind::cube: return "samplerCube";
+    case scene::TextureKind::volume: return "sampler3D";
+    }
+    return "sampler2D";
+}
+
+std::string version_lines(const Dialect& dialect, std::span<const std::string> extensions) {
+    std::string text(dialect.version == Version::core_330   ? k_core_330
+                     : dialect.version == Version::core_450 ? "#version 450 core\n"
+                                                            : "#version 300 es\n");
+    for (const std::string& line : extensions)
+        text += line;
+    if (dialect.version == Version::es_300)
+        text += k_es_precision;
+    return text;
+}
+
+std::string macros(const Survey& survey, const Dialect& dialect) {
+    std::string text;
+    if (!survey.defines("HW_PERFORMANCE"))
+        text += "#define HW_PERFORMANCE 1\n";
+    if (dialect.version != Version::es_300 && survey.uses("GL_ES"))
+        text += fmt::format("#define {} 1\n", k_es_macro);
+    if (dialect.version != Version::es_300 && survey.uses("__VERSION__"))
+        text += fmt::format("#define {} 300\n", k_version_macro);
+    for (const OldName& old : k_old_names) {
+        const auto found = survey.names.find(old.name);
+        if (found == survey.names.end() || found->second.count == 0 || found->second.function ||
+            found->second.macro)
+            continue;
+        // A uniform of that name that we took out is ours to provide.
+        if (!found->second.variable && !survey.keeps_uniform(old.name))
+            text += fmt::format("#define {} {}\n", old.name, old.today);
+    }
+    return text;
+}
+
+std::string uniforms(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
+                     const Dialect& dialect) {
+    std::string text;
+    const auto declare = [&](std::string_view type, std::string_view name, int length = 0) {
+        if (!survey.keeps_uniform(name))
+            text += length > 0 ? fmt::format("uniform {} {}[{}];\n", type, name, length)
+                               : fmt::format("uniform {} {};\n", type, name);
+    };
+    const bool sound = pass.kind == scene::PassKind::sound;
+    for (const SiteUniform& uniform : k_site_uniforms)
+        if (sound ? uniform.sound : uniform.image)
+            declare(uniform.type, uniform.name, uniform.length);
+    for (size_t i = 0; i < k_channel_names.size(); ++i) {
+        const std::string_view type = sampler_type(dialect.channels[i]);
+        declare(type, k_channel_names[i]);
+        if (survey.wants(k_channel_structs[i]))
+            text += fmt::format("uniform struct {{ {} sampler; vec3 size; float time; int loaded; }} {};\n",
+                                type, k_channel_structs[i]);
+    }
+    if (survey.wants("iChannel"))
+        text += "uniform struct { vec3 resolution; float time; } iChannel[4];\n";
+    for (const scene::Knob& knob : scene.knobs)
+        declare(scene::info(knob.type).glsl_name, knob.name);
+    return text;
+}
+
+} // namespace
+
+std::string prologue(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
+                     const Dialect& dialect, std::span<const std::string> extensions) {
+    std::string text = version_lines(dialect, extensions);
+    text += macros(survey, dialect);
+    text += uniforms(scene, pass, survey, dialect);
+    if (dialect.main != MainPlace::author || survey.own_output.empty())
+        text += fmt::format("layout(location = 0) out vec4 {};\n", k_output);
+    if (pass.keyboard_helpers)
+        text += keyboard_helpers();
+    if (pass.kind == scene::PassKind::image && survey.wants("st_assert"))
+        text += k_assertions;
+    return text;
+}
+
+Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& dialect) {
+    const bool image = pass.kind == scene::PassKind::image;
+    if (dialect.main == MainPlace::author) {
+        const bool own = !survey.own_output.empty();
+        const std::string_view output = own ? survey.own_output : k_output;
+        const bool has_alpha = !own || survey.own_output_type == "vec4";
+        return {{},
+                fmt::format("void main() {{\n{}    {}();\n{}}}\n",
+                            has_alpha ? fmt::format("    {} = vec4(0.0, 0.0, 0.0, 1.0);\n", output) : "",
+                            k_author_main,
+                            has_alpha && image ? fmt::format("    {}.a = 1.0;\n", output) : "")};
+    }
+    const std::string_view out = initialises_colour(survey, dialect) ? "inout" : "out";
+    switch (pass.kind) {
+    case scene::PassKind::sound:
+        if (survey.sound_takes_time_alone)
+            return {"vec2 mainSound(float time);\n", fmt::format(k_sound_main, k_sound_tile, "")};
+        return {"vec2 mainSound(int samp, float time);\n",
+                fmt::format(k_sound_main, k_sound_tile, "iSampleOffset + tidemark_local, ")};
+    case scene::PassKind::cubemap:
+        return {fmt::format("void mainCubemap({} vec4 fragColor, in vec2 fragCoord, in vec3 rayOri, in vec3 "
+                            "rayDir);\n",
+                            out),
+                std::string(k_cubemap_main)};
+    default:
+        return {fmt::format("void mainImage({} vec4 fragColor, in vec2 fragCoord);\n", out),
+                image ? fmt::format(k_image_main, survey.wants("st_assert") ? k_paint_assertions : "")
+                      : std::string(k_buffer_main)};
+    }
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,40 @@
+// The changes that an author's text needs before the driver sees it, as edits that move no line. Most texts
+// need none but `inout` at mainImage and zeros for variables without a value.
+#pragma once
+
+#include "glsl/dialect.hpp"
+#include "glsl/survey.hpp"
+#include "text/mapped_text.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tidemark::glsl {
+
+/// What the `GL_ES` and the `__VERSION__` of a text become on a desktop version.
+inline constexpr std::string_view k_es_macro = "tidemark_GL_ES";
+inline constexpr std::string_view k_version_macro = "tidemark_VERSION";
+/// In front of a reserved word that the text uses as a name.
+inline constexpr std::string_view k_renamed = "st_";
+/// What the author's own `main` is called where ours calls it.
+inline constexpr std::string_view k_author_main = "tidemark_author_main";
+/// Our output, and what an author's `gl_FragColor` becomes.
+inline constexpr std::string_view k_output = "tidemark_color";
+
+/// Whether the entry point's `out` colour becomes `inout`, so that it starts at the value that we give it.
+bool initialises_colour(const Survey& survey, const Dialect& dialect);
+
+struct Rewriting {
+    std::vector<text::Edit> edits;       ///< sorted, without overlap
+    std::vector<std::string> extensions; ///< the text's own #extension lines that go to the top
+};
+
+Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
+                  const Preprocessed& preprocessed, const Survey& survey, const Dialect& dialect);
+
+/// `= T(0)` behind the name of every variable of a plain type that has no value: WebGL starts those at zero.
+/// Members, parameters, arrays and variables of the author's own types are left alone.
+std::vector<text::Edit> initialise_variables(const std::vector<text::Token>& tokens,
+                                             const Preprocessed& preprocessed);
+
+} // namespace tidemark::glsl

@@ -1,0 +1,119 @@
+// The names that the front end looks for in a text: words that a desktop driver reserves, names of old APIs,
+// and what ShaderToy's prologue declares.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace tidemark::glsl {
+
+/// A name of an old API and what it is called today.
+struct OldName {
+    std::string_view name;
+    std::string_view today;
+};
+
+inline constexpr OldName k_old_names[] = {
+    {"iGlobalTime", "iTime"},
+    {"iGlobalFrame", "iFrame"},
+    {"texture2D", "texture"},
+    {"textureCube", "texture"},
+    {"texture3D", "texture"},
+    {"texture2DProj", "textureProj"},
+    {"texture2DLod", "textureLod"},
+    {"texture2DLodEXT", "textureLod"},
+    {"texture2DProjLod", "textureProjLod"},
+    {"texture2DProjLodEXT", "textureProjLod"},
+    {"textureCubeLod", "textureLod"},
+    {"textureCubeLodEXT", "textureLod"},
+    {"texture3DLod", "textureLod"},
+    {"texture2DGrad", "textureGrad"},
+    {"texture2DGradEXT", "textureGrad"},
+    {"texture2DGradARB", "textureGrad"},
+    {"textureCubeGrad", "textureGrad"},
+    {"textureCubeGradEXT", "textureGrad"},
+    {"textureCubeGradARB", "textureGrad"},
+    {"textureGradEXT", "textureGrad"},
+    {"textureLodEXT", "textureLod"},
+};
+
+/// Legal names in the site's texts (or at least published there) that some version we offer has as a keyword.
+inline constexpr std::string_view k_reserved_words[] = {"packed",
+                                                        "row_major",
+                                                        "buffer",
+                                                        "shared",
+                                                        "sample",
+                                                        "precise",
+                                                        "patch",
+                                                        "subroutine",
+                                                        "resource",
+                                                        "active",
+                                                        "filter",
+                                                        "input",
+                                                        "output",
+                                                        "common",
+                                                        "partition",
+                                                        "dmat2",
+                                                        "dmat3",
+                                                        "dmat4",
+                                                        "superp",
+                                                        "coherent",
+                                                        "restrict",
+                                                        "readonly",
+                                                        "writeonly",
+                                                        "samplerCubeArray",
+                                                        "isamplerCubeArray",
+                                                        "usamplerCubeArray",
+                                                        "external",
+                                                        "interface",
+                                                        "cast",
+                                                        "noperspective"};
+
+/// A uniform that ShaderToy's prologue declares.
+struct SiteUniform {
+    std::string_view name;
+    std::string_view type;
+    int length = 0;     ///< of an array; 0 for none
+    bool image = true;  ///< declared where pictures are drawn
+    bool sound = false; ///< declared in the Sound pass
+};
+
+inline constexpr SiteUniform k_site_uniforms[] = {
+    {"iResolution", "vec3"},
+    {"iTime", "float"},
+    {"iTimeDelta", "float"},
+    {"iFrameRate", "float"},
+    {"iFrame", "int"},
+    {"iMouse", "vec4"},
+    {"iDate", "vec4", 0, true, true},
+    {"iSampleRate", "float", 0, true, true},
+    {"iChannelTime", "float", 4, true, true},
+    {"iChannelResolution", "vec3", 4, true, true},
+    {"iTimeOffset", "float", 0, false, true},
+    {"iSampleOffset", "int", 0, false, true},
+};
+
+inline constexpr std::array<std::string_view, 4> k_channel_names{"iChannel0", "iChannel1", "iChannel2",
+                                                                 "iChannel3"};
+inline constexpr std::array<std::string_view, 4> k_channel_structs{"iCh0", "iCh1", "iCh2", "iCh3"};
+
+/// Types that can be built from one zero.
+inline constexpr std::string_view k_plain_types[] = {
+    "float",  "int",    "uint",   "bool",   "vec2",   "vec3",   "vec4",   "ivec2", "ivec3", "ivec4",
+    "uvec2",  "uvec3",  "uvec4",  "bvec2",  "bvec3",  "bvec4",  "mat2",   "mat3",  "mat4",  "mat2x2",
+    "mat2x3", "mat2x4", "mat3x2", "mat3x3", "mat3x4", "mat4x2", "mat4x3", "mat4x4"};
+
+inline bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
+    for (const std::string_view candidate : words)
+        if (candidate == word)
+            return true;
+    return false;
+}
+
+inline bool is_precision(std::string_view word) {
+    return word == "highp" || word == "mediump" || word == "lowp";
+}
+
+} // namespace tidemark::glsl
