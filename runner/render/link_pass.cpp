@@ -5,27 +5,75 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 namespace tidemark::render {
 namespace {
 
-Error compile_error(const scene::Pass& pass, const scene::Scene& scene, std::string_view log,
-                    const text::LineMap& lines) {
-    Error error{ErrorCode::load, fmt::format("'{}' does not compile", scene.file.string()),
-                glsl::parse_driver_log(log, lines)};
-    for (Diagnostic& diagnostic : error.diagnostics)
-        if (diagnostic.where.file.empty())
-            diagnostic.message = fmt::format("{}: {}", pass.name, diagnostic.message);
-    return error;
-}
+/// What the driver said of one attempt.
+struct Refusal {
+    glsl::ShaderSource source;
+    std::string log;
+};
+
+class Linker {
+public:
+    Linker(const scene::Scene& scene, const scene::Pass& pass) : scene_(scene), pass_(pass) {}
+
+    /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
+    /// dialect fails, the driver's words tell which kinds are worth trying.
+    std::optional<LinkedPass> link() {
+        const std::vector<glsl::Dialect> dialects = glsl::dialects_to_try(scene_, pass_);
+        if (auto linked = first_that_links(dialects))
+            return linked;
+        for (const glsl::ChannelKinds& kinds :
+             glsl::channel_kinds_to_try(scene_, pass_, first_->source, first_->log)) {
+            glsl::Dialect dialect = dialects.front();
+            dialect.channels = kinds;
+            if (auto linked = first_that_links({dialect}))
+                return linked;
+        }
+        return std::nullopt;
+    }
+
+    /// The likeliest dialect's messages are the ones that mean something to the author.
+    Error error() const {
+        Error error{ErrorCode::load, fmt::format("'{}' does not compile", scene_.file.string()), {}};
+        error.diagnostics = glsl::entry_point_problems(scene_, pass_);
+        if (error.diagnostics.empty())
+            error.diagnostics = glsl::parse_driver_log(first_->log, first_->source.lines());
+        for (Diagnostic& diagnostic : error.diagnostics)
+            if (diagnostic.where.file.empty())
+                diagnostic.message = fmt::format("{}: {}", pass_.name, diagnostic.message);
+        return error;
+    }
+
+private:
+    std::optional<LinkedPass> first_that_links(const std::vector<glsl::Dialect>& dialects) {
+        for (const glsl::Dialect& dialect : dialects) {
+            glsl::ShaderSource source = glsl::assemble(scene_, pass_, dialect);
+            auto program = gl::Program::link(glsl::vertex_shader(dialect.version), source.text());
+            if (program)
+                return LinkedPass{*std::move(program), dialect};
+            if (!first_)
+                first_ = Refusal{std::move(source), std::move(program.error())};
+        }
+        return std::nullopt;
+    }
+
+    const scene::Scene& scene_;
+    const scene::Pass& pass_;
+    std::optional<Refusal> first_;
+};
 
 } // namespace
 
-Result<gl::Program> link_pass(const scene::Scene& scene, const scene::Pass& pass) {
-    const glsl::ShaderSource source = glsl::assemble(scene, pass);
-    auto program = gl::Program::link(glsl::k_vertex_shader, source.text());
-    if (!program)
-        return fail(compile_error(pass, scene, program.error(), source.lines()));
-    return *std::move(program);
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass) {
+    Linker linker(scene, pass);
+    auto linked = linker.link();
+    if (!linked)
+        return fail(linker.error());
+    return *std::move(linked);
 }
 
 } // namespace tidemark::render

@@ -3,11 +3,19 @@
 
 #include "base/result.hpp"
 #include "gl/program.hpp"
+#include "glsl/dialect.hpp"
 #include "scene/scene.hpp"
 
 namespace tidemark::render {
 
+struct LinkedPass {
+    gl::Program program;
+    /// What it was linked as. Its kinds of channels may differ from the scene's where the scene says nothing:
+    /// the text wants a cube or a volume there.
+    glsl::Dialect dialect;
+};
+
 /// The error has the authors' own files and lines.
-Result<gl::Program> link_pass(const scene::Scene& scene, const scene::Pass& pass);
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass);
 
 } // namespace tidemark::render

@@ -19,6 +19,20 @@ constexpr double k_face_corners[6][12] = {
     {-1, 1, 1, 1, 1, 1, 1, -1, 1, -1, -1, 1}, {1, 1, -1, -1, 1, -1, -1, -1, -1, 1, -1, -1},
 };
 
+/// A text that takes a channel for a cube or a volume, where the scene says nothing, gets one.
+void supply_other_kinds(scene::Scene& scene, size_t pass, const glsl::ChannelKinds& kinds) {
+    for (size_t i = 0; i < kinds.size(); ++i) {
+        scene::Channel& channel = scene.passes[pass].channels[i];
+        if (kinds[i] == texture_kind(scene, channel.input))
+            continue;
+        if (kinds[i] == scene::TextureKind::cube)
+            channel = {
+                scene::StandIn{scene::StandIn::Kind::cubemap, 256, 256, 4}, scene::k_cubemap_sampling, {}};
+        else
+            channel.input = scene::Noise{scene::NoiseKind::rgba_volume_32};
+    }
+}
+
 } // namespace
 
 Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& options) {
@@ -78,12 +92,14 @@ Result<void> Renderer::compile() {
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto program = link_pass(scene_, scene_.passes[i]);
-        if (!program)
-            return fail(std::move(program.error()));
-        reflections[i] = program->reflection();
-        passes_[i].uniforms = UniformTable(program->reflection(), scene_.knobs);
-        passes_[i].program = *std::move(program);
+        auto linked = link_pass(scene_, scene_.passes[i]);
+        if (!linked)
+            return fail(std::move(linked.error()));
+        supply_other_kinds(scene_, i, linked->dialect.channels);
+        gl::Program& program = linked->program;
+        reflections[i] = program.reflection();
+        passes_[i].uniforms = UniformTable(program.reflection(), scene_.knobs);
+        passes_[i].program = std::move(program);
     }
     plan_ = plan_frame(scene_, reflections, shown_);
     return {};

@@ -19,15 +19,15 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene) {
     const scene::Pass* pass = scene.find(scene::PassKind::sound);
     if (!pass)
         return fail(ErrorCode::usage, fmt::format("'{}' has no Sound pass", scene.file.string()));
-    auto program = link_pass(scene, *pass);
-    if (!program)
-        return fail(std::move(program.error()));
+    auto linked = link_pass(scene, *pass);
+    if (!linked)
+        return fail(std::move(linked.error()));
     auto target =
         gl::make_render_target(gl::make_texture({glsl::k_sound_tile, glsl::k_sound_tile}, GL_RGBA8, 1));
     if (!target)
         return fail(ErrorCode::load, "this driver has no memory for a block of sound");
     SoundRenderer renderer;
-    renderer.program_ = *std::move(program);
+    renderer.program_ = std::move(linked->program);
     renderer.target_ = *std::move(target);
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
