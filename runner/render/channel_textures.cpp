@@ -45,7 +45,9 @@ gl::Texture make_texture(const Image& image, bool mipmaps) {
 }
 
 Image black() {
-    return {{1, 1}, 4, SampleType::u8};
+    Image opaque({1, 1}, 4, SampleType::u8);
+    opaque.u8()[3] = 255;
+    return opaque;
 }
 
 Result<Image> load_image(const scene::Channel& channel) {
@@ -85,6 +87,15 @@ Result<size_t> ChannelTextures::require(const scene::Channel& channel) {
         *image = image::flipped(*image);
     textures_.push_back({channel.input, channel.sampling.vflip, mipmaps, make_texture(*image, mipmaps)});
     return textures_.size() - 1;
+}
+
+Result<Extent> ChannelTextures::size_of(const scene::Channel& channel) {
+    if (std::holds_alternative<scene::Picture>(channel.input))
+        return require(channel).map([&](size_t index) { return textures_[index].texture.extent; });
+    const bool asked_for = !channel.where.file.empty();
+    if (std::holds_alternative<scene::Noise>(channel.input) && asked_for)
+        return Extent{image::k_noise_side, image::k_noise_side};
+    return Extent{};
 }
 
 gl::SamplerHandle make_sampler(const scene::Sampling& sampling) {

@@ -16,6 +16,10 @@ public:
     /// cannot be read or is larger than the driver takes.
     Result<size_t> require(const scene::Channel& channel);
 
+    /// What iChannelResolution tells of a channel whose texture nobody reads: the size of the picture or
+    /// noise that a directive put there, zeros where nothing did. A picture is loaded for it.
+    Result<Extent> size_of(const scene::Channel& channel);
+
     const gl::Texture& operator[](size_t index) const { return textures_[index].texture; }
 
 private:

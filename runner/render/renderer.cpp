@@ -72,9 +72,22 @@ Result<void> Renderer::compile() {
     return {};
 }
 
+Result<void> Renderer::measure_channels(const scene::Pass& pass, CompiledPass& compiled) {
+    for (size_t number = 0; number < pass.channels.size(); ++number) {
+        const auto size = textures_.size_of(pass.channels[number]);
+        if (!size)
+            return fail(size.error());
+        compiled.channel_sizes[number] = *size;
+    }
+    return {};
+}
+
 Result<void> Renderer::bind_channels() {
     for (const PlannedPass& planned : plan_.passes) {
         CompiledPass& compiled = passes_[planned.pass];
+        if (compiled.program.reflection().has("iChannelResolution"))
+            if (auto measured = measure_channels(scene_.passes[planned.pass], compiled); !measured)
+                return measured;
         for (const int number : planned.channels) {
             const scene::Channel& channel = scene_.passes[planned.pass].channels[size_t(number)];
             const auto texture = textures_.require(channel);

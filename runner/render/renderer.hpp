@@ -56,6 +56,7 @@ private:
     };
 
     Result<void> compile();
+    Result<void> measure_channels(const scene::Pass& pass, CompiledPass& compiled);
     Result<void> bind_channels();
     void draw_pass(const CompiledPass& pass, const FrameInputs& inputs) const;
 
