@@ -113,7 +113,7 @@ Result<int> capture(const CaptureOptions& options) {
     Interrupt interrupt;
     std::jthread codec; // is loaded beside the driver, which takes as long
     if (!plan->output.standard_output())
-        codec = image::preload_picture_codec();
+        codec = image::preload_picture_codec(plan->output.pattern());
     auto scene = load(options.scene);
     if (!scene)
         return fail(std::move(scene.error()));

@@ -4,10 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 namespace tidemark::cli {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr int k_most_digits = 20;
+
+} // namespace
 
 Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_count) {
     const auto refuse = [&](std::string_view why) {
@@ -41,8 +47,8 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
             continue;
         }
         for (++i; i < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[i])); ++i)
-            name.digits_ = name.digits_ * 10 + (pattern[i] - '0');
-        if (i >= pattern.size() || pattern[i] != 'd' || name.digits_ > 20)
+            name.digits_ = std::min(name.digits_ * 10 + (pattern[i] - '0'), k_most_digits + 1);
+        if (i >= pattern.size() || pattern[i] != 'd' || name.digits_ > k_most_digits)
             return refuse("write the frame number as %04d or ####");
     }
     if (!name.numbered_ && frame_count > 1)

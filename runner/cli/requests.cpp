@@ -14,6 +14,10 @@ namespace {
 
 /// No recording is longer: iFrame is an int, and a day at 60 frames a second is five million.
 constexpr int k_last_frame = 100'000'000;
+/// All ranges together.
+constexpr size_t k_most_frames = 10'000'000;
+/// Every whole number up to here is a float.
+constexpr double k_farthest_pixel = 1 << 24;
 
 /// Consumes a number from the front of `text`.
 template <class T>
@@ -43,10 +47,11 @@ bool take_range(std::string_view& text, std::vector<int>& frames) {
         return false;
     if (take(text, 'x') && (!take(text, step) || step < 1))
         return false;
-    if (std::abs(last - first) / step >= 10'000'000)
+    const int steps = std::abs(last - first) / step;
+    if (frames.size() + size_t(steps) >= k_most_frames)
         return false;
     const int direction = last < first ? -1 : 1;
-    for (int i = 0; i <= std::abs(last - first) / step; ++i)
+    for (int i = 0; i <= steps; ++i)
         frames.push_back(first + direction * i * step);
     return true;
 }
@@ -110,8 +115,8 @@ Result<glm::vec4> parse_mouse(std::string_view text) {
     double x = 0;
     double y = 0;
     std::string_view rest = text;
-    const bool good =
-        take(rest, x) && take(rest, ',') && take(rest, y) && std::isfinite(x) && std::isfinite(y);
+    const bool good = take(rest, x) && take(rest, ',') && take(rest, y) && std::abs(x) <= k_farthest_pixel &&
+                      std::abs(y) <= k_farthest_pixel;
     if (!good || (!rest.empty() && rest != ",down"))
         return fail(ErrorCode::usage,
                     fmt::format("--mouse {}: give x,y or x,y,down in pixels from the bottom left", text));

@@ -41,8 +41,10 @@ private:
     Reflection reflection_;
 };
 
-/// Gives `uniform` its value whatever its numeric type is: each element takes as many of `values` as its type
-/// has components (columns first), converted; what is missing is left as it was. Samplers take their unit.
-void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> values);
+/// Gives `uniform` its value whatever its numeric type is. `values` hold `width` numbers for each element (0:
+/// as many as its type has components; columns first); they are converted, surplus ones dropped, missing ones
+/// 0. Elements that `values` do not reach keep what they have. Samplers take their unit.
+void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> values,
+                 size_t width = 0);
 
 } // namespace tidemark::gl

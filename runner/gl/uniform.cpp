@@ -44,11 +44,21 @@ Shape shape_of(GLenum type) {
 /// The longest value the host ever sets is one matrix.
 constexpr size_t k_most_numbers = 16;
 
+using Numbers = std::array<double, k_most_numbers>;
+
+/// `values` come `width` to an element, the uniform takes `per_element`: what is missing is 0.
+Numbers repacked(std::span<const double> values, size_t width, size_t per_element, size_t count) {
+    Numbers numbers{};
+    for (size_t element = 0; element < count; ++element)
+        for (size_t i = 0; i < std::min({width, per_element, values.size() - element * width}); ++i)
+            numbers[element * per_element + i] = values[element * width + i];
+    return numbers;
+}
+
 template <class T>
-std::array<T, k_most_numbers> converted(std::span<const double> values) {
+std::array<T, k_most_numbers> converted(const Numbers& values) {
     std::array<T, k_most_numbers> numbers{};
-    std::transform(values.begin(), values.begin() + std::ptrdiff_t(std::min(values.size(), k_most_numbers)),
-                   numbers.begin(), [](double value) { return T(value); });
+    std::transform(values.begin(), values.end(), numbers.begin(), [](double value) { return T(value); });
     return numbers;
 }
 
@@ -56,19 +66,24 @@ template <class T>
 using Setter = void (*)(GLuint, GLint, GLsizei, const T*);
 
 template <class T>
-void set_vector(GLuint program, const Uniform& uniform, int components, GLsizei count,
-                std::span<const double> values, const std::array<Setter<T>, 4>& setters) {
+void set_vector(GLuint program, const Uniform& uniform, int components, GLsizei count, const Numbers& values,
+                const std::array<Setter<T>, 4>& setters) {
     setters[size_t(components - 1)](program, uniform.location, count, converted<T>(values).data());
 }
 
 } // namespace
 
-void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> values) {
+void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> given,
+                 size_t width) {
     const Shape shape = shape_of(uniform.type);
     const size_t per_element = size_t(shape.components * shape.columns);
-    const auto count = GLsizei(std::min(size_t(uniform.length), values.size() / per_element));
+    if (width == 0)
+        width = per_element;
+    const size_t room = k_most_numbers / per_element;
+    const auto count = GLsizei(std::min({size_t(uniform.length), (given.size() + width - 1) / width, room}));
     if (count == 0)
         return;
+    const Numbers values = repacked(given, width, per_element, size_t(count));
     const GLuint id = program.id();
     if (shape.columns == 4 && shape.scalar == Scalar::float32)
         return glProgramUniformMatrix4fv(id, uniform.location, count, GL_FALSE,

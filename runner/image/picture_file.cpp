@@ -5,6 +5,7 @@
 #include "image/file_check.hpp"
 #include "image/file_samples.hpp"
 #include "image/plugin/picture_codec.hpp"
+#include "image/png_codec.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -128,6 +129,19 @@ Result<void> check_extent(const fs::path& path, const Image& image) {
     return {};
 }
 
+/// The outer error: there is no codec for it. The inner one: what the codec says of the picture.
+Result<DecodeResult> decode(FileFormat format, std::span<const std::byte> file) {
+    if (format == FileFormat::png)
+        return decode_png(file);
+    return picture_codec().map([&](const PictureCodec* codec) { return codec->decode(format, file); });
+}
+
+Result<EncodeResult> encode(const EncodeJob& job) {
+    if (job.format == FileFormat::png)
+        return encode_png(job);
+    return picture_codec().map([&](const PictureCodec* codec) { return codec->encode(job); });
+}
+
 } // namespace
 
 Result<void> check_picture_name(const fs::path& path) {
@@ -154,7 +168,10 @@ SampleDepth natural_depth(const fs::path& path) {
     return format ? format->depths.front() : SampleDepth::u8;
 }
 
-std::jthread preload_picture_codec() {
+std::jthread preload_picture_codec(const fs::path& path) {
+    const WrittenFormat* format = written_format(path);
+    if (!format || format->format == FileFormat::png)
+        return {};
     return std::jthread([] { picture_codec(); });
 }
 
@@ -173,13 +190,12 @@ Result<Image> read_picture(const fs::path& path) {
     const auto checked = checked_file(*format, std::move(*file));
     if (!checked)
         return refuse(checked.error());
-    const Result<const PictureCodec*>& codec = picture_codec();
-    if (!codec)
-        return fail(codec.error());
-    DecodeResult image = (*codec)->decode(*format, std::as_bytes(std::span(*checked)));
+    auto image = decode(*format, std::as_bytes(std::span(*checked)));
     if (!image)
-        return refuse(image.error());
-    return std::move(*image);
+        return fail(std::move(image.error()));
+    if (!*image)
+        return refuse(image->error());
+    return std::move(**image);
 }
 
 Result<void> write_picture(const fs::path& path, const Image& image, const PictureFormat& format) {
@@ -187,13 +203,12 @@ Result<void> write_picture(const fs::path& path, const Image& image, const Pictu
         return checked;
     if (Result<void> checked = check_extent(path, image); !checked)
         return checked;
-    const Result<const PictureCodec*>& codec = picture_codec();
-    if (!codec)
-        return fail(ErrorCode::write, codec.error().message);
-    const EncodeResult file = (*codec)->encode(encode_job(*written_format(path), image, format));
+    const auto file = encode(encode_job(*written_format(path), image, format));
     if (!file)
-        return cannot_write(path, file.error());
-    return write_file(path, std::as_bytes(std::span(*file)));
+        return fail(ErrorCode::write, file.error().message);
+    if (!*file)
+        return cannot_write(path, file->error());
+    return write_file(path, std::as_bytes(std::span(**file)));
 }
 
 } // namespace tidemark::image

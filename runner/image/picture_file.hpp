@@ -1,8 +1,8 @@
-// Pictures in files. The codec (OpenImageIO) sits in a plug-in that is loaded when a picture is first
-// read or written, or ahead of that on a thread of its own by `preload_picture_codec`.
-// Samples go in and out as they are: no gamma, no colour space, no multiplication by alpha, no turning by
-// a camera's orientation. Only the rows are turned over: files run from the top, an Image from the bottom.
-// Every function may be called from any thread.
+// Pictures in files. PNG is read and written by libpng (png_codec.hpp), all other formats by OpenImageIO,
+// which sits in a plug-in that is loaded when such a picture is first read or written, or ahead of that on a
+// thread of its own by `preload_picture_codec`. Samples go in and out as they are: no gamma, no colour space,
+// no multiplication by alpha, no turning by a camera's orientation. Only the rows are turned over: files run
+// from the top, an Image from the bottom. Every function may be called from any thread.
 #pragma once
 
 #include "base/result.hpp"
@@ -44,10 +44,10 @@ Result<void> check_picture_format(const std::filesystem::path& path, SampleDepth
 /// The depth a format stores by nature: u8 for .png .jpg .tif, half for .exr, f32 for .hdr.
 SampleDepth natural_depth(const std::filesystem::path& path);
 
-/// Starts loading the codec in the background; returns at once. Never needed, only faster. The caller
-/// keeps the thread in a scope that ends before `main` returns (its destructor waits): a process must not
-/// exit in the middle of loading libraries.
-[[nodiscard]] std::jthread preload_picture_codec();
+/// Starts loading what writing `path` will need in the background, if anything; returns at once. Never
+/// needed, only faster. The caller keeps the thread in a scope that ends before `main` returns (its
+/// destructor waits): a process must not exit in the middle of loading libraries.
+[[nodiscard]] std::jthread preload_picture_codec(const std::filesystem::path& path);
 
 /// Reads PNG, JPEG, TIFF, OpenEXR, Radiance HDR, BMP, WebP, PNM and TGA, told apart by content (TGA by
 /// name). 8-bit files give u8 samples, all others f32. 1 to 4 channels: of more, the first 4; of several

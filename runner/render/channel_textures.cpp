@@ -58,7 +58,12 @@ public:
     explicit Loader(const scene::Sampling& sampling)
         : sampling_(sampling), levels_(sampling.mipmaps == scene::Mipmaps::none ? 1 : 0) {}
 
-    Result<Loaded> operator()(const scene::Unbound&) const { return flat(Image({1, 1}, 4, SampleType::u8)); }
+    /// WebGL gives (0,0,0,1) for a texture that is not there.
+    Result<Loaded> operator()(const scene::Unbound&) const {
+        Image black({1, 1}, 4, SampleType::u8);
+        black.u8()[3] = 255;
+        return flat(std::move(black));
+    }
 
     Result<Loaded> operator()(const scene::PassOutput&) const {
         assert(!"what a pass draws is the renderer's");

@@ -108,8 +108,17 @@ void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs,
         }
         return {};
     };
-    for (const Entry& entry : entries_)
-        gl::set_uniform(program, entry.uniform, numbers_of(entry));
+    // As wide as ShaderToy declares them, whatever the author made of that.
+    const auto width_of = [](const Entry& entry, size_t all) -> size_t {
+        return entry.source == Source::channel_time         ? 1
+               : entry.source == Source::channel_resolution ? 3
+                                                            : all;
+    };
+    for (const Entry& entry : entries_) {
+        const Numbers numbers = numbers_of(entry);
+        const std::span<const double> all = numbers;
+        gl::set_uniform(program, entry.uniform, all, width_of(entry, all.size()));
+    }
 }
 
 } // namespace tidemark::render

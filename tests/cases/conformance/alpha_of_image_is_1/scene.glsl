@@ -1,0 +1,3 @@
+void mainImage(out vec4 fragColor, in vec2 fragCoord) {
+    fragColor = vec4(1.0, 0.2, 0.0, 0.0);
+}

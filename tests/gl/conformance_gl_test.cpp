@@ -1,0 +1,114 @@
+// Every folder of tests/cases/conformance is a test: a scene, and the pixels that ShaderToy's rules make of
+// it, worked out without a GPU. Its README says how to add one.
+#include "base/file.hpp"
+#include "gl_test.hpp"
+#include "render/mouse.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::render {
+namespace {
+
+using Json = nlohmann::json;
+using image::Image;
+using image::SampleType;
+
+const fs::path k_cases = fs::path(TIDEMARK_SOURCE_DIR) / "tests/cases/conformance";
+
+std::vector<std::string> case_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(k_cases))
+        if (entry.is_directory())
+            names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// What a frame sees besides its number: a date, and what the mouse did before it.
+FrameInputs inputs_of(const Json& frame, Mouse& mouse) {
+    FrameInputs inputs = inputs_of_frame(frame.value("frame", 0), frame.value("fps", 60.0));
+    const Json events = frame.value("mouse", Json::array());
+    for (const Json& event : events) {
+        const std::string what = event.at(0);
+        if (what == "press")
+            mouse.press(event.at(1), event.at(2));
+        else if (what == "move")
+            mouse.move(event.at(1), event.at(2));
+        else if (what == "release")
+            mouse.release();
+        else
+            ADD_FAILURE() << "unknown mouse event " << what;
+    }
+    inputs.mouse = mouse.uniform();
+    if (frame.contains("date")) {
+        const auto date = parse_date(frame.at("date").get<std::string>());
+        EXPECT_TRUE(date) << to_string(date.error());
+        inputs.date = date.value_or(Date{});
+    }
+    return inputs;
+}
+
+/// One expected pixel: red, green, blue and, where it is given, alpha.
+void expect_pixel(const Image& image, int x, int y, const Json& wanted, double tolerance) {
+    for (size_t channel = 0; channel < wanted.size(); ++channel) {
+        const double got = image.type == SampleType::u8 ? bytes_at(image, x, y)[channel]
+                                                        : double(floats_at(image, x, y)[channel]);
+        const double want = image.type == SampleType::u8 ? wanted[channel].get<double>()
+                                                         : double(wanted[channel].get<float>());
+        ASSERT_LE(std::abs(got - want), tolerance)
+            << "pixel " << x << ',' << y << " channel " << channel << " is " << got << ", not " << want;
+    }
+}
+
+void expect_frame(const Image& image, const Json& frame) {
+    const double tolerance = frame.value("tolerance", 0.0);
+    if (frame.contains("everywhere")) {
+        for (int y = 0; y < image.extent.height; ++y)
+            for (int x = 0; x < image.extent.width; ++x)
+                ASSERT_NO_FATAL_FAILURE(expect_pixel(image, x, y, frame.at("everywhere"), tolerance));
+    }
+    const Json pixels = frame.value("pixels", Json::array());
+    for (const Json& pixel : pixels)
+        ASSERT_NO_FATAL_FAILURE(expect_pixel(image, pixel.at(0), pixel.at(1), pixel.at(2), tolerance));
+}
+
+class Conformance : public testing::TestWithParam<std::string> {};
+
+TEST_P(Conformance, pixels_are_those_of_the_convention) {
+    const fs::path folder = k_cases / GetParam();
+    const auto text = read_file(folder / "expected.json");
+    ASSERT_TRUE(text) << to_string(text.error());
+    const Json expected = Json::parse(*text);
+    SCOPED_TRACE(expected.at("convention").get<std::string>());
+
+    auto scene = scene::load_scene(folder / "scene.glsl");
+    ASSERT_TRUE(scene) << to_string(scene.error());
+    const Json channels = expected.value("channels", Json::object());
+    for (const auto& [channel, what] : channels.items()) {
+        const auto set = scene::override_channel(*scene, channel + "=" + what.get<std::string>());
+        ASSERT_TRUE(set) << to_string(set.error());
+    }
+    const Json& size = expected.at("size");
+    const SampleType samples =
+        expected.value("target", "bytes") == "floats" ? SampleType::f32 : SampleType::u8;
+    auto renderer = Renderer::create(*std::move(scene), {{size.at(0), size.at(1)}, samples});
+    ASSERT_TRUE(renderer) << to_string(renderer.error());
+
+    Mouse mouse;
+    for (const Json& frame : expected.at("frames")) {
+        SCOPED_TRACE(frame.dump());
+        renderer->draw(inputs_of(frame, mouse));
+        mouse.frame_drawn();
+        ASSERT_NO_FATAL_FAILURE(expect_frame(renderer->read_back(), frame));
+    }
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+INSTANTIATE_TEST_SUITE_P(cases, Conformance, testing::ValuesIn(case_names()),
+                         [](const auto& chosen) { return chosen.param; });
+
+} // namespace
+} // namespace tidemark::render

@@ -1,0 +1,221 @@
+"""A screen of our own (Xvfb), the program's window on it, and a person in front of it (xdotool)."""
+from __future__ import annotations
+
+import ctypes
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from typing import Callable, TypeVar
+
+from support import png, probe
+from support.program import PROGRAM, SKIPPED, ProgramTest, environment
+
+T = TypeVar("T")
+
+# Nothing here is timed: this is how long a slow machine may take before we call it broken.
+PATIENCE = 60.0
+
+
+def main() -> None:
+    for tool in ("Xvfb", "xdotool"):
+        if not shutil.which(tool):
+            print(f"skipped: {tool} is not installed")
+            sys.exit(SKIPPED)
+    unittest.main()
+
+
+def wait_for(condition: Callable[[], T], what: str) -> T:
+    """What the condition gives once that is true."""
+    deadline = time.monotonic() + PATIENCE
+    while True:
+        if found := condition():
+            return found
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {PATIENCE:.0f} s in vain for {what}")
+        time.sleep(0.02)
+
+
+class Screen:
+    """An X server that shows nothing to anybody. Its frame buffer is a file in XWD format."""
+
+    def __init__(self) -> None:
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tidemark-screen-"))
+        reader, writer = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset", "-fbdir",
+             str(self.folder)], pass_fds=[writer], stderr=subprocess.DEVNULL)
+        os.close(writer)
+        with os.fdopen(reader) as answer:
+            self.display = f":{answer.readline().strip()}"
+        if self.display == ":":
+            raise AssertionError("Xvfb does not start")
+
+    def close(self) -> None:
+        self.server.terminate()
+        self.server.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def xdotool(self, *arguments: str) -> str:
+        """What xdotool says; nothing where it fails (a window that is not there yet)."""
+        done = subprocess.run(["xdotool", *arguments], env=environment(DISPLAY=self.display), timeout=PATIENCE,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        return done.stdout.strip() if done.returncode == 0 else ""
+
+    def rows(self, left: int, top: int, width: int, height: int) -> list[bytes]:
+        """RGB of a part of the screen, from the top row down."""
+        file = (self.folder / "Xvfb_screen0").read_bytes()
+        header = struct.unpack_from(">25I", file)
+        header_size, bits, stride, colours = header[0], header[11], header[12], header[19]
+        assert bits == 32
+        rows = []
+        for y in range(top, top + height):
+            start = header_size + 12 * colours + y * stride + left * 4
+            bgrx = file[start:start + width * 4]
+            row = bytearray(3 * width)
+            row[0::3], row[1::3], row[2::3] = bgrx[2::4], bgrx[1::4], bgrx[0::4]
+            rows.append(bytes(row))
+        return rows
+
+    def ask_to_close(self, window: int) -> None:
+        """As the button in a title bar does: WM_DELETE_WINDOW. xdotool has no word for that."""
+        x11 = ctypes.CDLL("libX11.so.6")
+        x11.XOpenDisplay.restype = ctypes.c_void_p
+        x11.XInternAtom.restype = ctypes.c_ulong
+        display = ctypes.c_void_p(x11.XOpenDisplay(self.display.encode()))
+
+        class ClientMessage(ctypes.Structure):
+            _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                        ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong),
+                        ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("padding", ctypes.c_long * 24)]
+
+        def atom(name: bytes) -> int:
+            return x11.XInternAtom(display, name, 0)
+
+        event = ClientMessage(type=33, window=window, message_type=atom(b"WM_PROTOCOLS"), format=32)
+        event.data[0] = atom(b"WM_DELETE_WINDOW")
+        x11.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(event))
+        x11.XCloseDisplay(display)
+
+
+class View:
+    """A running `tidemark view`."""
+
+    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str) -> None:
+        self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
+        self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
+        self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
+                                        env=environment(DISPLAY=screen.display), stderr=self.words)
+        self.window = int(wait_for(lambda: self.running() and screen.xdotool("search", "--onlyvisible", "--class",
+                                                                            "tidemark"), "the window"))
+        wait_for(lambda: " fps" in self.title(), "the first frame")
+        self.point(5, 5)  # keys go to the window under the pointer
+
+    def close(self) -> None:
+        self.program.kill()
+        self.program.wait()
+        self.words.close()
+
+    def running(self) -> bool:
+        if self.program.poll() is not None:
+            raise AssertionError(f"the program ended with {self.program.returncode}: {self.stderr()}")
+        return True
+
+    def stderr(self) -> str:
+        return pathlib.Path(self.words.name).read_text()
+
+    def wait_for_words(self, pattern: str) -> re.Match:
+        return wait_for(lambda: self.running() and re.search(pattern, self.stderr(), re.MULTILINE), pattern)
+
+    def wait_for_end(self) -> int:
+        wait_for(lambda: self.program.poll() is not None, "the end of the program")
+        return self.program.returncode
+
+    def title(self) -> str:
+        return self.screen.xdotool("getwindowname", str(self.window))
+
+    def wait_for_title(self, pattern: str) -> re.Match:
+        return wait_for(lambda: self.running() and re.search(pattern, self.title()), f"the title {pattern}")
+
+    def place(self) -> dict[str, int]:
+        """X, Y, WIDTH and HEIGHT of the window on the screen."""
+        lines = self.screen.xdotool("getwindowgeometry", "--shell", str(self.window)).splitlines()
+        return {name: int(value) for name, _, value in (line.partition("=") for line in lines)}
+
+    # What a person does
+
+    def key(self, name: str) -> None:
+        self.screen.xdotool("key", name)
+
+    def point(self, x: int, y: int) -> None:
+        """Moves the pointer to a pixel, counted from the top left."""
+        self.screen.xdotool("mousemove", "--window", str(self.window), str(x), str(y))
+
+    def button(self, number: int, down: bool) -> None:
+        self.screen.xdotool("mousedown" if down else "mouseup", str(number))
+
+    def drag(self, start: tuple[int, int], end: tuple[int, int], number: int = 1) -> None:
+        self.point(*start)
+        self.button(number, True)
+        self.point(*end)
+        self.button(number, False)
+
+    def pause(self) -> None:
+        self.key("space")
+        self.wait_for_title(r" - paused at ")
+
+    def restart_paused(self) -> None:
+        self.pause()
+        self.key("Home")
+        self.wait_for_title(r" - paused at 0\.000 s$")
+
+    # What a person sees
+
+    def save(self) -> pathlib.Path:
+        """The file that the key S makes. Pictures saved before are removed."""
+        pattern = f"{self.scene.stem}-*.png"
+        for old in self.folder.glob(pattern):
+            old.unlink()
+        self.key("s")
+        return wait_for(lambda: self.running() and next(self.folder.glob(pattern), None), "the picture of key S")
+
+    def told(self, values: dict[str, str]) -> dict[str, float]:
+        return probe.read(png.read(self.save()), values)
+
+    def wait_until_told(self, values: dict[str, str], wanted: Callable[[dict[str, float]], bool]
+                        ) -> dict[str, float]:
+        """The values of a frame in which they are as wanted."""
+        last: dict[str, float] = {}
+
+        def asked() -> bool:
+            nonlocal last
+            last = self.told(values)
+            return wanted(last)
+
+        try:
+            wait_for(asked, "the shader to tell what is wanted")
+        except AssertionError as error:
+            raise AssertionError(f"{error}; it tells {last}; stderr: {self.stderr()}") from None
+        return last
+
+
+class LiveTest(ProgramTest):
+    """A test class with a screen; each test has a folder, and the views it opens are closed."""
+
+    screen: Screen
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.screen = Screen()
+        cls.addClassCleanup(cls.screen.close)
+
+    def view(self, scene: str, *options: str) -> View:
+        opened = View(self.screen, self.folder, scene, *options)
+        self.addCleanup(opened.close)
+        return opened

@@ -1,0 +1,99 @@
+// resolve: the frame options as they were typed, checked.
+#include "cli/options.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+namespace tidemark::cli {
+namespace {
+
+using testing::ElementsAre;
+
+std::string refusal(const FrameOptions& options) {
+    const auto request = resolve(options);
+    if (request)
+        return "it was taken";
+    EXPECT_EQ(request.error().code, ErrorCode::usage);
+    return request.error().message;
+}
+
+TEST(Resolve, defaults) {
+    const auto request = resolve({});
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->extent, (Extent{640, 360}));
+    EXPECT_EQ(request->fps, 60);
+    EXPECT_THAT(request->frames, ElementsAre(0));
+    EXPECT_FALSE(request->time);
+    EXPECT_EQ(request->mouse, glm::vec4(0));
+    EXPECT_EQ(request->date, render::Date{});
+}
+
+TEST(Resolve, everything) {
+    FrameOptions options;
+    options.size = "8x4";
+    options.fps = 29.97;
+    options.frames = "1-2";
+    options.mouse = "3,4";
+    options.date = "2020-02-03";
+    options.camera = "10,20,30";
+    const auto request = resolve(options);
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->extent, (Extent{8, 4}));
+    EXPECT_EQ(request->fps, 29.97);
+    EXPECT_THAT(request->frames, ElementsAre(1, 2));
+    EXPECT_EQ(request->mouse, glm::vec4(3, 4, -3, -4));
+    EXPECT_EQ(request->date, (render::Date{2020, 1, 3, 0}));
+    EXPECT_EQ(request->camera.distance, 30);
+}
+
+TEST(Resolve, one_frame_or_one_time) {
+    FrameOptions options;
+    options.frame = 7;
+    EXPECT_THAT(resolve(options)->frames, ElementsAre(7));
+    options.frame.reset();
+    options.time = -1.5;
+    EXPECT_EQ(resolve(options)->time, -1.5);
+}
+
+TEST(Resolve, rates_that_are_none) {
+    FrameOptions options;
+    for (const auto& [fps, text] : {std::pair(0.0, "0"),
+                                    {-30.0, "-30"},
+                                    {std::numeric_limits<double>::infinity(), "inf"},
+                                    {std::numeric_limits<double>::quiet_NaN(), "nan"}}) {
+        options.fps = fps;
+        EXPECT_EQ(refusal(options), std::string("--fps ") + text + ": give a number above 0");
+    }
+}
+
+TEST(Resolve, frames_and_times_that_are_none) {
+    FrameOptions options;
+    options.frame = -1;
+    EXPECT_EQ(refusal(options), "--frame -1: frames count from 0");
+    options.frame.reset();
+    options.time = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(refusal(options), "--time: give a finite number of seconds");
+}
+
+TEST(Resolve, the_option_at_fault_is_named) {
+    FrameOptions options;
+    options.size = "0x5";
+    EXPECT_EQ(refusal(options), "--size 0x5: give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360");
+    options = {};
+    options.frames = "1-";
+    EXPECT_EQ(refusal(options), "--frames 1-: give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29");
+    options = {};
+    options.mouse = "1";
+    EXPECT_EQ(refusal(options), "--mouse 1: give x,y or x,y,down in pixels from the bottom left");
+    options = {};
+    options.date = "today";
+    EXPECT_EQ(refusal(options), "--date today: give a date as in 2024-12-31 or 2024-12-31T23:59:58.5");
+    options = {};
+    options.camera = "1,2";
+    EXPECT_EQ(refusal(options), "--camera 1,2: give azimuth,elevation,distance as in 30,20,10 (degrees, "
+                                "degrees, a distance above 0)");
+}
+
+} // namespace
+} // namespace tidemark::cli

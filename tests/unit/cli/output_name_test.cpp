@@ -1,0 +1,76 @@
+#include "cli/output_name.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::cli {
+namespace {
+
+std::string name_of(std::string_view pattern, int frame, size_t frame_count = 1) {
+    const auto name = OutputName::parse(pattern, frame_count);
+    return name ? name->of_frame(frame).string() : name.error().message;
+}
+
+TEST(OutputName, one_picture) {
+    EXPECT_EQ(name_of("out/a.png", 7), "out/a.png");
+    EXPECT_EQ(OutputName::parse("out/a.png", 1)->pattern(), "out/a.png");
+    EXPECT_FALSE(OutputName::parse("out/a.png", 1)->standard_output());
+}
+
+TEST(OutputName, numbers_as_printf_writes_them) {
+    EXPECT_EQ(name_of("a.%04d.png", 7, 2), "a.0007.png");
+    EXPECT_EQ(name_of("a.%4d.png", 7), "a.0007.png"); // a blank in a name helps nobody
+    EXPECT_EQ(name_of("a.%d.png", 7), "a.7.png");
+    EXPECT_EQ(name_of("a.%d.png", 0), "a.0.png");
+    EXPECT_EQ(name_of("a.%02d.png", 123456), "a.123456.png");
+    EXPECT_EQ(name_of("%020d.png", 100'000'000), "00000000000100000000.png");
+}
+
+TEST(OutputName, numbers_as_hashes) {
+    EXPECT_EQ(name_of("a.####.png", 7, 2), "a.0007.png");
+    EXPECT_EQ(name_of("a#.exr", 7), "a7.exr");
+    EXPECT_EQ(name_of("#/a.png", 12), "12/a.png");
+}
+
+TEST(OutputName, percent_signs) {
+    EXPECT_EQ(name_of("50%%.png", 7), "50%.png");
+    EXPECT_EQ(name_of("%%%d%%.png", 7), "%7%.png");
+    EXPECT_EQ(name_of("%%d.png", 7), "%d.png");
+}
+
+TEST(OutputName, standard_output) {
+    const auto name = OutputName::parse("-", 100);
+    ASSERT_TRUE(name);
+    EXPECT_TRUE(name->standard_output());
+}
+
+TEST(OutputName, two_numbers) {
+    for (const std::string pattern : {"%d/%d.png", "##.#.png", "%d#.png", "#%04d.png"})
+        EXPECT_EQ(name_of(pattern, 1), "-o " + pattern + ": it has two frame numbers; one is enough");
+}
+
+TEST(OutputName, forms_that_we_do_not_write) {
+    for (const std::string pattern : {"100%.png", "%x.png", "%.4d.png", "%-4d.png", "%04.png", "%021d.png",
+                                      "%99999999999999999999d.png", "% d.png"})
+        EXPECT_EQ(name_of(pattern, 1), "-o " + pattern + ": write the frame number as %04d or ####");
+}
+
+TEST(OutputName, several_frames_need_a_number) {
+    EXPECT_EQ(name_of("a.png", 1, 30),
+              "-o a.png: 30 frames need a frame number in the name, as in wave.%04d.png");
+    EXPECT_EQ(name_of("50%%.png", 1, 2),
+              "-o 50%%.png: 2 frames need a frame number in the name, as in wave.%04d.png");
+}
+
+TEST(OutputName, unknown_formats) {
+    for (const std::string pattern : {"a.gif", "a", "a.%04d", "a.png.####", ""}) {
+        const auto name = OutputName::parse(pattern, 1);
+        ASSERT_FALSE(name) << pattern;
+        EXPECT_EQ(name.error().code, ErrorCode::usage);
+        EXPECT_EQ(name.error().message,
+                  "cannot tell the picture format of '" + pattern +
+                      "': its name must end in .png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr");
+    }
+}
+
+} // namespace
+} // namespace tidemark::cli

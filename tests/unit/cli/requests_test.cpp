@@ -1,0 +1,157 @@
+// What is typed for sizes, frames and the mouse, and what a frame of a request sees.
+#include "cli/requests.hpp"
+#include "unit/platform/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+namespace tidemark::cli {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(ParseSize, width_x_height) {
+    EXPECT_EQ(parse_size("640x360"), (Extent{640, 360}));
+    EXPECT_EQ(parse_size("1x1"), (Extent{1, 1}));
+    for (const std::string text : {"", "640", "640x", "x360", "0x5", "5x0", "-1x5", "640X360", "640x360 ",
+                                   " 640x360", "640x360x2", "6.5x3", "99999999999x1", "640*360"}) {
+        const auto size = parse_size(text);
+        ASSERT_FALSE(size) << text;
+        EXPECT_EQ(size.error().code, ErrorCode::usage);
+        EXPECT_EQ(size.error().message,
+                  "--size " + text + ": give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360");
+    }
+}
+
+std::vector<int> frames(std::string_view text) {
+    return parse_frames(text).value_or(std::vector<int>{-1});
+}
+
+TEST(ParseFrames, are_inclusive) {
+    EXPECT_THAT(frames("7"), ElementsAre(7));
+    EXPECT_THAT(frames("0-3"), ElementsAre(0, 1, 2, 3));
+    EXPECT_THAT(frames("5-5"), ElementsAre(5));
+}
+
+TEST(ParseFrames, by_steps_that_stay_within) {
+    EXPECT_THAT(frames("1-10x3"), ElementsAre(1, 4, 7, 10));
+    EXPECT_THAT(frames("1-9x3"), ElementsAre(1, 4, 7));
+    EXPECT_THAT(frames("1-3x100"), ElementsAre(1));
+    EXPECT_THAT(frames("0-100000000x99999999"), ElementsAre(0, 99999999));
+}
+
+TEST(ParseFrames, backwards) {
+    EXPECT_THAT(frames("3-0"), ElementsAre(3, 2, 1, 0));
+    EXPECT_THAT(frames("10-1x4"), ElementsAre(10, 6, 2));
+}
+
+TEST(ParseFrames, several_in_their_order) {
+    EXPECT_THAT(frames("5,0-2,9-7"), ElementsAre(5, 0, 1, 2, 9, 8, 7));
+    EXPECT_THAT(frames("1,1"), ElementsAre(1, 1));
+}
+
+TEST(ParseFrames, bounds) {
+    EXPECT_THAT(frames("100000000"), ElementsAre(100'000'000));
+    EXPECT_EQ(frames("1-10000000").size(), 10'000'000u);
+    for (const char* text :
+         {"100000001", "0-100000001", "0-10000000", "1-10000000,1", "99999999999", "0-5000000,0-5000000"})
+        EXPECT_FALSE(parse_frames(text)) << text;
+}
+
+TEST(ParseFrames, what_is_no_range) {
+    for (const std::string text :
+         {"",     "x",    "-1",   "1-",      "1-x3",  "1-5x",  "1-5x0", "1-5x-1", "1,",    ",1",
+          "1,,2", "5,1-", "5,1x", "5,1-2x0", "1-2-3", "1 - 2", "1;2",   "1.5",    "0-5y2", "1-5x2x2"}) {
+        const auto parsed = parse_frames(text);
+        ASSERT_FALSE(parsed) << text;
+        EXPECT_EQ(parsed.error().code, ErrorCode::usage);
+        EXPECT_EQ(parsed.error().message,
+                  "--frames " + text + ": give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29");
+    }
+}
+
+TEST(ParseMouse, after_a_click) {
+    EXPECT_EQ(parse_mouse("30,40"), glm::vec4(30, 40, -30, -40));
+    EXPECT_EQ(parse_mouse("30.9,40.1"), glm::vec4(30, 40, -30, -40));
+    EXPECT_EQ(parse_mouse("0,0"), glm::vec4(0));
+    EXPECT_EQ(parse_mouse("-5,1e3"), glm::vec4(-5, 1000, 5, -1000));
+}
+
+TEST(ParseMouse, in_the_frame_of_the_press) {
+    EXPECT_EQ(parse_mouse("30,40,down"), glm::vec4(30, 40, 30, 40));
+}
+
+TEST(ParseMouse, what_is_no_mouse) {
+    for (const std::string text : {"", "1", "1,", ",1", "1,2,", "1,2,up", "1,2,down,", "1,2,3", "1;2", " 1,2",
+                                   "nan,1", "1,inf", "1e300,1", "1,-1e300", "16777217,0"}) {
+        const auto mouse = parse_mouse(text);
+        ASSERT_FALSE(mouse) << text;
+        EXPECT_EQ(mouse.error().code, ErrorCode::usage);
+        EXPECT_EQ(mouse.error().message,
+                  "--mouse " + text + ": give x,y or x,y,down in pixels from the bottom left");
+    }
+}
+
+TEST(InputsOf, a_frame_sees_what_was_asked_for) {
+    FrameRequest request;
+    request.fps = 24;
+    request.mouse = glm::vec4(1, 2, -3, -4);
+    request.date = {2020, 5, 6, 7};
+    request.camera.azimuth = 90;
+    const render::FrameInputs inputs = inputs_of(request, 12);
+    EXPECT_EQ(inputs.frame, 12);
+    EXPECT_EQ(inputs.time, 0.5);
+    EXPECT_EQ(inputs.time_delta, 1 / 24.0);
+    EXPECT_EQ(inputs.mouse, request.mouse);
+    EXPECT_EQ(inputs.date, request.date);
+    EXPECT_EQ(inputs.camera, request.camera.matrix());
+}
+
+TEST(InputsOf, a_time_stands_for_the_frame_it_falls_in) {
+    FrameRequest request;
+    const auto frame_at = [&](double time) {
+        request.time = time;
+        const render::FrameInputs inputs = inputs_of(request, 0);
+        EXPECT_EQ(inputs.time, time);
+        return inputs.frame;
+    };
+    EXPECT_EQ(frame_at(0), 0);
+    EXPECT_EQ(frame_at(2), 120);
+    EXPECT_EQ(frame_at(1.999), 119);
+    EXPECT_EQ(frame_at(-5), 0);
+    EXPECT_EQ(frame_at(1e300), 100'000'000);
+}
+
+TEST(Load, carries_out_every_option) {
+    const TemporaryFolder folder;
+    save_in_place(folder / "a.glsl", "#define A 1\n#iUniform float k = 1.0\nvoid mainImage() {}\n");
+    const SceneRequest request{folder / "a.glsl", {"k=2", "k=3"}, {"A=2"}, {"0=none", "1=t.png"}};
+    const auto scene = load(request);
+    ASSERT_TRUE(scene) << to_string(scene.error());
+    EXPECT_EQ(scene->knobs[0].value[0], 3) << "the last one counts";
+    EXPECT_EQ(scene->image().text.text(), "#define A 2\n\nvoid mainImage() {}\n");
+    EXPECT_EQ(scene->image().channels[0].input, scene::ChannelInput(scene::Unbound{}));
+    EXPECT_EQ(scene->image().channels[1].input, scene::ChannelInput(scene::Picture{"t.png"}));
+}
+
+TEST(Load, the_first_error_is_the_answer) {
+    const TemporaryFolder folder;
+    save_in_place(folder / "a.glsl", "void mainImage() {}\n");
+    const auto message = [](const SceneRequest& request) {
+        const auto scene = load(request);
+        return scene ? "" : to_string(scene.error());
+    };
+    const std::string path = folder / "a.glsl";
+    EXPECT_EQ(message({path, {"k=2"}, {}, {}}),
+              "tidemark: error: the scene has no knob 'k': it declares none with #iUniform");
+    EXPECT_EQ(message({path, {}, {"A=2"}, {}}),
+              "tidemark: error: the scene has no #define or const 'A': it defines none");
+    EXPECT_EQ(message({path, {}, {}, {"9=noise"}}),
+              "tidemark: error: --channel 9=noise: give it as N=FILE, N=noise or N=none, N from 0 to 3");
+    EXPECT_EQ(message({folder / "b.glsl", {"k"}, {}, {}}),
+              "tidemark: error: cannot read '" + (folder / "b.glsl").string() + "': no such file");
+}
+
+} // namespace
+} // namespace tidemark::cli
