@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 struct InspectOptions {
     SceneRequest scene;
     std::string device = "auto";
+    std::string pass;
     bool devices = false;
     bool source = false;
     bool json = false;
@@ -65,10 +66,30 @@ Result<int> inspect_devices(bool as_json) {
     return put(as_json ? json.dump(2) + "\n" : text).map([] { return 0; });
 }
 
-std::string describe(const scene::ChannelInput& input) {
-    if (const auto* picture = std::get_if<scene::Picture>(&input))
-        return picture->file.string();
-    return std::holds_alternative<scene::Noise>(input) ? "noise" : "none";
+/// What a channel reads, in a word or by its file.
+class Describer {
+public:
+    explicit Describer(const scene::Scene& scene) : scene_(scene) {}
+
+    std::string operator()(const scene::Unbound&) const { return "none"; }
+    std::string operator()(const scene::Noise&) const { return "noise"; }
+    std::string operator()(const scene::Picture& picture) const { return picture.file.string(); }
+    std::string operator()(const scene::PassOutput& output) const { return scene_.passes[output.pass].name; }
+    std::string operator()(const scene::Cubemap& cubemap) const { return cubemap.files.front().string(); }
+    std::string operator()(const scene::Volume& volume) const { return volume.file.string(); }
+    std::string operator()(const scene::Keyboard&) const { return "keyboard"; }
+    std::string operator()(const scene::Music& music) const {
+        return music.file.empty() ? "silent signal" : music.file.string();
+    }
+    std::string operator()(const scene::Video& video) const { return video.file.string(); }
+    std::string operator()(const scene::StandIn&) const { return "stand-in"; }
+
+private:
+    const scene::Scene& scene_;
+};
+
+std::string describe(const scene::Scene& scene, const scene::Channel& channel) {
+    return std::visit(Describer(scene), channel.input);
 }
 
 std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValue& value) {
@@ -98,10 +119,14 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
     for (const auto& file : scene.files)
         json["files"].push_back(file.string());
     json["uniforms"] = facts.uniforms;
-    json["channels"] = Json::object();
-    for (const int channel : facts.channels)
-        json["channels"][fmt::format("iChannel{}", channel)] =
-            describe(scene.image().channels[size_t(channel)].input);
+    json["passes"] = Json::array();
+    for (const PassFacts& facts_of_pass : facts.passes) {
+        const scene::Pass& pass = scene.passes[facts_of_pass.pass];
+        Json channels = Json::object();
+        for (const int channel : facts_of_pass.channels)
+            channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
+        json["passes"].push_back({{"name", pass.name}, {"channels", channels}});
+    }
     json["knobs"] = Json::array();
     for (const scene::Knob& knob : scene.knobs)
         json["knobs"].push_back(to_json(knob));
@@ -115,9 +140,14 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
     std::string text =
         fmt::format("{}\n  driver    {}, OpenGL {}\n", scene.file.string(), driver.renderer, driver.version);
     text += fmt::format("  uniforms  {}\n", fmt::join(facts.uniforms, ", "));
-    for (const int channel : facts.channels)
-        text += fmt::format("  iChannel{} {}\n", channel,
-                            describe(scene.image().channels[size_t(channel)].input));
+    for (const PassFacts& facts_of_pass : facts.passes) {
+        const scene::Pass& pass = scene.passes[facts_of_pass.pass];
+        if (scene.passes.size() > 1)
+            text += fmt::format("  pass      {}\n", pass.name);
+        for (const int channel : facts_of_pass.channels)
+            text +=
+                fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
+    }
     for (const scene::Knob& knob : scene.knobs) {
         text += fmt::format("  knob      {} {} = {}", scene::info(knob.type).directive_name, knob.name,
                             scene::to_string(knob));
@@ -131,16 +161,26 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
     return text;
 }
 
+/// The text of a pass, Image when none is named.
+Result<int> put_source(const scene::Scene& scene, const std::string& name) {
+    for (const scene::Pass& pass : scene.passes)
+        if (pass.name == name || (name.empty() && pass.kind == scene::PassKind::image))
+            return put(glsl::assemble(scene, pass).text()).map([] { return 0; });
+    return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has no such pass", name));
+}
+
 Result<int> inspect_scene(const InspectOptions& options) {
     auto scene = load(options.scene);
     if (!scene)
         return fail(std::move(scene.error()));
     if (options.source)
-        return put(glsl::assemble(*scene, scene->image()).text()).map([] { return 0; });
+        return put_source(*scene, options.pass);
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
-    const auto renderer = render::Renderer::create(*std::move(scene), {});
+    render::RenderOptions target;
+    target.pass = options.pass;
+    const auto renderer = render::Renderer::create(*std::move(scene), target);
     if (!renderer)
         return fail(renderer.error());
     const gl::Capabilities driver = gl::query_capabilities();
@@ -159,6 +199,8 @@ void add_inspect(CLI::App& app, Action& chosen) {
     command->add_option("--device", options->device, "Where to draw: a name from --devices")
         ->type_name("NAME")
         ->capture_default_str();
+    command->add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
+        ->type_name("NAME");
     command->add_flag("--devices", options->devices, "Lists where OpenGL contexts can be had, and no scene");
     command->add_flag("--source", options->source,
                       "Prints the text that the driver compiles, and nothing else");

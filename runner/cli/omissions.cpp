@@ -18,40 +18,96 @@ void add_list(std::vector<std::string>& left_out, std::string_view what,
         left_out.push_back(fmt::format("{}: {}", what, fmt::join(names, ", ")));
 }
 
+/// Collects over the passes that are drawn.
+class Collector {
+public:
+    explicit Collector(const render::Renderer& renderer) : renderer_(renderer), scene_(renderer.scene()) {}
+
+    SceneFacts collect() {
+        for (const render::PlannedPass& planned : renderer_.plan().passes) {
+            for (const gl::Uniform& uniform : renderer_.program(planned.pass).reflection().uniforms)
+                if (!has(uniform.name))
+                    facts_.uniforms.push_back(uniform.name);
+            facts_.passes.push_back({planned.pass, planned.channels});
+        }
+        add_list(facts_.left_out, "passes", passes_not_drawn());
+        add_list(facts_.left_out, "uniforms", unused(k_host_uniforms));
+        std::vector<std::string> knobs;
+        for (const scene::Knob& knob : scene_.knobs)
+            knobs.push_back(knob.name);
+        add_list(facts_.left_out, "knobs", unused(knobs));
+        add_list(facts_.left_out, "channels", channels_not_read());
+        add_list(facts_.left_out, "second textures", single_buffers());
+        if (!reads_noise())
+            facts_.left_out.emplace_back("noise texture");
+        return std::move(facts_);
+    }
+
+private:
+    bool has(std::string_view uniform) const {
+        return std::find(facts_.uniforms.begin(), facts_.uniforms.end(), uniform) != facts_.uniforms.end();
+    }
+
+    template <class Names>
+    std::vector<std::string> unused(const Names& names) const {
+        std::vector<std::string> left;
+        for (const auto& name : names)
+            if (!has(name))
+                left.emplace_back(name);
+        return left;
+    }
+
+    std::vector<std::string> passes_not_drawn() const {
+        std::vector<std::string> names;
+        for (size_t i = 0; i < scene_.passes.size(); ++i)
+            if (!renderer_.plan().find(i))
+                names.push_back(scene_.passes[i].name);
+        return names;
+    }
+
+    /// Where there are several passes, only what the scene put there counts as left out.
+    std::vector<std::string> channels_not_read() const {
+        std::vector<std::string> names;
+        const bool several = scene_.passes.size() > 1;
+        for (const PassFacts& pass : facts_.passes)
+            for (int i = 0; i < scene::k_channel_count; ++i) {
+                const scene::Channel& channel = scene_.passes[pass.pass].channels[size_t(i)];
+                const bool read =
+                    std::find(pass.channels.begin(), pass.channels.end(), i) != pass.channels.end();
+                if (read || (several && std::holds_alternative<scene::Unbound>(channel.input)))
+                    continue;
+                names.push_back(several ? fmt::format("iChannel{} of {}", i, scene_.passes[pass.pass].name)
+                                        : fmt::format("iChannel{}", i));
+            }
+        return names;
+    }
+
+    std::vector<std::string> single_buffers() const {
+        std::vector<std::string> names;
+        for (const PassFacts& pass : facts_.passes)
+            if (scene_.passes[pass.pass].kind != scene::PassKind::image &&
+                !renderer_.plan().targets[pass.pass].two_textures)
+                names.push_back(scene_.passes[pass.pass].name);
+        return names;
+    }
+
+    bool reads_noise() const {
+        for (const PassFacts& pass : facts_.passes)
+            for (const int i : pass.channels)
+                if (std::holds_alternative<scene::Noise>(scene_.passes[pass.pass].channels[size_t(i)].input))
+                    return true;
+        return false;
+    }
+
+    const render::Renderer& renderer_;
+    const scene::Scene& scene_;
+    SceneFacts facts_;
+};
+
 } // namespace
 
 SceneFacts facts_of(const render::Renderer& renderer) {
-    SceneFacts facts;
-    const render::PlannedPass& planned = renderer.plan().passes.back();
-    const gl::Reflection& reflection = renderer.program(planned.pass).reflection();
-    const scene::Pass& pass = renderer.scene().passes[planned.pass];
-    facts.channels = planned.channels;
-    for (const gl::Uniform& uniform : reflection.uniforms)
-        facts.uniforms.push_back(uniform.name);
-
-    std::vector<std::string> uniforms;
-    for (const char* name : k_host_uniforms)
-        if (!reflection.has(name))
-            uniforms.emplace_back(name);
-    std::vector<std::string> knobs;
-    for (const scene::Knob& knob : renderer.scene().knobs)
-        if (!reflection.has(knob.name))
-            knobs.push_back(knob.name);
-    std::vector<std::string> channels;
-    bool noise = false;
-    for (int i = 0; i < scene::k_channel_count; ++i) {
-        const bool read =
-            std::find(planned.channels.begin(), planned.channels.end(), i) != planned.channels.end();
-        if (!read)
-            channels.push_back(fmt::format("iChannel{}", i));
-        noise = noise || (read && std::holds_alternative<scene::Noise>(pass.channels[size_t(i)].input));
-    }
-    add_list(facts.left_out, "uniforms", uniforms);
-    add_list(facts.left_out, "knobs", knobs);
-    add_list(facts.left_out, "channels", channels);
-    if (!noise)
-        facts.left_out.emplace_back("noise texture");
-    return facts;
+    return Collector(renderer).collect();
 }
 
 } // namespace tidemark::cli

@@ -8,9 +8,15 @@
 
 namespace tidemark::cli {
 
+/// A pass that is drawn and the channels that its program reads.
+struct PassFacts {
+    size_t pass = 0; ///< index into Scene::passes
+    std::vector<int> channels;
+};
+
 struct SceneFacts {
-    std::vector<std::string> uniforms; ///< active ones of the host, knobs and channels included
-    std::vector<int> channels;         ///< read by the linked program
+    std::vector<PassFacts> passes;     ///< in the order of drawing
+    std::vector<std::string> uniforms; ///< active in any of them, knobs and channels included
     std::vector<std::string> left_out; ///< for people, one thing each
 };
 

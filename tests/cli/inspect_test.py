@@ -22,12 +22,12 @@ class Scene(ProgramTest):
         done = self.succeed("inspect", "sea.glsl", "--json", "--set", "height=1.25")
         self.assertEqual(done.stderr, "")
         facts = json.loads(done.stdout)
-        self.assertEqual(list(facts), ["tidemark", "scene", "driver", "renderer", "files", "uniforms", "channels",
+        self.assertEqual(list(facts), ["tidemark", "scene", "driver", "renderer", "files", "uniforms", "passes",
                                        "knobs", "left_out"])
         self.assertEqual(facts["scene"], "sea.glsl")
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(sorted(facts["uniforms"]), ["height", "iChannel1", "iTime"])
-        self.assertEqual(facts["channels"], {"iChannel1": "noise"})
+        self.assertEqual(facts["passes"], [{"name": "Image", "channels": {"iChannel1": "noise"}}])
         self.assertEqual(facts["knobs"], [
             {"name": "height", "type": "float", "value": [1.25], "low": [0], "high": [2]},
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
@@ -50,7 +50,7 @@ class Scene(ProgramTest):
     def test_a_scene_that_reads_no_noise_gets_none(self):
         self.write("plain.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         facts = json.loads(self.succeed("inspect", "plain.glsl", "--json").stdout)
-        self.assertEqual((facts["uniforms"], facts["channels"]), ([], {}))
+        self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{"name": "Image", "channels": {}}]))
         self.assertEqual(facts["left_out"][-1], "noise texture")
 
     def test_writes_no_file(self):
