@@ -94,9 +94,4 @@ std::vector<Diagnostic> entry_point_problems(const scene::Scene& scene, const sc
     return {};
 }
 
-std::vector<ChannelKinds> channel_kinds_to_try(const scene::Scene&, const scene::Pass&,
-                                               const text::MappedText&, std::string_view) {
-    return {};
-}
-
 } // namespace tidemark::glsl

@@ -42,14 +42,17 @@ public:
             for (const size_t name : survey_.mains)
                 rename(tokens_[name], k_author_main);
         if (dialect_.initialise)
-            for (Edit& edit : initialise_variables(tokens_, preprocessed_))
-                result_.edits.push_back(std::move(edit));
+            add(initialise_variables(tokens_, preprocessed_));
+        add(separate_signs(tokens_, preprocessed_));
         sort_edits();
         return std::move(result_);
     }
 
 private:
     void remove(size_t begin, size_t end) { result_.edits.push_back({begin, end, {}}); }
+    void add(const std::vector<Edit>& edits) {
+        result_.edits.insert(result_.edits.end(), edits.begin(), edits.end());
+    }
     void rename(const Token& token, std::string_view name) {
         result_.edits.push_back({token.begin, token.end(), std::string(name)});
     }
@@ -127,7 +130,7 @@ private:
     void sort_edits() {
         auto& edits = result_.edits;
         std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
-            return a.begin != b.begin ? a.begin < b.begin : a.end > b.end;
+            return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
         });
         size_t kept = 0;
         size_t covered = 0;

@@ -37,4 +37,8 @@ Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
 std::vector<text::Edit> initialise_variables(const std::vector<text::Token>& tokens,
                                              const Preprocessed& preprocessed);
 
+/// A blank where two signs would meet once the macros are expanded; see spacing.cpp.
+std::vector<text::Edit> separate_signs(const std::vector<text::Token>& tokens,
+                                       const Preprocessed& preprocessed);
+
 } // namespace tidemark::glsl

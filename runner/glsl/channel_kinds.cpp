@@ -1,0 +1,130 @@
+#include "glsl/dialect.hpp"
+#include "glsl/driver_log.hpp"
+#include "glsl/words.hpp"
+#include "text/tokens.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+namespace tidemark::glsl {
+namespace {
+
+using scene::TextureKind;
+
+constexpr size_t k_channels = scene::k_channel_count;
+using Chosen = std::array<bool, k_channels>;
+
+/// Nobody said what the channel reads: no directive, no JSON; or JSON that has lost it.
+Chosen unspecified(const scene::Pass& pass) {
+    Chosen chosen{};
+    for (size_t i = 0; i < k_channels; ++i)
+        chosen[i] = pass.channels[i].where.file.empty() &&
+                    (std::holds_alternative<scene::Unbound>(pass.channels[i].input) ||
+                     pass.channels[i].input == scene::ChannelInput(scene::Noise{}));
+    return chosen;
+}
+
+/// `no matching function for call to `texture(sampler2D, vec3)'` and the like: a call with a sampler of the
+/// wrong kind.
+bool complains_of_sampler(std::string_view message) {
+    const bool refused = message.find("no matching") != std::string_view::npos ||
+                         message.find("No matching") != std::string_view::npos ||
+                         message.find("no overload") != std::string_view::npos ||
+                         message.find("unable to find compatible") != std::string_view::npos;
+    return refused && (message.find("sampler") != std::string_view::npos ||
+                       message.find("texture") != std::string_view::npos ||
+                       message.find("texelFetch") != std::string_view::npos);
+}
+
+/// The driver's own line numbers of such complaints.
+std::set<int> lines_of_complaints(std::string_view log) {
+    // A map without runs keeps no place; one that begins at line 1 leaves the driver's numbers as they are.
+    text::LineMap same;
+    same.begin_run(1, "driver", 1);
+    std::set<int> lines;
+    for (const Diagnostic& diagnostic : parse_driver_log(log, same))
+        if (complains_of_sampler(diagnostic.message))
+            lines.insert(diagnostic.where.line);
+    return lines;
+}
+
+int channel_of(std::string_view word) {
+    for (size_t i = 0; i < k_channels; ++i)
+        if (word == k_channel_names[i] || word == k_channel_structs[i])
+            return int(i);
+    return -1;
+}
+
+struct Mentions {
+    Chosen complained_of{}; ///< named in a line that the driver complains about
+    Chosen used{};          ///< named anywhere but in our own declarations
+};
+
+Mentions mentions(const text::MappedText& source, const std::set<int>& lines) {
+    Mentions found;
+    for (const text::Token& token : text::tokenize(source.text())) {
+        const int channel = token.text.starts_with("iCh") ? channel_of(token.text) : -1;
+        if (channel < 0 || source.lines().locate(token.line).file.empty())
+            continue;
+        found.used[size_t(channel)] = true;
+        if (lines.contains(token.line))
+            found.complained_of[size_t(channel)] = true;
+    }
+    return found;
+}
+
+/// Every way to give the suspects other kinds; those that change most come first, cubes before volumes.
+std::vector<ChannelKinds> combinations(const std::vector<size_t>& suspects) {
+    constexpr TextureKind k_order[] = {TextureKind::cube, TextureKind::volume, TextureKind::flat};
+    size_t count = 1;
+    for (size_t i = 0; i < suspects.size(); ++i)
+        count *= std::size(k_order);
+    std::vector<ChannelKinds> all;
+    for (size_t number = 0; number + 1 < count; ++number) { // the last one is all flat
+        ChannelKinds kinds{};
+        size_t rest = number;
+        for (const size_t suspect : suspects) {
+            kinds[suspect] = k_order[rest % std::size(k_order)];
+            rest /= std::size(k_order);
+        }
+        all.push_back(kinds);
+    }
+    const auto flat = [](const ChannelKinds& kinds) {
+        return std::count(kinds.begin(), kinds.end(), TextureKind::flat);
+    };
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return flat(a) < flat(b); });
+    return all;
+}
+
+} // namespace
+
+std::vector<ChannelKinds> channel_kinds_to_try(const scene::Scene& scene, const scene::Pass& pass,
+                                               const text::MappedText& source, std::string_view log) {
+    const std::set<int> lines = lines_of_complaints(log);
+    if (lines.empty())
+        return {};
+    const Mentions named = mentions(source, lines);
+    const Chosen open = unspecified(pass);
+    const auto both = [&](const Chosen& named_channels) {
+        std::vector<size_t> channels;
+        for (size_t i = 0; i < k_channels; ++i)
+            if (open[i] && named_channels[i])
+                channels.push_back(i);
+        return channels;
+    };
+    // What the lines name is meant; a macro or a parameter hides the name, then any channel may be.
+    std::vector<ChannelKinds> candidates = combinations(both(named.complained_of));
+    for (const ChannelKinds& kinds : combinations(both(named.used)))
+        if (std::find(candidates.begin(), candidates.end(), kinds) == candidates.end())
+            candidates.push_back(kinds);
+    for (ChannelKinds& kinds : candidates)
+        for (size_t i = 0; i < k_channels; ++i)
+            if (!open[i])
+                kinds[i] = texture_kind(scene, pass.channels[i].input);
+    constexpr size_t k_most = 24; // each costs a compilation
+    candidates.resize(std::min(candidates.size(), k_most));
+    return candidates;
+}
+
+} // namespace tidemark::glsl
