@@ -43,9 +43,16 @@ Result<void> supply_view(const CLI::App& app, std::vector<std::string>& argument
         return {};
     std::error_code ignored;
     const std::string nearest = nearest_name(arguments[0], names);
-    if (!nearest.empty() && !std::filesystem::exists(arguments[0], ignored))
-        return fail(ErrorCode::usage,
-                    fmt::format("unknown command '{}': did you mean '{}'?", arguments[0], nearest));
+    if (!std::filesystem::exists(arguments[0], ignored)) {
+        if (!nearest.empty())
+            return fail(ErrorCode::usage,
+                        fmt::format("unknown command '{}': did you mean '{}'?", arguments[0], nearest));
+        if (arguments[0].find_first_of("./") == std::string::npos)
+            return fail(
+                ErrorCode::usage,
+                fmt::format("'{}' is neither a command nor a scene; `tidemark --help` lists the commands",
+                            arguments[0]));
+    }
     arguments.insert(arguments.begin(), "view");
     return {};
 }

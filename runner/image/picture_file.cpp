@@ -59,10 +59,10 @@ const WrittenFormat* written_format(const fs::path& path) {
 
 std::string_view name_of(SampleDepth depth) {
     switch (depth) {
-    case SampleDepth::u8: return "u8";
-    case SampleDepth::u16: return "u16";
+    case SampleDepth::u8: return "8-bit";
+    case SampleDepth::u16: return "16-bit";
     case SampleDepth::half: return "half";
-    case SampleDepth::f32: return "f32";
+    case SampleDepth::f32: return "float";
     }
     return "";
 }

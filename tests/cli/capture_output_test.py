@@ -83,8 +83,8 @@ class Names(CaptureTest):
             ("-o - --json", "--json and -o - both want standard output: give one of them"),
             ("-o - --depth 16", "--depth: raw frames on standard output always have 8 bits"),
             ("--depth 12", "--depth 12: give 8, 16, half or float"),
-            ("-o a.exr --depth 16", "'a.exr' cannot hold u16 samples: .exr holds half, f32"),
-            ("-o a.jpg --depth float", "'a.jpg' cannot hold f32 samples: .jpg holds u8"),
+            ("-o a.exr --depth 16", "'a.exr' cannot hold 16-bit samples: .exr holds half, float"),
+            ("-o a.jpg --depth float", "'a.jpg' cannot hold float samples: .jpg holds 8-bit"),
         ]:
             with self.subTest(options=options):
                 self.expect_failure(["capture", "wave.glsl", *options.split()], 2, f"tidemark: error: {words}")

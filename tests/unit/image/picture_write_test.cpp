@@ -98,20 +98,20 @@ TEST_F(PictureWrite, a_depth_that_the_format_has_not_is_refused) {
     const Result<void> checked = check_picture_format("a.png", SampleDepth::half);
     ASSERT_FALSE(checked);
     EXPECT_EQ(checked.error().code, ErrorCode::usage);
-    EXPECT_EQ(checked.error().message, "'a.png' cannot hold half samples: .png holds u8, u16");
+    EXPECT_EQ(checked.error().message, "'a.png' cannot hold half samples: .png holds 8-bit, 16-bit");
     EXPECT_EQ(message_of(check_picture_format("a.JPG", SampleDepth::u16)),
-              "'a.JPG' cannot hold u16 samples: .jpg holds u8");
+              "'a.JPG' cannot hold 16-bit samples: .jpg holds 8-bit");
     EXPECT_EQ(message_of(check_picture_format("a.exr", SampleDepth::u8)),
-              "'a.exr' cannot hold u8 samples: .exr holds half, f32");
+              "'a.exr' cannot hold 8-bit samples: .exr holds half, float");
     EXPECT_EQ(message_of(check_picture_format("a.tif", SampleDepth::half)),
-              "'a.tif' cannot hold half samples: .tif holds u8, u16, f32");
+              "'a.tif' cannot hold half samples: .tif holds 8-bit, 16-bit, float");
     EXPECT_EQ(message_of(check_picture_format("a.hdr", SampleDepth::half)),
-              "'a.hdr' cannot hold half samples: .hdr holds f32");
+              "'a.hdr' cannot hold half samples: .hdr holds float");
     EXPECT_FALSE(check_picture_format("a.bmp", SampleDepth::u8));
     for (const char* name : k_all_names)
         EXPECT_TRUE(check_picture_format(name, natural_depth(name)));
     EXPECT_EQ(message_of(write_picture(in_folder("a.png"), patterned_u8({2, 2}, 3), {SampleDepth::f32, {}})),
-              "'" + in_folder("a.png").string() + "' cannot hold f32 samples: .png holds u8, u16");
+              "'" + in_folder("a.png").string() + "' cannot hold float samples: .png holds 8-bit, 16-bit");
     EXPECT_EQ(files(), 0u);
 }
 
