@@ -12,6 +12,7 @@
 #include <cstring>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace tidemark::image {
@@ -152,23 +153,27 @@ std::array<Tap, 4> taps_around(double x, double y, const TapAt& tap) {
     return taps;
 }
 
+template <class Sample>
+void blend(std::span<const Image> pictures, const std::array<Tap, 4>& taps, size_t channels, Sample* to) {
+    std::array<double, 4> sums{};
+    for (const Tap& tap : taps) {
+        if (tap.weight == 0.0) // an infinity beside the place would make it NaN
+            continue;
+        const auto* from = reinterpret_cast<const Sample*>(pictures[size_t(tap.picture)].bytes.data());
+        for (size_t channel = 0; channel < channels; ++channel)
+            sums[channel] += tap.weight * double(from[tap.texel * channels + channel]);
+    }
+    constexpr double rounding = std::is_integral_v<Sample> ? 0.5 : 0.0;
+    for (size_t channel = 0; channel < channels; ++channel)
+        to[channel] = Sample(sums[channel] + rounding);
+}
+
 void blend(std::span<const Image> pictures, const std::array<Tap, 4>& taps, Image& to, size_t pixel) {
     const auto channels = size_t(to.channels);
-    for (size_t channel = 0; channel < channels; ++channel) {
-        double sum = 0.0;
-        for (const Tap& tap : taps) {
-            if (tap.weight == 0.0) // an infinity beside the place would make it NaN
-                continue;
-            const Image& picture = pictures[size_t(tap.picture)];
-            const size_t sample = tap.texel * channels + channel;
-            sum += tap.weight *
-                   (to.type == SampleType::u8 ? double(picture.u8()[sample]) : double(picture.f32()[sample]));
-        }
-        if (to.type == SampleType::u8)
-            to.u8()[pixel * channels + channel] = uint8_t(std::lround(sum));
-        else
-            to.f32()[pixel * channels + channel] = float(sum);
-    }
+    if (to.type == SampleType::u8)
+        blend(pictures, taps, channels, &to.u8()[pixel * channels]);
+    else
+        blend(pictures, taps, channels, &to.f32()[pixel * channels]);
 }
 
 std::array<Tap, 4> panorama_taps(Extent size, const Direction& direction) {
@@ -259,11 +264,17 @@ CubeFaces vflipped(const CubeFaces& faces) {
 Image equirectangular_of(const CubeFaces& faces, Extent size) {
     Image panorama(size, faces[0].channels, faces[0].type);
     const int side = faces[0].extent.width;
+    std::vector<Direction> around; // at the equator
+    for (int x = 0; x < size.width; ++x) {
+        const double a = 2.0 * std::numbers::pi * (x + 0.5) / size.width;
+        around.push_back({-std::sin(a), 0.0, std::cos(a)});
+    }
     for (int y = 0; y < size.height; ++y) {
         const double b = std::numbers::pi * ((y + 0.5) / size.height - 0.5);
+        const double up = std::sin(b), out = std::cos(b);
         for (int x = 0; x < size.width; ++x) {
-            const double a = 2.0 * std::numbers::pi * (x + 0.5) / size.width;
-            const Direction direction{-std::cos(b) * std::sin(a), std::sin(b), std::cos(b) * std::cos(a)};
+            const Direction& level = around[size_t(x)];
+            const Direction direction{out * level.x, up, out * level.z};
             blend(faces, cube_taps(side, direction), panorama, size_t(y) * size_t(size.width) + size_t(x));
         }
     }
