@@ -1,0 +1,58 @@
+// Another program, run for what it prints. No shell is in between; no child outlives its object.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tidemark::image {
+
+/// The child's standard input is empty; its standard output and error are read here. It is in a process group
+/// of its own, so that Ctrl-C in the terminal does not cut off its output.
+class ChildProcess {
+public:
+    /// Runs the program of that name in PATH. ErrorCode::load names the program and what to do.
+    static Result<ChildProcess> start(const std::vector<std::string>& arguments);
+
+    ChildProcess(ChildProcess&& other) noexcept
+        : process_(std::exchange(other.process_, -1)), output_(std::exchange(other.output_, -1)),
+          words_(std::exchange(other.words_, -1)) {}
+    ChildProcess& operator=(ChildProcess&& other) noexcept {
+        std::swap(process_, other.process_);
+        std::swap(output_, other.output_);
+        std::swap(words_, other.words_);
+        return *this;
+    }
+    /// Kills the child if it still runs, and reaps it.
+    ~ChildProcess();
+
+    /// Waits for bytes of standard output and gives their number, 0 at the end. What comes on standard error
+    /// in the meantime is appended to `words`. Fails when the child is silent for a minute.
+    Result<size_t> read(std::span<std::byte> to, std::string& words);
+
+    /// Appends what standard error has now; does not wait.
+    void read_words(std::string& words);
+
+    /// After the end of its output: waits for it. True when it ended with status 0.
+    bool succeeded();
+
+private:
+    ChildProcess() = default;
+    void close_pipes();
+
+    pid_t process_ = -1;
+    int output_ = -1;
+    int words_ = -1;
+};
+
+/// All that a program prints on standard output, `most` bytes at most. Fails when it fails: the message is
+/// the last line of its standard error.
+Result<std::string> output_of(const std::vector<std::string>& arguments, size_t most);
+
+} // namespace tidemark::image
