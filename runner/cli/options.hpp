@@ -12,7 +12,7 @@ class App;
 
 namespace tidemark::cli {
 
-/// SCENE, --set, --define, --channel.
+/// SCENE, --set, --define, --channel, --media, --allow-outside.
 void add_scene_options(CLI::App& command, SceneRequest& request);
 
 /// The frame options as they were typed.

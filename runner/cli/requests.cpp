@@ -1,5 +1,6 @@
 #include "cli/requests.hpp"
 
+#include "cli/console.hpp"
 #include "glsl/overrides.hpp"
 #include "render/mouse.hpp"
 
@@ -59,9 +60,12 @@ bool take_range(std::string_view& text, std::vector<int>& frames) {
 } // namespace
 
 Result<scene::Scene> load(const SceneRequest& request) {
-    auto scene = scene::load_scene(request.path);
+    auto scene = scene::load_scene(request.path, request.files);
     if (!scene)
         return scene;
+    for (const Diagnostic& warning : scene->warnings)
+        if (std::find(request.said.begin(), request.said.end(), warning) == request.said.end())
+            say(to_string(warning));
     using Override = Result<void> (*)(scene::Scene&, std::string_view);
     const std::pair<const std::vector<std::string>&, Override> overrides[] = {
         {request.defines, glsl::override_definition},

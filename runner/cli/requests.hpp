@@ -24,8 +24,11 @@ struct SceneRequest {
     std::vector<std::string> sets;     ///< --set NAME=VALUE
     std::vector<std::string> defines;  ///< --define NAME=VALUE
     std::vector<std::string> channels; ///< --channel N=WHAT
+    scene::LoadOptions files;          ///< --media, --allow-outside
+    std::vector<Diagnostic> said;      ///< warnings that were printed before, by a load of the same scene
 };
 
+/// Prints the scene's warnings.
 Result<scene::Scene> load(const SceneRequest& request);
 
 /// Which frames, and what they see.

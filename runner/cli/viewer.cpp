@@ -268,6 +268,7 @@ Result<Viewer::ReloadTimes> Viewer::reload() {
     times.seen = now_seconds();
     SceneRequest request = settings_.scene;
     request.sets.clear(); // they are among the knobs that were turned
+    request.said = renderer_.scene().warnings;
     auto scene = load(request);
     if (!scene)
         return fail(std::move(scene.error()));

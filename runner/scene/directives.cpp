@@ -1,5 +1,6 @@
 #include "scene/directives.hpp"
 
+#include "scene/sources.hpp"
 #include "text/tokens.hpp"
 
 #include <fmt/format.h>
@@ -26,11 +27,18 @@ struct SamplingWishes {
     std::optional<Filter> minify;
     std::optional<Mipmaps> mipmaps;
     std::optional<Wrap> wrap;
+    bool cubemap = false;
 };
 
-/// What a channel is sampled like: noise by ShaderToy's defaults, pictures by the extension's.
+/// What a channel is sampled like: what only we have, by ShaderToy's defaults; pictures by the extension's.
 Sampling sampling_of(const Channel& channel, const SamplingWishes& wishes) {
-    Sampling sampling = std::holds_alternative<Noise>(channel.input) ? k_texture_sampling : Sampling{};
+    Sampling sampling{};
+    if (std::holds_alternative<Noise>(channel.input))
+        sampling = k_texture_sampling;
+    else if (std::holds_alternative<Keyboard>(channel.input))
+        sampling = k_keyboard_sampling;
+    else if (std::holds_alternative<Cubemap>(channel.input) || std::holds_alternative<Volume>(channel.input))
+        sampling.vflip = false;
     sampling.magnify = wishes.magnify.value_or(sampling.magnify);
     sampling.minify = wishes.minify.value_or(sampling.minify);
     sampling.mipmaps = wishes.mipmaps.value_or(sampling.mipmaps);
@@ -41,8 +49,8 @@ Sampling sampling_of(const Channel& channel, const SamplingWishes& wishes) {
 /// A cursor over the tokens of one text. Every `expect` either moves on or explains what it wanted.
 class DirectiveReader {
 public:
-    explicit DirectiveReader(const text::MappedText& text)
-        : text_(text), tokens_(text::tokenize(text.text())) {}
+    DirectiveReader(const text::MappedText& text, Conditional conditional)
+        : text_(text), conditional_(conditional), tokens_(text::tokenize(text.text())) {}
 
     Result<Directives> read_all();
     const std::vector<text::Edit>& edits() const { return edits_; }
@@ -61,9 +69,10 @@ private:
 
     // Grammar
     bool at_directive() const;
+    void follow_conditionals();
     Status read_directive();
     Status read_channel(std::string_view keyword, const SourceLocation& where);
-    Status read_channel_source(Channel& channel, const SourceLocation& where);
+    Status read_channel_source(size_t number, const SourceLocation& where);
     Status read_channel_parameter(SamplingWishes& wishes);
     Status read_knob(const SourceLocation& where);
     Status read_knob_values(Knob& knob);
@@ -74,6 +83,8 @@ private:
     Result<double> read_number(bool& whole);
 
     const text::MappedText& text_;
+    const Conditional conditional_;
+    int depth_ = 0; ///< of #if
     std::vector<Token> tokens_;
     size_t position_ = 0;
     Directives directives_;
@@ -119,9 +130,20 @@ bool DirectiveReader::at_directive() const {
            keyword == "iVertex" || keyword == "iFirstPersonControls" || keyword == "StrictCompatibility";
 }
 
+void DirectiveReader::follow_conditionals() {
+    if (!next_is("#") || !peek()->first_on_line || position_ + 1 >= tokens_.size())
+        return;
+    const Token& keyword = tokens_[position_ + 1];
+    if (keyword.is("if") || keyword.is("ifdef") || keyword.is("ifndef"))
+        ++depth_;
+    else if (keyword.is("endif"))
+        depth_ = std::max(0, depth_ - 1);
+}
+
 Result<Directives> DirectiveReader::read_all() {
     while (peek()) {
-        if (!at_directive()) {
+        follow_conditionals();
+        if (!at_directive() || (depth_ > 0 && conditional_ == Conditional::leave)) {
             ++position_;
             continue;
         }
@@ -130,8 +152,12 @@ Result<Directives> DirectiveReader::read_all() {
             return fail(std::move(read.error()));
         edits_.push_back({begin, tokens_[position_ - 1].end(), {}});
     }
-    for (size_t i = 0; i < wishes_.size(); ++i)
-        directives_.channels[i].sampling = sampling_of(directives_.channels[i], wishes_[i]);
+    for (size_t i = 0; i < wishes_.size(); ++i) {
+        Channel& channel = directives_.channels[i];
+        if (const auto* picture = std::get_if<Picture>(&channel.input); picture && wishes_[i].cubemap)
+            channel.input = Cubemap{{picture->file}};
+        channel.sampling = sampling_of(channel, wishes_[i]);
+    }
     return std::move(directives_);
 }
 
@@ -145,7 +171,19 @@ Result<void> DirectiveReader::read_directive() {
         return read_knob(where);
     if (keyword == "StrictCompatibility") // asks for what we always do: our own main() calls mainImage
         return {};
-    return fail(error_at(where, fmt::format("#{} is not supported", keyword)));
+    if (keyword == "iKeyboard") {
+        directives_.keyboard_helpers = true;
+        return {};
+    }
+    if (keyword == "iVertex")
+        if (auto name = expect_string(); !name)
+            return fail(std::move(name.error()));
+    const std::string_view instead = keyword == "iVertex"
+                                         ? "every pass is drawn as one triangle"
+                                         : "a scene that declares iCamera has an orbit camera";
+    directives_.warnings.push_back(
+        {where, Severity::warning, fmt::format("#{} is left out: {}", keyword, instead)});
+    return {};
 }
 
 Result<void> DirectiveReader::read_channel(std::string_view keyword, const SourceLocation& where) {
@@ -155,21 +193,16 @@ Result<void> DirectiveReader::read_channel(std::string_view keyword, const Sourc
                                                 k_channel_count - 1)));
     const auto channel = size_t(digits[0] - '0');
     if (!accept(":"))
-        return read_channel_source(directives_.channels[channel], where);
+        return read_channel_source(channel, where);
     if (auto colon = expect(":"); !colon)
         return colon;
     return read_channel_parameter(wishes_[channel]);
 }
 
-Result<void> DirectiveReader::read_channel_source(Channel& channel, const SourceLocation& where) {
+Result<void> DirectiveReader::read_channel_source(size_t number, const SourceLocation& where) {
     auto name = expect_string();
     if (!name)
         return fail(std::move(name.error()));
-    channel.where = where;
-    if (*name == "noise") {
-        channel.input = Noise{};
-        return {};
-    }
     if (name->starts_with("file://"))
         name->erase(0, std::string_view("file://").size());
     if (name->find("://") != std::string::npos)
@@ -177,7 +210,10 @@ Result<void> DirectiveReader::read_channel_source(Channel& channel, const Source
             error_at(where, fmt::format("'{}' is not a local file: tidemark downloads nothing", *name)));
     if (name->empty())
         return fail(error_at(where, "the name of the picture is empty"));
-    channel.input = Picture{(fs::path(where.file).parent_path() / *name).lexically_normal()};
+    Channel& channel = directives_.channels[number];
+    channel.where = where;
+    channel.input = input_of_name(*name, fs::path(where.file).parent_path());
+    directives_.sources[number] = *std::move(name);
     return {};
 }
 
@@ -231,8 +267,9 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
         return fail(error_at(where, fmt::format("WrapMode \"{}\": give Repeat, Clamp or Mirror", *value)));
     }
     if (parameter == "Type") {
-        if (*value != "Texture2D")
-            return fail(error_at(where, fmt::format("Type \"{}\" is not supported: give Texture2D", *value)));
+        wishes.cubemap = *value == "CubeMap";
+        if (*value != "Texture2D" && *value != "CubeMap")
+            return fail(error_at(where, fmt::format("Type \"{}\": give Texture2D or CubeMap", *value)));
         return {};
     }
     return fail(
@@ -387,8 +424,8 @@ Result<double> DirectiveReader::read_number(bool& whole) {
 
 } // namespace
 
-Result<Directives> take_directives(text::MappedText& text) {
-    DirectiveReader reader(text);
+Result<Directives> take_directives(text::MappedText& text, Conditional conditional) {
+    DirectiveReader reader(text, conditional);
     auto directives = reader.read_all();
     if (directives)
         text.apply(reader.edits());

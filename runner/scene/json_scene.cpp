@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "scene/bounds.hpp"
 #include "scene/builder.hpp"
+#include "scene/folder_scene.hpp"
 #include "scene/media.hpp"
 #include "scene/project.hpp"
 #include "scene/project_drafts.hpp"
@@ -16,16 +17,16 @@ Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) 
     auto bytes = read_file(path);
     if (!bytes)
         return fail(std::move(bytes.error()));
-    auto project = read_project(*bytes, path.string());
+    const CodeIn code = path.filename() == k_project_file ? CodeIn::files : CodeIn::json;
+    auto project = read_project(*bytes, path.string(), code);
     if (!project)
         return fail(std::move(project.error()));
+    // `tidemark view folder/scene.json` means the folder.
+    for (const ProjectPass& pass : project->passes)
+        if (pass.file)
+            return load_folder_scene(path.parent_path().empty() ? fs::path(".") : path.parent_path(),
+                                     options);
     const std::vector<std::string> names = pass_names(*project);
-    for (size_t i = 0; i < names.size(); ++i)
-        if (project->passes[i].file)
-            return fail(
-                error_at({path.string()}, fmt::format("the code of '{}' stands in the file '{}': this is "
-                                                      "a scene folder, so give the folder",
-                                                      names[i], *project->passes[i].file)));
     Scene scene;
     scene.file = path;
     scene.files.push_back(path);

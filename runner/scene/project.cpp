@@ -33,7 +33,8 @@ std::string flag(const Json& object, const char* key) {
 
 class ProjectReader {
 public:
-    ProjectReader(const Json& json, const std::string& file) : json_(json), file_(file) {}
+    ProjectReader(const Json& json, const std::string& file, CodeIn code)
+        : json_(json), file_(file), code_in_(code) {}
 
     Result<Project> read() {
         const Json& passes = json_.at("renderpass");
@@ -44,6 +45,10 @@ public:
         for (const Json& pass : passes)
             if (auto read = read_pass(pass); !read)
                 return fail(std::move(read.error()));
+        const std::vector<std::string> names = pass_names(project_);
+        for (size_t i = 0; i < names.size(); ++i)
+            if (std::optional<std::string>& named = project_.passes[i].file; named && named->empty())
+                named = file_name_of(names[i]);
         return std::move(project_);
     }
 
@@ -74,8 +79,10 @@ private:
             pass.code = code->get<std::string>();
         else if (code != json.end() && code->is_object() && code->contains("file"))
             pass.file = as_text(*code, "file");
-        else
+        else if (code_in_ == CodeIn::json || (code != json.end() && !code->is_null()))
             return refuse(fmt::format("{} has no code", called));
+        else
+            pass.file.emplace(); // named below, when all passes are known
         read_outputs(json, pass);
         read_inputs(json, called, pass);
         project_.passes.push_back(std::move(pass));
@@ -138,6 +145,7 @@ private:
 
     const Json& json_;
     const std::string& file_;
+    const CodeIn code_in_;
     Project project_;
 };
 
@@ -148,14 +156,14 @@ std::string numbered(std::string_view name, int count) {
 
 } // namespace
 
-Result<Project> read_project(std::string_view text, const std::string& file) {
+Result<Project> read_project(std::string_view text, const std::string& file, CodeIn code) {
     auto json = parse_json(text, file);
     if (!json)
         return fail(std::move(json.error()));
     const auto project = find_project(*json, file);
     if (!project)
         return fail(project.error());
-    return ProjectReader(**project, file).read();
+    return ProjectReader(**project, file, code).read();
 }
 
 std::vector<std::string> pass_names(const Project& project) {

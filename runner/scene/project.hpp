@@ -24,7 +24,7 @@ struct ProjectInput {
 };
 
 struct ProjectPass {
-    enum class Kind { common, buffer, cubemap, image, sound };
+    enum class Kind { common, buffer, cubemap, image, sound }; ///< in the order of drawing
     Kind kind = Kind::image;
     std::string name;   ///< the author's, for messages only
     std::string output; ///< id of what it draws
@@ -38,9 +38,13 @@ struct Project {
     std::vector<Diagnostic> warnings;
 };
 
+/// Where the code of a pass may stand: in the JSON, or in files beside it, which `"code": {"file": "…"}`
+/// names; a pass that says nothing has the file of its name.
+enum class CodeIn { json, files };
+
 /// Reads the JSON of ShaderToy's API, of its site, or of 2014, alone or as a list of one. `file` is for the
 /// messages.
-Result<Project> read_project(std::string_view json, const std::string& file);
+Result<Project> read_project(std::string_view json, const std::string& file, CodeIn code = CodeIn::json);
 
 /// A name for each pass, unique and the same in every project: `Common`, `Buffer A` … by what it draws, not
 /// by the author's name; `Cube A`, `Image`, `Sound`.

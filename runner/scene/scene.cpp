@@ -1,10 +1,11 @@
 #include "scene/scene.hpp"
 
-#include "base/file.hpp"
-#include "scene/directives.hpp"
+#include "scene/bounds.hpp"
+#include "scene/builder.hpp"
+#include "scene/folder_scene.hpp"
 #include "scene/json_scene.hpp"
-#include "text/includes.hpp"
-#include "text/tokens.hpp"
+#include "scene/pass_loader.hpp"
+#include "scene/sources.hpp"
 
 #include <fmt/format.h>
 
@@ -14,24 +15,20 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 namespace {
 
-Result<void> check_has_main_image(const fs::path& path, const text::MappedText& text) {
-    const auto tokens = text::tokenize(text.text());
-    if (tokens.empty())
-        return fail(ErrorCode::load, fmt::format("'{}' is empty: a scene defines mainImage", path.string()));
-    if (std::none_of(tokens.begin(), tokens.end(),
-                     [](const text::Token& token) { return token.is("mainImage"); }))
-        return fail(ErrorCode::load, fmt::format("'{}' has no mainImage: a scene defines "
-                                                 "void mainImage(out vec4 fragColor, in vec2 fragCoord)",
-                                                 path.string()));
-    return {};
-}
-
-void note_pictures(Scene& scene) {
-    for (const Pass& pass : scene.passes)
-        for (const Channel& channel : pass.channels)
-            if (const auto* picture = std::get_if<Picture>(&channel.input))
-                if (std::find(scene.files.begin(), scene.files.end(), picture->file) == scene.files.end())
-                    scene.files.push_back(picture->file);
+/// A single file: Image, and whatever buffers its channels name.
+Result<Scene> load_file_scene(const fs::path& path, const LoadOptions& options) {
+    Scene scene;
+    scene.file = path;
+    const Bounds bounds(path.parent_path(), options.allow_outside);
+    PassLoader loader(scene, path.parent_path(), bounds);
+    Draft image;
+    image.pass.name = "Image";
+    image.file = path.lexically_normal();
+    if (auto loaded = loader.load(loader.add(std::move(image), PassLoader::Order::by_reading)); !loaded)
+        return fail(std::move(loaded.error()));
+    if (auto finished = loader.finish(); !finished)
+        return fail(std::move(finished.error()));
+    return scene;
 }
 
 } // namespace
@@ -68,25 +65,10 @@ TextureKind texture_kind(const Scene& scene, const ChannelInput& input) {
 }
 
 Result<Scene> load_scene(const fs::path& path, const LoadOptions& options) {
-    if (path.extension() == ".json")
-        return load_json_scene(path, options);
-    auto expanded = text::expand_includes(path, read_text_file);
-    if (!expanded)
-        return fail(std::move(expanded.error()));
-    Pass image{PassKind::image, "Image", std::move(expanded->text), {}};
-    auto directives = take_directives(image.text);
-    if (!directives)
-        return fail(std::move(directives.error()));
-    if (auto checked = check_has_main_image(path, image.text); !checked)
-        return fail(std::move(checked.error()));
-    image.channels = std::move(directives->channels);
-    Scene scene;
-    scene.file = path;
-    scene.knobs = std::move(directives->knobs);
-    scene.files = std::move(expanded->files);
-    scene.passes.push_back(std::move(image));
-    note_pictures(scene);
-    return scene;
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        return load_folder_scene(path, options);
+    return path.extension() == ".json" ? load_json_scene(path, options) : load_file_scene(path, options);
 }
 
 Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_view setting,
@@ -106,13 +88,17 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
         return fail(ErrorCode::usage,
                     fmt::format("--channel {}: give it as N=FILE, N=noise or N=none, N from 0 to {}", setting,
                                 k_channel_count - 1));
+    if (what != "none" && names_a_pass(what))
+        return fail(ErrorCode::usage,
+                    fmt::format("--channel {}: '{}' is a pass: a scene names it with #iChannel{}", setting,
+                                what, number));
+    // The person's own path: no bounds.
     Channel channel;
-    if (what == "none")
-        channel.input = Unbound{};
-    else if (what != "noise")
-        channel.input = Picture{fs::path(what)};
+    channel.input = what == "none" ? ChannelInput(Unbound{}) : input_of_name(what, {});
+    if (std::holds_alternative<Keyboard>(channel.input))
+        channel.sampling = k_keyboard_sampling;
     scene.passes[scene.image_index()].channels[size_t(number[0] - '0')] = channel;
-    note_pictures(scene);
+    note_files(scene, channel);
     return {};
 }
 

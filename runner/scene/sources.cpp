@@ -1,6 +1,9 @@
 #include "scene/sources.hpp"
 
+#include "scene/pass_names.hpp"
+
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace tidemark::scene {
@@ -21,7 +24,18 @@ MediaKind media_kind_of(const fs::path& file) {
     return MediaKind::picture;
 }
 
-ChannelInput input_of_file(fs::path file) {
+bool names_a_pass(std::string_view name) {
+    return name == "self" || parse_pass_name(name) || is_shader_file(fs::path(name));
+}
+
+ChannelInput input_of_name(std::string_view name, const fs::path& folder) {
+    if (name == "noise")
+        return Noise{};
+    if (name == "keyboard")
+        return Keyboard{};
+    if (names_a_pass(name))
+        return Unbound{};
+    fs::path file = (folder / name).lexically_normal();
     switch (media_kind_of(file)) {
     case MediaKind::music: return Music{std::move(file)};
     case MediaKind::video: return Video{std::move(file)};
@@ -30,6 +44,33 @@ ChannelInput input_of_file(fs::path file) {
     case MediaKind::cubemap: break;
     }
     return Picture{std::move(file)};
+}
+
+std::vector<fs::path> cubemap_faces(const fs::path& name) {
+    constexpr std::array<std::string_view, 6> k_suffixes[] = {
+        {"e", "w", "u", "d", "n", "s"},
+        {"east", "west", "up", "down", "north", "south"},
+        {"px", "nx", "py", "ny", "pz", "nz"},
+        {"posx", "negx", "posy", "negy", "posz", "negz"},
+    };
+    const std::string text = name.string();
+    const size_t braces = text.find("{}");
+    const size_t at = braces != std::string::npos ? braces : text.find('*');
+    if (at == std::string::npos)
+        return {name};
+    const size_t length = braces != std::string::npos ? 2 : 1;
+    for (const auto& set : k_suffixes) {
+        std::vector<fs::path> faces;
+        for (const std::string_view suffix : set) {
+            fs::path face = std::string(text).replace(at, length, suffix);
+            std::error_code ignored;
+            if (fs::is_regular_file(face, ignored))
+                faces.push_back(std::move(face));
+        }
+        if (faces.size() == set.size())
+            return faces;
+    }
+    return {};
 }
 
 } // namespace tidemark::scene

@@ -106,10 +106,34 @@ TEST(ChannelDirectives, parameters_of_noise_change_only_what_they_name) {
     EXPECT_EQ(channel_0("#iChannel0::WrapMode \"Clamp\"").sampling, expected);
 }
 
-TEST(ChannelDirectives, the_type_is_a_plain_texture) {
+TEST(ChannelDirectives, the_type_is_a_plain_texture_or_a_cubemap) {
     EXPECT_EQ(channel_0("#iChannel0 \"a.png\"\n#iChannel0::Type \"Texture2D\"").sampling, k_extension);
-    EXPECT_EQ(refusal("#iChannel0::Type \"CubeMap\""),
-              "dir/a.glsl:1: error: Type \"CubeMap\" is not supported: give Texture2D");
+    const std::string type = "#iChannel0::Type \"CubeMap\"\n";
+    for (const std::string& text : {type + "#iChannel0 \"a_*.png\"", "#iChannel0 \"a_*.png\"\n" + type})
+        EXPECT_EQ(channel_0(text).input, ChannelInput(Cubemap{{"dir/a_*.png"}}));
+    EXPECT_EQ(refusal("#iChannel0::Type \"Cubemap\""),
+              "dir/a.glsl:1: error: Type \"Cubemap\": give Texture2D or CubeMap");
+}
+
+TEST(ChannelDirectives, a_file_is_what_its_extension_says) {
+    const auto input = [](const std::string& name) { return channel_0("#iChannel0 \"" + name + "\"").input; };
+    for (const char* name : {"a.mp3", "a.ogg", "a.WAV", "a.flac"})
+        EXPECT_EQ(input(name), ChannelInput(Music{std::string("dir/") + name}));
+    for (const char* name : {"a.mp4", "a.webm", "a.ogv", "a.gif"})
+        EXPECT_EQ(input(name), ChannelInput(Video{std::string("dir/") + name}));
+    EXPECT_EQ(input("a.bin"), ChannelInput(Volume{"dir/a.bin"}));
+    EXPECT_EQ(input("a"), ChannelInput(Picture{"dir/a"}));
+    EXPECT_EQ(input("keyboard"), ChannelInput(Keyboard{}));
+    EXPECT_EQ(channel_0("#iChannel0 \"keyboard\"").sampling, k_keyboard_sampling);
+}
+
+TEST(ChannelDirectives, a_pass_is_left_to_who_knows_the_passes) {
+    for (const std::string name : {"self", "buffer_a", "Buffer A", "blur.glsl", "../b.frag"}) {
+        const auto directives = read("#iChannel2 \"file://" + name + "\"");
+        ASSERT_TRUE(directives);
+        EXPECT_EQ(directives->channels[2].input, ChannelInput(Unbound{}));
+        EXPECT_EQ(directives->sources[2], name);
+    }
 }
 
 TEST(ChannelDirectives, may_run_over_lines_and_around_comments) {

@@ -34,11 +34,33 @@ TEST(Directives, strict_compatibility_is_what_we_do_anyway) {
     EXPECT_EQ(rest("#StrictCompatibility\na"), "\na\n");
 }
 
-TEST(Directives, we_do_not_have_are_said) {
-    EXPECT_EQ(refusal("a;\n#iKeyboard"), "dir/a.glsl:2: error: #iKeyboard is not supported");
-    EXPECT_EQ(refusal("#iVertex \"a.glsl\""), "dir/a.glsl:1: error: #iVertex is not supported");
-    EXPECT_EQ(refusal("#iFirstPersonControls"),
-              "dir/a.glsl:1: error: #iFirstPersonControls is not supported");
+TEST(Directives, we_do_not_have_are_said_and_left_out) {
+    const auto directives = read("a;\n#iVertex \"a.glsl\"\n#iFirstPersonControls\n");
+    ASSERT_TRUE(directives);
+    ASSERT_EQ(directives->warnings.size(), 2u);
+    EXPECT_EQ(to_string(directives->warnings[0]),
+              "dir/a.glsl:2: warning: #iVertex is left out: every pass is drawn as one triangle");
+    EXPECT_EQ(to_string(directives->warnings[1]),
+              "dir/a.glsl:3: warning: #iFirstPersonControls is left out: a scene "
+              "that declares iCamera has an orbit camera");
+    EXPECT_EQ(refusal("#iVertex 1"), "dir/a.glsl:1: error: expected a name in quotes but found '1'");
+}
+
+TEST(Directives, the_keyboard_asks_for_helpers) {
+    EXPECT_FALSE(read("a;")->keyboard_helpers);
+    EXPECT_TRUE(read("a;\n#iKeyboard")->keyboard_helpers);
+    EXPECT_EQ(rest("#iKeyboard\na"), "\na\n");
+}
+
+TEST(Directives, under_an_if_are_another_hosts_in_a_text_of_shadertoy) {
+    text::MappedText mapped;
+    const std::string text = "#ifdef VSCODE\n#iChannel0 \"x.png\"\n#endif\n#iChannel1 \"y.png\"\n";
+    mapped.append(text, "dir/a.glsl", 1);
+    const auto directives = take_directives(mapped, Conditional::leave);
+    ASSERT_TRUE(directives);
+    EXPECT_EQ(directives->sources[0], "");
+    EXPECT_EQ(directives->sources[1], "y.png");
+    EXPECT_EQ(mapped.text(), "#ifdef VSCODE\n#iChannel0 \"x.png\"\n#endif\n\n");
 }
 
 TEST(Directives, of_an_included_file_are_placed_there) {

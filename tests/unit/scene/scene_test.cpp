@@ -60,7 +60,9 @@ TEST(LoadScene, what_is_no_scene_is_said) {
     const std::string path = folder / "a.glsl";
     EXPECT_EQ(refusal(path), "tidemark: error: cannot read '" + path + "': no such file");
     EXPECT_EQ(refusal(folder.path()),
-              "tidemark: error: cannot read '" + folder.path().string() + "': it is a directory");
+              "tidemark: error: '" + folder.path().string() +
+                  "' has no image.glsl: a scene folder holds image.glsl and, as needed, buffer_a.glsl to "
+                  "buffer_d.glsl, common.glsl, cube_a.glsl and sound.glsl");
     save_in_place(path, std::string_view("\x7f"
                                          "ELF\0\0",
                                          6));
@@ -80,7 +82,7 @@ TEST(LoadScene, without_main_image) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.glsl";
     for (const char* text :
-         {"void main() {}", "// void mainImage(out vec4 c, in vec2 p)\nint x;", "int mainImages;"}) {
+         {"void remain() {}", "// void mainImage(out vec4 c, in vec2 p)\nint x;", "int mainImages;"}) {
         save_in_place(path, text);
         EXPECT_EQ(refusal(path), "tidemark: error: '" + path +
                                      "' has no mainImage: a scene defines void mainImage(out vec4 fragColor, "
@@ -163,6 +165,12 @@ TEST_F(Overrides, a_channel_reads_what_it_is_told) {
     EXPECT_EQ(message(override_channel(scene, "3=a=b.png")), "");
     EXPECT_EQ(scene.image().channels[3].input, ChannelInput(Picture{"a=b.png"}));
     EXPECT_EQ(scene.files.back(), "a=b.png");
+    EXPECT_EQ(message(override_channel(scene, "0=/else/a.mp3")), "");
+    EXPECT_EQ(scene.image().channels[0].input, ChannelInput(Music{"/else/a.mp3"}));
+    EXPECT_EQ(message(override_channel(scene, "0=keyboard")), "");
+    EXPECT_EQ(scene.image().channels[0].input, ChannelInput(Keyboard{}));
+    EXPECT_EQ(message(override_channel(scene, "0=blur.glsl")),
+              "--channel 0=blur.glsl: 'blur.glsl' is a pass: a scene names it with #iChannel0");
 }
 
 TEST_F(Overrides, channels_that_there_are_not) {

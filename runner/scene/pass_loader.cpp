@@ -1,0 +1,239 @@
+#include "scene/pass_loader.hpp"
+
+#include "base/file.hpp"
+#include "scene/pass_names.hpp"
+#include "scene/project_drafts.hpp"
+#include "scene/sources.hpp"
+#include "text/includes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace tidemark::scene {
+namespace fs = std::filesystem;
+namespace {
+
+/// Enough for every scene; a chain of thousands of files is a mistake or a trap.
+constexpr size_t k_most_passes = 64;
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    std::error_code ignored;
+    return a == b || fs::equivalent(a, b, ignored);
+}
+
+bool contains(const std::vector<fs::path>& files, const fs::path& file) {
+    return std::find(files.begin(), files.end(), file) != files.end();
+}
+
+} // namespace
+
+PassLoader::PassLoader(Scene& scene, fs::path folder, const Bounds& bounds, Conditional conditional)
+    : scene_(scene), folder_(std::move(folder)), bounds_(bounds), conditional_(conditional) {}
+
+size_t PassLoader::add(Draft draft, Order order) {
+    drafts_.push_back(std::move(draft));
+    included_.emplace_back();
+    order_of_.push_back(order);
+    return drafts_.size() - 1;
+}
+
+Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
+    const auto read_text = [&](const fs::path& path) -> Result<std::string> {
+        // The person who named the scene may name a link.
+        if (path != scene_.file.lexically_normal())
+            if (auto inside = bounds_.check(path); !inside)
+                return fail(std::move(inside.error()));
+        if (conditional_ == Conditional::read)
+            return read_text_file(path);
+        return read_file(path).map(plain_text);
+    };
+    auto expanded = text::expand_includes(file, read_text);
+    if (!expanded)
+        return fail(std::move(expanded.error()));
+    for (const fs::path& path : expanded->files)
+        note_file(scene_, path);
+    auto directives = take_directives(expanded->text, conditional_);
+    if (!directives)
+        return fail(std::move(directives.error()));
+    scene_.warnings.insert(scene_.warnings.end(), directives->warnings.begin(), directives->warnings.end());
+    if (auto added = add_knobs(std::move(directives->knobs)); !added)
+        return fail(std::move(added.error()));
+    return FileText{std::move(expanded->text), *std::move(directives), std::move(expanded->files)};
+}
+
+/// A knob that several passes declare alike is one knob: it has one slider and one value.
+Result<void> PassLoader::add_knobs(std::vector<Knob> knobs) {
+    for (Knob& knob : knobs) {
+        const auto same = std::find_if(scene_.knobs.begin(), scene_.knobs.end(),
+                                       [&](const Knob& other) { return other.name == knob.name; });
+        if (same == scene_.knobs.end()) {
+            scene_.knobs.push_back(std::move(knob));
+        } else if (same->type != knob.type) {
+            Error error = error_at(
+                knob.where, fmt::format("the knob '{}' is a {} here and a {} in another pass", knob.name,
+                                        info(knob.type).directive_name, info(same->type).directive_name));
+            error.diagnostics.push_back({same->where, Severity::note, "first declared here"});
+            return fail(std::move(error));
+        }
+    }
+    return {};
+}
+
+Result<void> PassLoader::load_common(const fs::path& file) {
+    auto read_file = read(file);
+    if (!read_file)
+        return fail(std::move(read_file.error()));
+    commons_.push_back({file.lexically_normal(), std::move(read_file->text)});
+    return {};
+}
+
+Result<void> PassLoader::load(size_t draft) {
+    if (!drafts_[draft].file.empty()) {
+        auto file = read(drafts_[draft].file);
+        if (!file)
+            return fail(std::move(file.error()));
+        drafts_[draft].pass.text = std::move(file->text);
+        drafts_[draft].pass.keyboard_helpers = file->directives.keyboard_helpers;
+        included_[draft] = std::move(file->files);
+        loading_.push_back(draft);
+        auto bound = bind(draft, file->directives);
+        loading_.pop_back();
+        if (!bound)
+            return bound;
+    }
+    order_.push_back(draft);
+    return {};
+}
+
+Result<void> PassLoader::bind(size_t draft, const Directives& directives) {
+    for (size_t i = 0; i < directives.sources.size(); ++i) {
+        Channel channel = directives.channels[i];
+        if (directives.sources[i].empty()) {
+            // Not named. Of a file alone the channel reads noise, perhaps with a sampler of its own.
+            if (conditional_ == Conditional::read)
+                drafts_[draft].pass.channels[i] = std::move(channel);
+            continue;
+        }
+        auto input = input_of(draft, channel, directives.sources[i]);
+        if (!input)
+            return fail(std::move(input.error()));
+        channel.input = *std::move(input);
+        drafts_[draft].pass.channels[i] = std::move(channel);
+    }
+    return {};
+}
+
+Result<ChannelInput> PassLoader::input_of(size_t draft, const Channel& channel, const std::string& source) {
+    if (source == "self")
+        return PassOutput{draft};
+    if (std::holds_alternative<Unbound>(channel.input) && is_shader_file(source))
+        return output_of_file(draft, (fs::path(channel.where.file).parent_path() / source).lexically_normal(),
+                              channel.where);
+    if (std::holds_alternative<Unbound>(channel.input))
+        return output_of_name(source, channel.where);
+    Channel found = channel;
+    if (auto* cubemap = std::get_if<Cubemap>(&found.input)) {
+        cubemap->files = cubemap_faces(cubemap->files.front());
+        if (cubemap->files.empty())
+            return fail(
+                error_at(channel.where,
+                         fmt::format("there are no six files for '{}': they end in e w u d n s, in east "
+                                     "west up down north south, in px nx py ny pz nz or in posx negx posy "
+                                     "negy posz negz",
+                                     source)));
+    }
+    if (auto inside = check_bounds(found); !inside)
+        return fail(std::move(inside.error()));
+    return found.input;
+}
+
+Result<ChannelInput> PassLoader::output_of_file(size_t reader, const fs::path& file,
+                                                const SourceLocation& where) {
+    for (size_t i = 0; i < drafts_.size(); ++i) {
+        if (drafts_[i].file.empty() || !is_same_file(drafts_[i].file, file))
+            continue;
+        const bool waits = std::find(loading_.begin(), loading_.end(), i) != loading_.end();
+        if (waits && i != reader && order_of_[i] == Order::by_reading)
+            return fail(
+                error_at(where, fmt::format("{}: files that read each other cannot be put in an order; a "
+                                            "file may read its own last frame as \"self\"",
+                                            cycle_from(i))));
+        return PassOutput{i};
+    }
+    if (auto inside = bounds_.check(file); !inside)
+        return fail(error_at(where, inside.error().message));
+    if (drafts_.size() >= k_most_passes)
+        return fail(error_at(where, fmt::format("the scene has more than {} passes", k_most_passes)));
+    Draft draft;
+    draft.pass.kind = PassKind::buffer;
+    draft.pass.name = unique_name(file);
+    draft.file = file;
+    const size_t added = add(std::move(draft), Order::by_reading);
+    if (auto loaded = load(added); !loaded) {
+        if (loaded.error().diagnostics.empty()) // the file itself cannot be read: say who wants it
+            return fail(error_at(where, loaded.error().message));
+        return fail(std::move(loaded.error()));
+    }
+    return PassOutput{added};
+}
+
+Result<ChannelInput> PassLoader::output_of_name(const std::string& source,
+                                                const SourceLocation& where) const {
+    const auto wanted = parse_pass_name(source);
+    const std::string name = wanted ? to_string(*wanted) : source;
+    for (size_t i = 0; i < drafts_.size(); ++i)
+        if (drafts_[i].pass.name == name)
+            return PassOutput{i};
+    return fail(
+        error_at(where, fmt::format("there is no pass '{}' here: a scene folder has it in a file '{}', and "
+                                    "a single file names another by its path, as in \"blur.glsl\"",
+                                    name, file_name_of(name))));
+}
+
+Result<void> PassLoader::check_bounds(const Channel& channel) const {
+    Scene files;
+    note_files(files, channel);
+    for (const fs::path& file : files.files)
+        if (auto inside = bounds_.check(file); !inside)
+            return fail(error_at(channel.where, inside.error().message));
+    return {};
+}
+
+std::string PassLoader::unique_name(const fs::path& file) const {
+    const auto is_free = [&](const std::string& name) {
+        return std::none_of(drafts_.begin(), drafts_.end(),
+                            [&](const Draft& draft) { return draft.pass.name == name; });
+    };
+    const std::string short_name = file.filename().string();
+    return is_free(short_name) ? short_name : file.lexically_proximate(folder_).string();
+}
+
+std::string PassLoader::cycle_from(size_t draft) const {
+    std::string chain;
+    const auto first = std::find(loading_.begin(), loading_.end(), draft);
+    for (auto waiting = first; waiting != loading_.end(); ++waiting)
+        chain += fmt::format("'{}' reads ", drafts_[*waiting].file.filename().string());
+    return chain + fmt::format("'{}'", drafts_[draft].file.filename().string());
+}
+
+Result<void> PassLoader::finish() {
+    for (const Common& common : commons_) {
+        const auto includes_it = [&](size_t draft) { return contains(included_[draft], common.file); };
+        const bool is_included = std::any_of(order_.begin(), order_.end(), includes_it);
+        if (!is_included) {
+            scene_.common.append(common.text);
+            continue;
+        }
+        for (const size_t draft : order_)
+            if (!includes_it(draft)) {
+                text::MappedText whole = common.text;
+                whole.append(drafts_[draft].pass.text);
+                drafts_[draft].pass.text = std::move(whole);
+            }
+    }
+    return finish_scene(scene_, std::move(drafts_), order_);
+}
+
+} // namespace tidemark::scene

@@ -1,0 +1,74 @@
+// Passes that stand in files of their own: reads a file with its includes and directives, and follows its
+// channels to the other files that they name.
+#pragma once
+
+#include "base/result.hpp"
+#include "scene/bounds.hpp"
+#include "scene/builder.hpp"
+#include "scene/directives.hpp"
+#include "scene/scene.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tidemark::scene {
+
+/// Fills one Scene. The passes that are known beforehand are added first, then loaded one by one in the order
+/// of drawing; a buffer that only a channel names (`#iChannel0 "blur.glsl"`) is loaded, once, before the pass
+/// that reads it.
+class PassLoader {
+public:
+    PassLoader(Scene& scene, std::filesystem::path folder, const Bounds& bounds,
+               Conditional conditional = Conditional::read);
+
+    /// ShaderToy's passes have their order by name and may read each other as they like: who is drawn later
+    /// reads this frame. Other files are drawn before those that read them.
+    enum class Order { by_name, by_reading };
+
+    /// Adds a pass that is known beforehand; gives its number among the drafts.
+    size_t add(Draft draft, Order order = Order::by_name);
+    /// Reads the draft's file, if it has one. A channel that no directive names keeps what it has.
+    Result<void> load(size_t draft);
+    /// Reads a file that stands in front of all passes, behind what stands there already. Comes before the
+    /// passes: one that includes the file itself does not get it a second time.
+    Result<void> load_common(const std::filesystem::path& file);
+    /// The Scene is complete.
+    Result<void> finish();
+
+private:
+    struct FileText {
+        text::MappedText text;
+        Directives directives;
+        std::vector<std::filesystem::path> files;
+    };
+
+    Result<FileText> read(const std::filesystem::path& file);
+    Result<void> add_knobs(std::vector<Knob> knobs);
+    Result<void> bind(size_t draft, const Directives& directives);
+    Result<ChannelInput> input_of(size_t draft, const Channel& channel, const std::string& source);
+    Result<ChannelInput> output_of_file(size_t reader, const std::filesystem::path& file,
+                                        const SourceLocation& where);
+    Result<ChannelInput> output_of_name(const std::string& source, const SourceLocation& where) const;
+    Result<void> check_bounds(const Channel& channel) const;
+    std::string unique_name(const std::filesystem::path& file) const;
+    std::string cycle_from(size_t draft) const;
+
+    Scene& scene_;
+    const std::filesystem::path folder_; ///< of the scene
+    const Bounds& bounds_;
+    const Conditional conditional_;
+    std::vector<Draft> drafts_;
+    std::vector<size_t> order_;
+    std::vector<size_t> loading_; ///< buffers that wait for those they read
+    struct Common {
+        std::filesystem::path file;
+        text::MappedText text;
+    };
+    std::vector<Common> commons_;
+    // For each draft:
+    std::vector<std::vector<std::filesystem::path>> included_;
+    std::vector<Order> order_of_;
+};
+
+} // namespace tidemark::scene
