@@ -28,7 +28,7 @@ std::vector<std::string> case_names() {
 }
 
 /// What a frame sees besides its number: a date, and what the mouse did before it.
-FrameInputs inputs_of(const Json& frame, Mouse& mouse) {
+FrameInputs inputs_of(const Json& frame, Mouse& mouse, Keyboard& keyboard) {
     FrameInputs inputs = inputs_of_frame(frame.value("frame", 0), frame.value("fps", 60.0));
     const Json events = frame.value("mouse", Json::array());
     for (const Json& event : events) {
@@ -43,6 +43,14 @@ FrameInputs inputs_of(const Json& frame, Mouse& mouse) {
             ADD_FAILURE() << "unknown mouse event " << what;
     }
     inputs.mouse = mouse.uniform();
+    for (const Json& event : frame.value("keys", Json::array())) {
+        const std::string what = event.at(0);
+        if (what == "press")
+            keyboard.press(event.at(1));
+        else
+            keyboard.release(event.at(1));
+    }
+    inputs.keyboard = keyboard.texels();
     if (frame.contains("date")) {
         const auto date = parse_date(frame.at("date").get<std::string>());
         EXPECT_TRUE(date) << to_string(date.error());
@@ -84,7 +92,9 @@ TEST_P(Conformance, pixels_are_those_of_the_convention) {
     const Json expected = Json::parse(*text);
     SCOPED_TRACE(expected.at("convention").get<std::string>());
 
-    auto scene = scene::load_scene(folder / "scene.glsl");
+    const bool bare = fs::exists(folder / "scene.glsl");
+    const bool project = fs::exists(folder / "project.json");
+    auto scene = scene::load_scene(bare ? folder / "scene.glsl" : project ? folder / "project.json" : folder);
     ASSERT_TRUE(scene) << to_string(scene.error());
     const Json channels = expected.value("channels", Json::object());
     for (const auto& [channel, what] : channels.items()) {
@@ -98,10 +108,16 @@ TEST_P(Conformance, pixels_are_those_of_the_convention) {
     ASSERT_TRUE(renderer) << to_string(renderer.error());
 
     Mouse mouse;
+    Keyboard keyboard;
     for (const Json& frame : expected.at("frames")) {
         SCOPED_TRACE(frame.dump());
-        renderer->draw(inputs_of(frame, mouse));
+        if (frame.contains("resize"))
+            ASSERT_TRUE(renderer->resize({frame.at("resize").at(0), frame.at("resize").at(1)}));
+        if (frame.value("reset", false))
+            renderer->reset();
+        renderer->draw(inputs_of(frame, mouse, keyboard));
         mouse.frame_drawn();
+        keyboard.frame_drawn();
         ASSERT_NO_FATAL_FAILURE(expect_frame(renderer->read_back(), frame));
     }
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));

@@ -1,0 +1,2 @@
+const float shared_value = 6.0;
+float twice(float x) { return 2.0 * x; }
