@@ -39,12 +39,17 @@ Result<Scene> load_scene(const fs::path& path) {
     auto expanded = text::expand_includes(path, read_text_file);
     if (!expanded)
         return fail(std::move(expanded.error()));
+    const auto with_files = [&](Error error) {
+        for (const fs::path& file : expanded->files)
+            error.files.push_back(file.string());
+        return error;
+    };
     Pass image{"Image", std::move(expanded->text), {}};
     auto directives = take_directives(image.text);
     if (!directives)
-        return fail(std::move(directives.error()));
+        return fail(with_files(std::move(directives.error())));
     if (auto checked = check_has_main_image(path, image.text); !checked)
-        return fail(std::move(checked.error()));
+        return fail(with_files(std::move(checked.error())));
     image.channels = std::move(directives->channels);
     Scene scene{path, {}, std::move(directives->knobs), std::move(expanded->files)};
     scene.passes.push_back(std::move(image));
