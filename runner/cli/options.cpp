@@ -54,15 +54,13 @@ void add_picture_options(CLI::App& command, FrameOptions& options) {
 }
 
 void add_time_options(CLI::App& command, FrameOptions& options) {
-    auto* frame =
-        command.add_option("--frame", options.frame, "One frame, from 0 (the default)")
+    auto* frame = command.add_option("--frame", options.frame, "One frame, from 0 (the default)")
                       ->type_name("N")
                       ->check(number<int>("a whole number"));
     auto* frames =
         command.add_option("--frames", options.frames, "Frames, inclusive, as in 0-29 or 0-120x10")
             ->type_name("A-B[xS][,...]");
-    auto* time =
-        command.add_option("--time", options.time, "iTime in seconds, instead of a frame")
+    auto* time = command.add_option("--time", options.time, "iTime in seconds, instead of a frame")
                      ->type_name("T")
                      ->check(number<double>("a number"));
     frame->excludes(frames)->excludes(time);
