@@ -48,6 +48,9 @@ struct Error {
     ErrorCode code = ErrorCode::load;
     std::string message;
     std::vector<Diagnostic> diagnostics{};
+    /// Of a text that does not load: the files it is made of as far as that is known, a missing one included.
+    /// A change of one of them may mend it.
+    std::vector<std::string> files{};
 };
 
 /// An Error about one place in a text.

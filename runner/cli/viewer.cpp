@@ -270,8 +270,13 @@ Result<Viewer::ReloadTimes> Viewer::reload() {
     request.sets.clear(); // they are among the knobs that were turned
     request.said = renderer_.scene().warnings;
     auto scene = load(request);
-    if (!scene)
+    if (!scene) {
+        // What is missing or wrong may be a file that the last good scene did not have.
+        std::vector<std::filesystem::path> files = renderer_.scene().files;
+        files.insert(files.end(), scene.error().files.begin(), scene.error().files.end());
+        (void)watcher_.watch(files); // a folder that is missing too cannot be watched: the rest is
         return fail(std::move(scene.error()));
+    }
     keep_turned_knobs(*scene);
     // Before the slow part, so that a save during it is seen; and even if it fails, so that what it waits
     // for is seen.

@@ -15,6 +15,13 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 namespace {
 
+/// The error with the files that were read before it: a change of one of them may mend it.
+Error with_files(Error error, const Scene& scene) {
+    for (const fs::path& file : scene.files)
+        error.files.push_back(file.string());
+    return error;
+}
+
 /// A single file: Image, and whatever buffers its channels name.
 Result<Scene> load_file_scene(const fs::path& path, const LoadOptions& options) {
     Scene scene;
@@ -25,9 +32,9 @@ Result<Scene> load_file_scene(const fs::path& path, const LoadOptions& options) 
     image.pass.name = "Image";
     image.file = path.lexically_normal();
     if (auto loaded = loader.load(loader.add(std::move(image), PassLoader::Order::by_reading)); !loaded)
-        return fail(std::move(loaded.error()));
+        return fail(with_files(std::move(loaded.error()), scene));
     if (auto finished = loader.finish(); !finished)
-        return fail(std::move(finished.error()));
+        return fail(with_files(std::move(finished.error()), scene));
     return scene;
 }
 

@@ -51,14 +51,24 @@ public:
 
     Result<void> expand(const fs::path& path) {
         auto bytes = read_(path);
-        if (!bytes)
+        if (!bytes) {
+            missing_.push_back(path);
             return fail(std::move(bytes.error()));
+        }
         if (std::find(result_.files.begin(), result_.files.end(), path) == result_.files.end())
             result_.files.push_back(path);
         return paste(path, with_plain_line_ends(*std::move(bytes)));
     }
 
     ExpandedText take() { return std::move(result_); }
+
+    /// The error with every file that it may be about.
+    Error with_files(Error error) const {
+        for (const auto* paths : {&result_.files, &missing_})
+            for (const fs::path& path : *paths)
+                error.files.push_back(path.string());
+        return error;
+    }
 
 private:
     struct Level {
@@ -119,6 +129,7 @@ private:
 
     const ReadText& read_;
     ExpandedText result_;
+    std::vector<fs::path> missing_;
     size_t followed_ = 0;
     std::vector<Level> chain_;
 };
@@ -128,7 +139,7 @@ private:
 Result<ExpandedText> expand_includes(const fs::path& path, const ReadText& read) {
     Expander expander(read);
     if (auto done = expander.expand(path.lexically_normal()); !done)
-        return fail(std::move(done.error()));
+        return fail(expander.with_files(std::move(done.error())));
     return expander.take();
 }
 
