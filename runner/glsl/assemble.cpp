@@ -1,33 +1,16 @@
 #include "glsl/assemble.hpp"
 
-#include "glsl/prologue.hpp"
-#include "glsl/rewrite.hpp"
-#include "glsl/survey.hpp"
+#include "glsl/pass_reading.hpp"
 
 namespace tidemark::glsl {
 
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass) {
-    return assemble(scene, pass, dialects_to_try(scene, pass).front());
+    const PassReading reading(scene, pass);
+    return reading.assemble(reading.dialects().front());
 }
 
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass, const Dialect& dialect) {
-    text::MappedText author = scene.common;
-    author.append(pass.text);
-    const auto tokens = text::tokenize(author.text());
-    const Preprocessed preprocessed = preprocess(tokens);
-    const Survey facts = survey(tokens, preprocessed, pass.kind);
-    const Wrapper ours = wrapper(pass, facts, dialect);
-    const Rewriting changes = rewrite(author.text(), tokens, preprocessed, facts, dialect);
-
-    ShaderSource source;
-    source.append_generated(prologue(scene, pass, facts, dialect, changes.extensions));
-    if (dialect.main == MainPlace::first)
-        source.append_generated(ours.prototype + ours.main);
-    author.apply(changes.edits);
-    source.append(author);
-    if (dialect.main != MainPlace::first)
-        source.append_generated("\n" + ours.main); // the author's last line may end in a backslash
-    return source;
+    return PassReading(scene, pass).assemble(dialect);
 }
 
 const char* const k_vertex_shader = R"(#version 330 core

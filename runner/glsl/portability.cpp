@@ -1,9 +1,305 @@
 #include "glsl/portability.hpp"
 
-namespace tidemark::glsl {
+#include "glsl/preprocess.hpp"
+#include "glsl/words.hpp"
 
-std::vector<Diagnostic> portability_lint(const scene::Scene&) {
-    return {};
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace tidemark::glsl {
+namespace {
+
+using text::Token;
+using text::TokenKind;
+
+/// Reserved by GLSL ES 3.00 (section 3.8), where a desktop driver may take them as names.
+constexpr std::string_view k_es_reserved[] = {
+    "attribute",   "varying",       "coherent",  "restrict",      "readonly",      "writeonly", "resource",
+    "atomic_uint", "noperspective", "patch",     "sample",        "subroutine",    "common",    "partition",
+    "active",      "asm",           "class",     "union",         "enum",          "typedef",   "template",
+    "this",        "goto",          "inline",    "noinline",      "volatile",      "public",    "static",
+    "extern",      "external",      "interface", "long",          "short",         "half",      "fixed",
+    "unsigned",    "superp",        "input",     "output",        "filter",        "sizeof",    "cast",
+    "namespace",   "using",         "sampler1D", "sampler2DRect", "samplerBuffer", "image2D",   "image3D",
+    "hvec2",       "hvec3",         "hvec4",     "fvec2",         "fvec3",         "fvec4"};
+
+constexpr std::string_view k_double_types[] = {"double", "dvec2", "dvec3", "dvec4",
+                                               "dmat2",  "dmat3", "dmat4"};
+
+/// Functions of desktop GLSL that GLSL ES 3.00 does not have.
+constexpr OldName k_missing_functions[] = {
+    {"textureGather", "four texelFetch"},
+    {"textureGatherOffset", "four texelFetch"},
+    {"textureQueryLod", "derivatives of the coordinate"},
+    {"textureQueryLevels", "a constant"},
+    {"noise1", "a function of your own"},
+    {"noise2", "a function of your own"},
+    {"noise3", "a function of your own"},
+    {"noise4", "a function of your own"},
+    {"fma", "a * b + c"},
+    {"bitCount", "a loop over the bits"},
+    {"bitfieldExtract", "shifts and masks"},
+    {"bitfieldInsert", "shifts and masks"},
+    {"bitfieldReverse", "shifts and masks"},
+    {"findLSB", "a loop over the bits"},
+    {"findMSB", "a loop over the bits"},
+    {"ldexp", "x * exp2(float(e))"},
+    {"frexp", "exp2 and log2"},
+    {"packUnorm4x8", "shifts and masks"},
+    {"unpackUnorm4x8", "shifts and masks"},
+    {"packSnorm4x8", "shifts and masks"},
+    {"unpackSnorm4x8", "shifts and masks"},
+    {"texture2D", "texture"},
+    {"textureCube", "texture"},
+    {"texture3D", "texture"},
+    {"texture2DLod", "textureLod"},
+    {"texture2DLodEXT", "textureLod"},
+    {"textureCubeLodEXT", "textureLod"},
+    {"texture2DGradEXT", "textureGrad"},
+    {"textureGradEXT", "textureGrad"},
+    {"dFdxFine", "dFdx"},
+    {"dFdyFine", "dFdy"},
+    {"fwidthFine", "fwidth"},
+};
+
+/// Functions that GLSL ES 3.00 has: they must not be defined again, not even for other types.
+constexpr std::string_view k_es_functions[] = {
+    "radians",      "degrees",       "sin",         "cos",
+    "tan",          "asin",          "acos",        "atan",
+    "sinh",         "cosh",          "tanh",        "asinh",
+    "acosh",        "atanh",         "pow",         "exp",
+    "log",          "exp2",          "log2",        "sqrt",
+    "inversesqrt",  "abs",           "sign",        "floor",
+    "trunc",        "round",         "roundEven",   "ceil",
+    "fract",        "mod",           "modf",        "min",
+    "max",          "clamp",         "mix",         "step",
+    "smoothstep",   "isnan",         "isinf",       "length",
+    "distance",     "dot",           "cross",       "normalize",
+    "faceforward",  "reflect",       "refract",     "matrixCompMult",
+    "outerProduct", "transpose",     "determinant", "inverse",
+    "lessThan",     "lessThanEqual", "greaterThan", "greaterThanEqual",
+    "equal",        "notEqual",      "any",         "all",
+    "not",          "texture",       "textureLod",  "textureGrad",
+    "texelFetch",   "textureSize",   "textureProj", "dFdx",
+    "dFdy",         "fwidth"};
+
+constexpr std::string_view k_image_uniforms[] = {
+    "iResolution",        "iTime",     "iTimeDelta", "iFrameRate", "iFrame",   "iMouse", "iChannelTime",
+    "iChannelResolution", "iChannel0", "iChannel1",  "iChannel2",  "iChannel3"};
+
+constexpr std::string_view k_float_types[] = {"float", "vec2", "vec3", "vec4", "mat2", "mat3", "mat4"};
+
+bool is_whole_number(const Token& token) {
+    return token.kind == TokenKind::number &&
+           token.text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// Lints one text: Common, or a pass.
+class Linter {
+public:
+    Linter(const text::MappedText& text, bool common)
+        : text_(text), tokens_(text::tokenize(text.text())), read_(preprocess(tokens_)), common_(common) {}
+
+    /// Names that `other` makes known to this text.
+    void know(const Linter& other) {
+        defined_.insert(other.defined_.begin(), other.defined_.end());
+        macros_.insert(other.macros_.begin(), other.macros_.end());
+    }
+
+    std::vector<Diagnostic> run() {
+        note_definitions();
+        for (const size_t hash : read_.directives)
+            directive(hash);
+        for (const MacroLine& macro : read_.macros)
+            for (size_t i = macro.body; i < macro.end; ++i)
+                everywhere(tokens_[i]);
+        for (at_ = 0; at_ < read_.code.size(); ++at_)
+            code();
+        std::stable_sort(found_.begin(), found_.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<Diagnostic> diagnostics;
+        for (auto& [place, diagnostic] : found_)
+            diagnostics.push_back(std::move(diagnostic));
+        return diagnostics;
+    }
+
+private:
+    const Token& peek(long offset) const {
+        static const Token k_none;
+        const long i = long(at_) + offset;
+        return i < 0 || size_t(i) >= read_.code.size() ? k_none : tokens_[read_.code[size_t(i)]];
+    }
+    bool is_word(long offset) const { return peek(offset).kind == TokenKind::identifier; }
+
+    void say(const Token& token, std::string message) {
+        found_.emplace_back(token.begin, Diagnostic{text_.lines().locate(token.line, token.column),
+                                                    Severity::warning, std::move(message)});
+    }
+
+    /// Functions, macros and constants of the text's own.
+    void note_definitions() {
+        for (const MacroLine& macro : read_.macros) {
+            defined_.insert(macro.name);
+            macros_.insert(macro.name);
+        }
+        for (at_ = 0; at_ < read_.code.size(); ++at_) {
+            if (is_word(0) && is_word(-1) && peek(1).is("(") && !peek(-1).is("return") &&
+                !peek(-1).is("else"))
+                defined_.insert(peek(0).text);
+        }
+    }
+
+    void directive(size_t hash) {
+        if (hash + 2 >= tokens_.size())
+            return;
+        const Token& keyword = tokens_[hash + 1];
+        if (keyword.is("extension"))
+            say(tokens_[hash],
+                fmt::format("#extension {}: the site has the extensions of WebGL 2 switched on and "
+                            "takes no such line; leave it out",
+                            tokens_[hash + 2].text));
+        else if (keyword.is("version"))
+            say(tokens_[hash], "#version: the site writes that line itself; leave it out");
+        else if (keyword.is("include"))
+            say(tokens_[hash], "#include: the site has no files; paste the text, or use Common");
+    }
+
+    /// What is wrong wherever it stands, in a macro as well.
+    void everywhere(const Token& token) {
+        if (token.kind == TokenKind::number)
+            number(token);
+        else if (token.kind == TokenKind::identifier)
+            word(token);
+    }
+
+    void number(const Token& token) {
+        const std::string_view digits = token.text;
+        if (digits.ends_with("lf") || digits.ends_with("LF"))
+            say(token, fmt::format("{}: GLSL ES has no double precision; write {}", digits,
+                                   digits.substr(0, digits.size() - 2)));
+    }
+
+    void word(const Token& token) {
+        if (is_one_of(token.text, k_double_types))
+            say(token, fmt::format("{}: GLSL ES has no double precision; write {}", token.text,
+                                   token.is("double") ? "float" : token.text.substr(1)));
+    }
+
+    void code() {
+        const Token& token = peek(0);
+        if (token.is("{"))
+            ++braces_;
+        else if (token.is("}"))
+            braces_ = std::max(0, braces_ - 1);
+        everywhere(token);
+        if (token.kind != TokenKind::identifier)
+            return;
+        if (!peek(-1).is(".")) {
+            reserved();
+            calls();
+        }
+        declaration();
+        if (common_ && is_one_of(token.text, k_image_uniforms) && !defined_.contains(token.text) &&
+            !is_local())
+            say(token,
+                fmt::format("{}: the site compiles Common by itself, where this is not declared; hand it "
+                            "over as a parameter, or use a macro",
+                            token.text));
+    }
+
+    /// A parameter or variable that hides the uniform.
+    bool is_local() {
+        if (is_word(-1) && !peek(-1).is("return") && !peek(-1).is("else"))
+            hidden_.insert(peek(0).text);
+        return hidden_.contains(peek(0).text);
+    }
+
+    void reserved() {
+        const Token& token = peek(0);
+        // What a macro of that name stands for is none of our business; once a name is enough.
+        if (!is_one_of(token.text, k_es_reserved) || macros_.contains(token.text) ||
+            !reported_.insert(token.text).second)
+            return;
+        say(token, fmt::format("{}: a reserved word in GLSL ES 3.00; choose another name", token.text));
+    }
+
+    void calls() {
+        const Token& token = peek(0);
+        if (!peek(1).is("("))
+            return;
+        for (const OldName& missing : k_missing_functions)
+            if (token.is(missing.name) && !defined_.contains(token.text))
+                say(token, fmt::format("{}: not in GLSL ES 3.00; write {}", token.text, missing.today));
+        if (braces_ == 0 && is_word(-1) && is_one_of(token.text, k_es_functions))
+            say(token,
+                fmt::format("{}: GLSL ES 3.00 forbids to define a built-in function again; choose another "
+                            "name",
+                            token.text));
+    }
+
+    /// `float x = 1;` and, outside functions, a value that is not constant.
+    void declaration() {
+        const std::string_view type = peek(0).text;
+        if (!is_one_of(type, k_plain_types) || !is_word(1) || !peek(2).is("="))
+            return;
+        long value = 3;
+        const bool sign = peek(value).is("-");
+        value += sign ? 1 : 0;
+        if (is_one_of(type, k_float_types) && is_whole_number(peek(value)) &&
+            (peek(value + 1).is(";") || peek(value + 1).is(",")))
+            say(peek(value), fmt::format("{} {} = {}{}: GLSL ES converts no int by itself; write {}{}", type,
+                                         peek(1).text, sign ? "-" : "", peek(value).text, sign ? "-" : "",
+                                         type == "float" ? fmt::format("{}.0", peek(value).text)
+                                                         : fmt::format("{}({})", type, peek(value).text)));
+        if (braces_ == 0 && !peek(-1).is("const") && !in_parentheses())
+            global_value();
+    }
+
+    bool in_parentheses() const { return peek(-1).is("(") || peek(-1).is(",") || peek(-1).is("in"); }
+
+    /// Speaks of uniforms only: whether a name of the author's own is constant takes a compiler.
+    void global_value() {
+        for (long i = 3; !peek(i).text.empty() && !peek(i).is(";"); ++i) {
+            const Token& part = peek(i);
+            const bool uniform =
+                is_one_of(part.text, k_image_uniforms) || part.is("iDate") || part.is("iSampleRate");
+            if (!uniform || defined_.contains(part.text))
+                continue;
+            say(part,
+                fmt::format("{}: outside functions GLSL ES takes constant values only; set {} in mainImage, "
+                            "or make it a #define",
+                            part.text, peek(1).text));
+            return;
+        }
+    }
+
+    const text::MappedText& text_;
+    std::vector<Token> tokens_;
+    Preprocessed read_;
+    bool common_;
+    size_t at_ = 0;
+    int braces_ = 0;
+    std::unordered_set<std::string_view> defined_; ///< macros and functions
+    std::unordered_set<std::string_view> macros_;
+    std::unordered_set<std::string_view> reported_;
+    std::unordered_set<std::string_view> hidden_;
+    std::vector<std::pair<size_t, Diagnostic>> found_; ///< by offset
+};
+
+} // namespace
+
+std::vector<Diagnostic> portability_lint(const scene::Scene& scene) {
+    Linter common(scene.common, true);
+    std::vector<Diagnostic> all = common.run();
+    for (const scene::Pass& pass : scene.passes) {
+        Linter linter(pass.text, false);
+        linter.know(common);
+        for (Diagnostic& diagnostic : linter.run())
+            all.push_back(std::move(diagnostic));
+    }
+    return all;
 }
 
 } // namespace tidemark::glsl

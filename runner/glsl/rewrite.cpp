@@ -100,10 +100,14 @@ private:
             lines.push_back(std::move(line));
     }
 
-    /// We define GL_ES ourselves; a driver would refuse to.
+    /// We define GL_ES ourselves; a driver would refuse to. A comma behind the last parameter is nothing to
+    /// the site's preprocessor.
     void macro_line(const MacroLine& macro) {
         if (macro.name == "GL_ES")
             remove(tokens_[macro.hash].begin, tokens_[macro.end - 1].end());
+        else if (macro.parameters && macro.body > macro.hash + 5 && tokens_[macro.body - 1].is(")") &&
+                 tokens_[macro.body - 2].is(","))
+            rename(tokens_[macro.body - 2], " ");
     }
 
     void token(size_t i) {

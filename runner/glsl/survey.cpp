@@ -3,6 +3,7 @@
 #include "glsl/words.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 namespace tidemark::glsl {
@@ -50,6 +51,8 @@ public:
     Surveyor(const std::vector<Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind)
         : tokens_(tokens), preprocessed_(preprocessed), kind_(kind), entry_(entry_point(kind)) {
         result_.names = names_of_interest();
+        for (const auto& [name, use] : result_.names)
+            shapes_[shape(name)] = true;
     }
 
     Survey run() {
@@ -71,6 +74,18 @@ private:
     }
     bool is_word(long offset) const { return peek(offset).kind == TokenKind::identifier; }
 
+    /// Most words of a text differ from all names of interest in length or first letter already.
+    static size_t shape(std::string_view name) {
+        return (name.size() % 32) * 128 + ((unsigned char)(name[0]) & 127);
+    }
+
+    NameUse* find(std::string_view name) {
+        if (!shapes_[shape(name)])
+            return nullptr;
+        const auto found = result_.names.find(name);
+        return found == result_.names.end() ? nullptr : &found->second;
+    }
+
     /// Macro bodies count, and so does what no longer does anything: a needless alias does no harm.
     void count_names() {
         bool in_layout = false;
@@ -81,26 +96,25 @@ private:
                 continue;
             }
             in_layout = in_layout || token.is("layout");
-            const auto found = result_.names.find(token.text);
-            if (found == result_.names.end())
+            NameUse* const use = find(token.text);
+            if (!use)
                 continue;
-            if (found->second.count++ == 0)
-                found->second.first = i;
+            if (use->count++ == 0)
+                use->first = i;
             const bool before_word = i + 1 < tokens_.size() && tokens_[i + 1].kind == TokenKind::identifier &&
                                      !tokens_[i + 1].first_on_line;
             const bool named_in_directive = i > 0 && tokens_[i - 1].kind == TokenKind::identifier &&
                                             (tokens_[i - 1].is("define") || tokens_[i - 1].is("ifdef"));
             if (in_layout || (before_word && !named_in_directive))
-                found->second.qualifier = true;
+                use->qualifier = true;
         }
     }
 
     void read_macro(const MacroLine& macro) {
         if (macro.undefines)
             return;
-        const auto found = result_.names.find(macro.name);
-        if (found != result_.names.end())
-            found->second.macro = true;
+        if (NameUse* const use = find(macro.name))
+            use->macro = true;
         result_.entry_is_macro = result_.entry_is_macro || macro.name == entry_;
         result_.main_is_macro = result_.main_is_macro || macro.name == "main";
         for (size_t i = macro.body; i < macro.end; ++i)
@@ -130,9 +144,8 @@ private:
     }
 
     void read_variable() {
-        const auto found = result_.names.find(peek(0).text);
-        if (found != result_.names.end())
-            found->second.variable = true;
+        if (NameUse* const use = find(peek(0).text))
+            use->variable = true;
     }
 
     /// Here is a word behind a word and before a parenthesis: in GLSL that is a function's own name.
@@ -140,9 +153,8 @@ private:
         const Token& name = peek(0);
         if (peek(-1).is("return") || peek(-1).is("else") || peek(-1).is("case"))
             return;
-        const auto found = result_.names.find(name.text);
-        if (found != result_.names.end())
-            found->second.function = true;
+        if (NameUse* const use = find(name.text))
+            use->function = true;
         if (name.is("main") && peek(-1).is("void") && !result_.main_is_macro && has_body())
             result_.mains.push_back(code()[at_]);
         if (!name.is(entry_))
@@ -155,9 +167,15 @@ private:
     /// Whether `{` follows the parameters.
     bool has_body() const {
         long i = 1;
-        while (size_t(long(at_) + i) < code().size() && !peek(i).is(")") && !peek(i).is(";"))
+        do {
             ++i;
+        } while (!ends_parameters(peek(i)));
         return peek(i).is(")") && peek(i + 1).is("{");
+    }
+
+    /// However unfinished they are: parameters hold no parentheses.
+    static bool ends_parameters(const Token& token) {
+        return token.text.empty() || token.is(")") || token.is("(") || token.is("{") || token.is(";");
     }
 
     void read_entry() {
@@ -165,8 +183,8 @@ private:
         std::string_view colour;
         bool plain = peek(-1).is(kind_ == scene::PassKind::sound ? "vec2" : "void");
         long i = 2;
-        for (; !peek(i).text.empty() && !peek(i).is(")"); ++i) {
-            if (peek(i).is(",") || peek(i).is("(") || peek(i).is("in"))
+        for (; !ends_parameters(peek(i)); ++i) {
+            if (peek(i).is(",") || peek(i).is("in"))
                 continue;
             if (types.empty() && (peek(i).is("out") || peek(i).is("inout")))
                 continue;
@@ -295,6 +313,7 @@ private:
     const Preprocessed& preprocessed_;
     scene::PassKind kind_;
     std::string_view entry_;
+    std::array<bool, 32 * 128> shapes_{};
     size_t at_ = 0;
     int depth_ = 0; ///< of braces
     int parentheses_ = 0;

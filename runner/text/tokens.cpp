@@ -20,7 +20,7 @@ public:
     explicit Lexer(std::string_view text) : text_(text) {}
 
     std::vector<Token> run() {
-        tokens_.reserve(text_.size() / 4);
+        tokens_.reserve(text_.size() / 3);
         while (skip_to_token())
             tokens_.push_back(next());
         return std::move(tokens_);

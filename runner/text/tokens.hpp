@@ -7,7 +7,7 @@
 
 namespace tidemark::text {
 
-enum class TokenKind {
+enum class TokenKind : unsigned char {
     identifier,
     number,      ///< a preprocessing number: 1, .5, 1e-3, 0x1Fu, 1.f
     string,      ///< quotes included; only directives have strings
@@ -15,11 +15,11 @@ enum class TokenKind {
 };
 
 struct Token {
-    TokenKind kind = TokenKind::punctuation;
     std::string_view text;      ///< a view into the text that was cut
     size_t begin = 0;           ///< offset of the first character
     int line = 0;               ///< counted from 1
     int column = 0;             ///< counted from 1, in bytes
+    TokenKind kind = TokenKind::punctuation;
     bool first_on_line = false; ///< as the preprocessor counts: joined lines and comments are no line ends
     bool glued = false;         ///< nothing stands between this token and the one before
 

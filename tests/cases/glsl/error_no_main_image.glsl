@@ -1,2 +1,2 @@
 // void mainImage(out vec4 fragColor, in vec2 fragCoord)
-void main() { gl_FragColor = vec4(1.0); }
+void mainImages(out vec4 c) { c = vec4(1.0); }

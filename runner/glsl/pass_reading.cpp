@@ -1,0 +1,94 @@
+#include "glsl/pass_reading.hpp"
+
+#include "glsl/prologue.hpp"
+#include "glsl/rewrite.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+std::vector<MainPlace> places_to_try(const Survey& facts, scene::PassKind kind) {
+    std::vector<MainPlace> places;
+    if (!facts.mains.empty())
+        places.push_back(MainPlace::author);
+    const auto wanted = uniforms_of_wrapper(kind);
+    if (std::any_of(wanted.begin(), wanted.end(),
+                    [&](std::string_view name) { return facts.keeps_uniform(name); }))
+        places.push_back(MainPlace::last);
+    else if (facts.entry_is_macro || (!facts.entry_is_plain && !facts.entry_in_macro))
+        places.insert(places.end(), {MainPlace::last, MainPlace::first});
+    else
+        places.insert(places.end(), {MainPlace::first, MainPlace::last});
+    return places;
+}
+
+ChannelKinds channel_kinds(const scene::Scene& scene, const scene::Pass& pass) {
+    ChannelKinds kinds{};
+    for (size_t i = 0; i < kinds.size(); ++i) {
+        kinds[i] = texture_kind(scene, pass.channels[i].input);
+        // The site's Sound header knows no volumes.
+        if (pass.kind == scene::PassKind::sound && kinds[i] == scene::TextureKind::volume)
+            kinds[i] = scene::TextureKind::flat;
+    }
+    return kinds;
+}
+
+text::MappedText whole_text(const scene::Scene& scene, const scene::Pass& pass) {
+    text::MappedText text = scene.common;
+    text.append(pass.text);
+    return text;
+}
+
+} // namespace
+
+PassReading::PassReading(const scene::Scene& scene, const scene::Pass& pass)
+    : scene_(scene), pass_(pass), text_(whole_text(scene, pass)), tokens_(text::tokenize(text_.text())),
+      preprocessed_(preprocess(tokens_)), facts_(survey(tokens_, preprocessed_, pass.kind)) {}
+
+std::vector<Dialect> PassReading::dialects() const {
+    const ChannelKinds channels = channel_kinds(scene_, pass_);
+    const std::vector<MainPlace> places = places_to_try(facts_, pass_.kind);
+    std::vector<Dialect> dialects;
+    for (const MainPlace place : places)
+        dialects.push_back({Version::core_330, place, true, channels});
+    for (const Version version : {Version::core_450, Version::es_300})
+        dialects.push_back({version, places.front(), true, channels});
+    dialects.push_back({Version::core_330, places.front(), false, channels});
+    return dialects;
+}
+
+text::MappedText PassReading::assemble(const Dialect& dialect) const {
+    const Wrapper ours = wrapper(pass_, facts_, dialect);
+    const Rewriting changes = rewrite(text_.text(), tokens_, preprocessed_, facts_, dialect);
+    text::MappedText source;
+    source.append_generated(prologue(scene_, pass_, facts_, dialect, changes.extensions));
+    if (dialect.main == MainPlace::first)
+        source.append_generated(ours.prototype + ours.main);
+    text::MappedText author = text_;
+    author.apply(changes.edits);
+    source.append(author);
+    if (dialect.main != MainPlace::first)
+        source.append_generated("\n" + ours.main); // the author's last line may end in a backslash
+    return source;
+}
+
+std::vector<Diagnostic> PassReading::entry_point_problems() const {
+    const std::string_view entry = entry_point(pass_.kind);
+    const auto place = [&](size_t token) {
+        return text_.lines().locate(tokens_[token].line, tokens_[token].column);
+    };
+    if (facts_.entries.size() > 1)
+        return {
+            {place(facts_.entries[1]), Severity::error,
+             fmt::format("{} is defined again: put each of ShaderToy's tabs into a file of its own", entry)},
+            {place(facts_.entries[0]), Severity::note, "first defined here"}};
+    if (facts_.entries.empty() && !facts_.entry_is_macro && !facts_.entry_in_macro && facts_.mains.empty())
+        return {{pass_.text.lines().locate(1), Severity::error,
+                 fmt::format("{} has no {}", pass_.name.empty() ? "the text" : pass_.name, entry)}};
+    return {};
+}
+
+} // namespace tidemark::glsl

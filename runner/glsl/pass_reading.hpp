@@ -1,0 +1,34 @@
+// A pass's text, Common in front, read once: for the dialects it may be offered in and for the text in each.
+#pragma once
+
+#include "glsl/dialect.hpp"
+#include "glsl/survey.hpp"
+#include "scene/scene.hpp"
+#include "text/mapped_text.hpp"
+
+#include <vector>
+
+namespace tidemark::glsl {
+
+/// Refers to the scene and the pass it was made of, and to itself: it stays where it is.
+class PassReading {
+public:
+    PassReading(const scene::Scene& scene, const scene::Pass& pass);
+    PassReading(const PassReading&) = delete;
+    PassReading& operator=(const PassReading&) = delete;
+
+    /// As dialects_to_try, assemble and entry_point_problems for the same pass.
+    std::vector<Dialect> dialects() const;
+    text::MappedText assemble(const Dialect& dialect) const;
+    std::vector<Diagnostic> entry_point_problems() const;
+
+private:
+    const scene::Scene& scene_;
+    const scene::Pass& pass_;
+    text::MappedText text_;
+    std::vector<text::Token> tokens_;
+    Preprocessed preprocessed_;
+    Survey facts_;
+};
+
+} // namespace tidemark::glsl

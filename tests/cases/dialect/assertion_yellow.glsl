@@ -1,0 +1,2 @@
+//: pixel 255 255 0
+void mainImage(out vec4 o, vec2 p) { o = vec4(0, 0, 0, 1); st_assert(false, 3); }

@@ -1,0 +1,3 @@
+//: pixel 0 255 0
+uniform samplerCube iChannel0;
+void mainImage(out vec4 o, vec2 p) { o = vec4(0.0 * texture(iChannel0, vec3(p, 1)).x, 1, 0, 1); }
