@@ -23,6 +23,8 @@ using AddCommand = void (*)(CLI::App& app, Action& chosen);
 void add_capture(CLI::App& app, Action& chosen);
 void add_inspect(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
+void add_import(CLI::App& app, Action& chosen);
+void add_export(CLI::App& app, Action& chosen);
 void add_bake(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);
 void add_view(CLI::App& app, Action& chosen);

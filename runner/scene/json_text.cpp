@@ -154,19 +154,19 @@ Result<Json> parse_json(std::string_view text, const std::string& file) {
     }
 }
 
-Result<Json*> find_project(Json& json, const std::string& file) {
+Result<Json*> find_passes(Json& json, const std::string& file) {
     const auto refuse = [&](std::string_view why) { return fail(error_at({file}, std::string(why))); };
     Json* found = &json;
     for (int depth = 0; depth < 4; ++depth) {
         if (is_project(*found))
-            return found;
+            return &(*found)["renderpass"];
         if (found->is_object() && found->contains("Error"))
             return refuse(fmt::format("ShaderToy answered with an error instead of a project: {}",
                                       as_text(*found, "Error")));
+        if (found->is_array() && !found->empty() && is_pass(found->front()))
+            return found;
         if (found->is_object() && found->contains("Shader"))
             found = &(*found)["Shader"];
-        else if (found->is_array() && !found->empty() && is_pass(found->front()))
-            *found = Json{{"renderpass", Json(*found)}};
         else if (found->is_array() && found->size() == 1)
             found = &found->front();
         else

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "scene/project.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -19,10 +20,13 @@ using Json = nlohmann::ordered_json;
 /// U+FFFD. `file` is for the messages.
 Result<Json> parse_json(std::string_view text, const std::string& file);
 
-/// The object with the `renderpass` list: the tree itself, `{"Shader": …}`, or a list of one of these. A list
-/// of passes alone is put into an object. Fails on `{"Error": …}`, on several shaders, and on JSON that is
-/// something else.
-Result<Json*> find_project(Json& json, const std::string& file);
+/// The list of passes: `renderpass` of the tree itself, of `{"Shader": …}` or of a list of one of these, or
+/// the tree where it is such a list. Fails on `{"Error": …}`, on several shaders, and on JSON that is
+/// something else; what it finds may still be no list.
+Result<Json*> find_passes(Json& json, const std::string& file);
+
+/// The passes of that list; read_project is this for a text.
+Result<Project> read_passes(const Json& passes, const std::string& file, CodeIn code);
 
 /// A string, or a number as its digits; empty for everything else.
 std::string as_text(const Json& object, const char* key);

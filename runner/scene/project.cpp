@@ -33,16 +33,15 @@ std::string flag(const Json& object, const char* key) {
 
 class ProjectReader {
 public:
-    ProjectReader(const Json& json, const std::string& file, CodeIn code)
-        : json_(json), file_(file), code_in_(code) {}
+    ProjectReader(const Json& passes, const std::string& file, CodeIn code)
+        : passes_(passes), file_(file), code_in_(code) {}
 
     Result<Project> read() {
-        const Json& passes = json_.at("renderpass");
-        if (!passes.is_array() || passes.empty())
+        if (!passes_.is_array() || passes_.empty())
             return refuse("renderpass is no list of passes");
-        if (passes.size() > k_most_passes)
-            return refuse(fmt::format("it has {} passes: ShaderToy has at most 8", passes.size()));
-        for (const Json& pass : passes)
+        if (passes_.size() > k_most_passes)
+            return refuse(fmt::format("it has {} passes: ShaderToy has at most 8", passes_.size()));
+        for (const Json& pass : passes_)
             if (auto read = read_pass(pass); !read)
                 return fail(std::move(read.error()));
         const std::vector<std::string> names = pass_names(project_);
@@ -143,7 +142,7 @@ private:
         pass.inputs.push_back(std::move(input));
     }
 
-    const Json& json_;
+    const Json& passes_;
     const std::string& file_;
     const CodeIn code_in_;
     Project project_;
@@ -156,14 +155,18 @@ std::string numbered(std::string_view name, int count) {
 
 } // namespace
 
+Result<Project> read_passes(const Json& passes, const std::string& file, CodeIn code) {
+    return ProjectReader(passes, file, code).read();
+}
+
 Result<Project> read_project(std::string_view text, const std::string& file, CodeIn code) {
     auto json = parse_json(text, file);
     if (!json)
         return fail(std::move(json.error()));
-    const auto project = find_project(*json, file);
-    if (!project)
-        return fail(project.error());
-    return ProjectReader(**project, file, code).read();
+    const auto passes = find_passes(*json, file);
+    if (!passes)
+        return fail(passes.error());
+    return read_passes(**passes, file, code);
 }
 
 std::vector<std::string> pass_names(const Project& project) {

@@ -1,0 +1,91 @@
+#include "base/file.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/requests.hpp"
+#include "cli/version.hpp"
+#include "scene/folder_scene.hpp"
+#include "scene/project_files.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct ExportOptions {
+    SceneRequest scene;
+    std::string output = "-";
+    bool json = false;
+};
+
+/// The folder whose scene.json is meant; empty when the scene has none.
+fs::path project_folder(const fs::path& scene) {
+    std::error_code ignored;
+    if (fs::exists(scene / scene::k_project_file, ignored))
+        return scene;
+    const fs::path folder = scene.parent_path().empty() ? fs::path(".") : scene.parent_path();
+    return scene.filename() == scene::k_project_file ? folder : fs::path();
+}
+
+Result<std::string> project_of(const ExportOptions& options) {
+    const SceneRequest& request = options.scene;
+    if (const fs::path folder = project_folder(request.path); !folder.empty()) {
+        if (!request.sets.empty())
+            return fail(ErrorCode::usage, "--set: a scene folder with a scene.json is exported as it is");
+        return scene::join_project(folder, scene::Bounds(folder, request.files.allow_outside));
+    }
+    if (request.path.extension() == ".json")
+        return fail(ErrorCode::usage, fmt::format("'{}' is ShaderToy's JSON already", request.path.string()));
+    const auto scene = load(request);
+    if (!scene)
+        return fail(scene.error());
+    std::vector<Diagnostic> warnings;
+    auto project = scene::make_project(*scene, warnings);
+    for (const Diagnostic& warning : warnings)
+        say(to_string(warning));
+    return project;
+}
+
+Result<int> export_scene(const ExportOptions& options) {
+    if (options.json && options.output == "-")
+        return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
+    const auto project = project_of(options);
+    if (!project)
+        return fail(project.error());
+    if (options.output == "-")
+        return put(*project).map([] { return 0; });
+    if (auto written = write_file(options.output, *project); !written)
+        return fail(std::move(written.error()));
+    say(fmt::format("wrote {}", options.output));
+    if (!options.json)
+        return 0;
+    const nlohmann::ordered_json report = {
+        {"tidemark", k_version}, {"scene", options.scene.path.string()}, {"file", options.output}};
+    return put(report.dump(2) + "\n").map([] { return 0; });
+}
+
+} // namespace
+
+void add_export(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<ExportOptions>();
+    CLI::App* command = app.add_subcommand("export", "Makes ShaderToy's JSON of a scene folder or file");
+    command->add_option("SCENE", options->scene.path, "A scene folder, or a file with mainImage")->required();
+    command->add_option("-o,--output", options->output, "File; -: standard output")
+        ->type_name("FILE")
+        ->capture_default_str();
+    command->add_option("--set", options->scene.sets, "Value that a knob (#iUniform) is given as a constant")
+        ->type_name("NAME=VALUE")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_flag("--allow-outside", options->scene.files.allow_outside,
+                      "The scene may read files that lie outside its folder");
+    command->add_flag("--json", options->json, "One JSON object on standard output");
+    command->callback([options, &chosen] { chosen = [options] { return export_scene(*options); }; });
+}
+
+} // namespace tidemark::cli

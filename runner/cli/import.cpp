@@ -1,0 +1,131 @@
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/version.hpp"
+#include "scene/project_files.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <span>
+#include <system_error>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// What import wrote, as `sha256sum -c` takes it: whatever else lies in the folder is somebody's work.
+constexpr const char* k_receipt = ".tidemark-import";
+
+using Receipt = std::map<std::string, std::string>; ///< SHA-256 by file
+
+struct ImportOptions {
+    fs::path file;
+    fs::path folder;
+    bool force = false;
+    bool json = false;
+};
+
+std::string hash_of(std::string_view bytes) {
+    return sha256(std::as_bytes(std::span(bytes)));
+}
+
+Receipt read_receipt(const fs::path& folder) {
+    constexpr size_t k_digits = 64;
+    Receipt receipt;
+    const auto text = read_file(folder / k_receipt);
+    if (!text)
+        return receipt;
+    std::string_view rest = *text;
+    while (!rest.empty()) {
+        const std::string_view line = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+        if (line.size() > k_digits + 2)
+            receipt[std::string(line.substr(k_digits + 2))] = std::string(line.substr(0, k_digits));
+    }
+    return receipt;
+}
+
+bool is_as_written(const fs::path& file, const Receipt& receipt) {
+    const auto written = receipt.find(file.filename().string());
+    if (written == receipt.end())
+        return false;
+    const auto bytes = read_file(file);
+    return bytes && hash_of(*bytes) == written->second;
+}
+
+/// The folder is there and may be written into.
+Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool force) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        return fail(ErrorCode::write,
+                    fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+    for (fs::directory_iterator entry(folder, error), end; !error && !force && entry != end;
+         entry.increment(error))
+        if (entry->path().filename() != k_receipt && !is_as_written(entry->path(), receipt))
+            return fail(
+                ErrorCode::write,
+                fmt::format("'{}' was not written by import, or has changed since: give another folder with "
+                            "-o, or --force to write into this one",
+                            entry->path().string()));
+    if (error)
+        return fail(ErrorCode::write,
+                    fmt::format("cannot read the folder '{}': {}", folder.string(), error.message()));
+    return {};
+}
+
+Result<int> import(const ImportOptions& options) {
+    const auto json = read_file(options.file);
+    if (!json)
+        return fail(json.error());
+    const auto files = scene::split_project(*json, options.file.string());
+    if (!files)
+        return fail(files.error());
+    const fs::path folder = options.folder.empty() ? options.file.stem() : options.folder;
+    const Receipt old = read_receipt(folder);
+    if (auto prepared = prepare_folder(folder, old, options.force); !prepared)
+        return fail(std::move(prepared.error()));
+
+    std::string receipt;
+    std::vector<std::string> names;
+    for (const scene::ProjectFile& file : *files) {
+        if (auto written = write_file(folder / file.name, file.bytes); !written)
+            return fail(std::move(written.error()));
+        receipt += fmt::format("{}  {}\n", hash_of(file.bytes), file.name);
+        names.push_back(file.name);
+    }
+    std::error_code ignored;
+    for (const auto& [name, hash] : old) // a pass that the project no longer has
+        if (std::find(names.begin(), names.end(), name) == names.end() && is_as_written(folder / name, old))
+            fs::remove(folder / name, ignored);
+    if (auto written = write_file(folder / k_receipt, receipt); !written)
+        return fail(std::move(written.error()));
+    say(fmt::format("wrote {}: {}", folder.string(), fmt::join(names, ", ")));
+    if (!options.json)
+        return 0;
+    const nlohmann::ordered_json report = {
+        {"tidemark", k_version}, {"folder", folder.string()}, {"files", names}};
+    return put(report.dump(2) + "\n").map([] { return 0; });
+}
+
+} // namespace
+
+void add_import(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<ImportOptions>();
+    CLI::App* command = app.add_subcommand("import", "Makes a scene folder of ShaderToy's JSON");
+    command->add_option("FILE", options->file, "A project as ShaderToy's API or site gives it")->required();
+    command->add_option("-o,--output", options->folder, "Folder (default: the name of the file)")
+        ->type_name("FOLDER");
+    command->add_flag("--force", options->force, "Write into a folder that holds other files too");
+    command->add_flag("--json", options->json, "One JSON object on standard output");
+    command->callback([options, &chosen] { chosen = [options] { return import(*options); }; });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,213 @@
+#include "scene/json_text.hpp"
+#include "scene/pass_names.hpp"
+#include "scene/project_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace tidemark::scene {
+namespace {
+
+constexpr int k_indent = 2;
+constexpr int k_buffers = 4;
+
+/// ShaderToy's own files for what we generate, as its API names them.
+struct NoiseFile {
+    NoiseKind kind;
+    int id;
+    const char* ctype;
+    const char* file;
+};
+constexpr NoiseFile k_noise_files[] = {
+    {NoiseKind::rgba_256, 30, "texture",
+     "f735bee5b64ef98879dc618b016ecf7939a5756040c2cde21ccb15e69a6e1cfb.png"},
+    {NoiseKind::rgba_64, 16, "texture",
+     "3083c722c0c738cad0f468383167a0d246f91af2bfa373e9c5c094fb8c8413e0.png"},
+    {NoiseKind::grey_256, 17, "texture",
+     "0c7bf5fe9462d5bffbd11126e82908e39be3ce56220d900f633d58fb432e56f5.png"},
+    {NoiseKind::grey_64, 15, "texture",
+     "0a40562379b63dfb89227e6d172f39fdce9022cba76623f1054a2c83d6c0ba5d.png"},
+    {NoiseKind::blue_1024, 14854, "texture",
+     "cb49c003b454385aa9975733aff4571c62182ccdda480aaba9a8d250014f00ec.png"},
+    {NoiseKind::bayer_8, 28, "texture",
+     "85a6d68622b36995ccb98a89bbb119edf167c914660e4450d313de049320005c.png"},
+    {NoiseKind::grey_volume_32, 39, "volume",
+     "27012b4eadd0c3ce12498b867058e4f717ce79e10a99568cca461682d84a4b04.bin"},
+    {NoiseKind::rgba_volume_32, 40, "volume",
+     "aea6b99da1d53055107966b59ac5444fc8bc7b3ce2d0bbb6a4a3cbae1d97f3aa.bin"},
+};
+
+class ProjectWriter {
+public:
+    ProjectWriter(const Scene& scene, std::vector<Diagnostic>& warnings)
+        : scene_(scene), warnings_(warnings) {}
+
+    Result<Json> write() {
+        if (auto numbered = number_buffers(); !numbered)
+            return fail(std::move(numbered.error()));
+        Json passes = Json::array();
+        for (const Pass& pass : scene_.passes)
+            if (pass.kind == PassKind::image)
+                passes.push_back(pass_of(pass, "image", "Image", 37));
+        const std::string common = constants() + scene_.common.text();
+        if (!common.empty())
+            passes.push_back({{"inputs", Json::array()},
+                              {"outputs", Json::array()},
+                              {"code", common},
+                              {"name", "Common"},
+                              {"description", ""},
+                              {"type", "common"}});
+        for (size_t i = 0; i < scene_.passes.size(); ++i) {
+            const Pass& pass = scene_.passes[i];
+            if (pass.kind == PassKind::buffer)
+                passes.push_back(pass_of(pass, "buffer", buffer_name(numbers_[i]), 257 + numbers_[i]));
+            else if (pass.kind == PassKind::cubemap)
+                passes.push_back(pass_of(pass, "cubemap", "Cube A", 41));
+            else if (pass.kind == PassKind::sound)
+                passes.push_back(pass_of(pass, "sound", "Sound", 38));
+        }
+        const Json info = {{"id", ""}, {"name", scene_.name()}, {"description", ""}, {"tags", Json::array()}};
+        return Json{{"Shader", {{"ver", "0.1"}, {"info", info}, {"renderpass", std::move(passes)}}}};
+    }
+
+private:
+    /// A buffer keeps the letter of its name; others get what is left, in the order of drawing.
+    Result<void> number_buffers() {
+        numbers_.assign(scene_.passes.size(), -1);
+        std::array<bool, k_buffers> taken{};
+        for (const bool named : {true, false})
+            for (size_t i = 0; i < numbers_.size(); ++i) {
+                const auto name = parse_pass_name(scene_.passes[i].name);
+                if (scene_.passes[i].kind != PassKind::buffer || numbers_[i] >= 0 || (named && !name))
+                    continue;
+                int number = named ? name->number : 0;
+                while (!named && number < k_buffers && taken[size_t(number)])
+                    ++number;
+                if (number == k_buffers)
+                    return fail(ErrorCode::load,
+                                fmt::format("'{}' has more than {} buffers, which is all that "
+                                            "ShaderToy has",
+                                            scene_.file.string(), k_buffers));
+                numbers_[i] = number;
+                taken[size_t(number)] = true;
+            }
+        return {};
+    }
+
+    void warn(const SourceLocation& where, std::string message) {
+        warnings_.push_back({where.file.empty() ? SourceLocation{scene_.file.string()} : where,
+                             Severity::warning, std::move(message)});
+    }
+
+    /// ShaderToy has no uniforms of one's own.
+    std::string constants() const {
+        std::string text;
+        for (const Knob& knob : scene_.knobs) {
+            std::string value = to_string(knob);
+            if (knob.type == KnobType::float1 && value.find_first_of(".e") == std::string::npos)
+                value += ".0";
+            text += fmt::format("const {} {} = {};\n", info(knob.type).glsl_name, knob.name, value);
+        }
+        return text;
+    }
+
+    Json pass_of(const Pass& pass, const char* type, const std::string& name, int output) {
+        if (pass.keyboard_helpers)
+            warn({}, fmt::format("'{}' says #iKeyboard: ShaderToy has no isKeyDown and the like", pass.name));
+        Json inputs = Json::array();
+        for (size_t i = 0; i < pass.channels.size(); ++i) {
+            const std::string channel = fmt::format("iChannel{}", i);
+            const bool mentioned = pass.text.text().find(channel) != std::string::npos ||
+                                   scene_.common.text().find(channel) != std::string::npos;
+            if (mentioned && !std::holds_alternative<Unbound>(pass.channels[i].input))
+                inputs.push_back(input_of(pass.channels[i], int(i)));
+        }
+        return {{"inputs", std::move(inputs)}, {"outputs", Json::array({{{"id", output}, {"channel", 0}}})},
+                {"code", pass.text.text()},    {"name", name},
+                {"description", ""},           {"type", type}};
+    }
+
+    Json input_of(const Channel& channel, int number) {
+        const Sampling& sampling = channel.sampling;
+        Json input = source_of(channel);
+        input["channel"] = number;
+        input["sampler"] = {{"filter", sampling.mipmaps != Mipmaps::none     ? "mipmap"
+                                       : sampling.magnify == Filter::nearest ? "nearest"
+                                                                             : "linear"},
+                            {"wrap", sampling.wrap == Wrap::clamp ? "clamp" : "repeat"},
+                            {"vflip", sampling.vflip ? "true" : "false"},
+                            {"srgb", "false"},
+                            {"internal", "byte"}};
+        input["published"] = 1;
+        return input;
+    }
+
+    Json source_of(const Channel& channel) {
+        const ChannelInput& input = channel.input;
+        if (const auto* output = std::get_if<PassOutput>(&input))
+            return output_of(output->pass);
+        if (const auto* noise = std::get_if<Noise>(&input))
+            for (const NoiseFile& file : k_noise_files)
+                if (file.kind == noise->kind)
+                    return {{"id", file.id},
+                            {"src", fmt::format("/media/a/{}", file.file)},
+                            {"ctype", file.ctype}};
+        if (std::holds_alternative<Keyboard>(input))
+            return {{"id", 33}, {"src", "/presets/tex00.jpg"}, {"ctype", "keyboard"}};
+        const auto [type, file] = own_file(input);
+        warn(channel.where, fmt::format("ShaderToy has no '{}': choose something there", file));
+        return {{"id", 0}, {"src", file}, {"ctype", type}};
+    }
+
+    Json output_of(size_t pass) const {
+        if (scene_.passes[pass].kind == PassKind::cubemap)
+            return {{"id", 41}, {"src", "/media/previz/cubemap00.png"}, {"ctype", "cubemap"}};
+        return {{"id", 257 + numbers_[pass]},
+                {"src", fmt::format("/media/previz/buffer0{}.png", numbers_[pass])},
+                {"ctype", "buffer"}};
+    }
+
+    /// Type and file of what the scene brings along.
+    std::pair<const char*, std::string> own_file(const ChannelInput& input) const {
+        const auto relative = [&](const std::filesystem::path& file) {
+            const auto& scene = scene_.file;
+            std::error_code ignored;
+            const bool folder = std::filesystem::is_directory(scene, ignored);
+            return file.lexically_proximate(folder ? scene : scene.parent_path()).string();
+        };
+        if (const auto* picture = std::get_if<Picture>(&input))
+            return {"texture", relative(picture->file)};
+        if (const auto* cubemap = std::get_if<Cubemap>(&input))
+            return {"cubemap", relative(cubemap->files.front())};
+        if (const auto* volume = std::get_if<Volume>(&input))
+            return {"volume", relative(volume->file)};
+        if (const auto* video = std::get_if<Video>(&input))
+            return {"video", relative(video->file)};
+        if (const auto* music = std::get_if<Music>(&input))
+            return {"music", relative(music->file)};
+        return {"texture", "stand-in"};
+    }
+
+    const Scene& scene_;
+    std::vector<Diagnostic>& warnings_;
+    std::vector<int> numbers_; ///< of each pass that is a buffer
+};
+
+} // namespace
+
+Result<std::string> make_project(const Scene& scene, std::vector<Diagnostic>& warnings) {
+    auto json = ProjectWriter(scene, warnings).write();
+    if (!json)
+        return fail(std::move(json.error()));
+    try {
+        return json->dump(k_indent) + "\n";
+    } catch (const Json::type_error&) { // JSON is Unicode
+        return fail(ErrorCode::load,
+                    fmt::format("'{}' has a text that is not UTF-8: save it as that, for JSON is",
+                                scene.file.string()));
+    }
+}
+
+} // namespace tidemark::scene

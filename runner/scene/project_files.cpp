@@ -1,0 +1,78 @@
+#include "scene/project_files.hpp"
+
+#include "base/file.hpp"
+#include "scene/folder_scene.hpp"
+#include "scene/json_text.hpp"
+#include "scene/pass_names.hpp"
+#include "scene/project.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::scene {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int k_indent = 2;
+
+} // namespace
+
+Result<std::vector<ProjectFile>> split_project(std::string_view text, const std::string& file) {
+    auto json = parse_json(text, file);
+    if (!json)
+        return fail(std::move(json.error()));
+    const auto passes = find_passes(*json, file);
+    if (!passes)
+        return fail(passes.error());
+    auto project = read_passes(**passes, file, CodeIn::json);
+    if (!project)
+        return fail(std::move(project.error()));
+    const std::vector<std::string> names = pass_names(*project);
+    std::vector<ProjectFile> files;
+    for (size_t i = 0; i < names.size(); ++i) {
+        ProjectPass& pass = project->passes[i];
+        if (pass.file)
+            return fail(
+                error_at({file}, fmt::format("the code of '{}' stands in the file '{}': this was imported "
+                                             "already",
+                                             names[i], *pass.file)));
+        files.push_back({file_name_of(names[i]), std::move(pass.code)});
+        (**passes)[i]["code"] = Json{{"file", files.back().name}};
+    }
+    files.push_back({k_project_file, json->dump(k_indent) + "\n"});
+    return files;
+}
+
+Result<std::string> join_project(const fs::path& folder, const Bounds& bounds) {
+    const fs::path file = folder / k_project_file;
+    const auto text = bounds.check(file).and_then([&] { return read_file(file); });
+    if (!text)
+        return fail(text.error());
+    auto json = parse_json(*text, file.string());
+    if (!json)
+        return fail(std::move(json.error()));
+    const auto passes = find_passes(*json, file.string());
+    if (!passes)
+        return fail(passes.error());
+    const auto project = read_passes(**passes, file.string(), CodeIn::files);
+    if (!project)
+        return fail(project.error());
+    for (size_t i = 0; i < project->passes.size(); ++i) {
+        if (!project->passes[i].file)
+            continue;
+        const fs::path code_file = (folder / *project->passes[i].file).lexically_normal();
+        auto code = bounds.check(code_file).and_then([&] { return read_file(code_file); });
+        if (!code)
+            return fail(std::move(code.error()));
+        Json value = *std::move(code);
+        try { // JSON is Unicode: a byte of another encoding has no place in it
+            (void)value.dump();
+        } catch (const Json::type_error&) {
+            return fail(ErrorCode::load,
+                        fmt::format("'{}' is not UTF-8: save it as that, for JSON is", code_file.string()));
+        }
+        (**passes)[i]["code"] = std::move(value);
+    }
+    return json->dump(k_indent) + "\n";
+}
+
+} // namespace tidemark::scene
