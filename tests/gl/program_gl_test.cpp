@@ -197,7 +197,7 @@ TEST_F(SetUniform, more_values_than_components_are_cut) {
 
 TEST(Target, is_cleared_and_reads_back_in_its_own_type) {
     for (const GLenum format : {GL_RGBA8, GL_RGBA32F}) {
-        const auto target = make_render_target({5, 3}, format);
+        const auto target = make_render_target(make_texture({5, 3}, format, 1));
         ASSERT_TRUE(target);
         std::vector<std::byte> pixels(5 * 3 * (format == GL_RGBA8 ? 4 : 16), std::byte{7});
         read_pixels(*target, GL_RGBA, format == GL_RGBA8 ? GL_UNSIGNED_BYTE : GL_FLOAT, pixels);
@@ -207,7 +207,7 @@ TEST(Target, is_cleared_and_reads_back_in_its_own_type) {
 }
 
 TEST(Target, format_that_cannot_be_drawn_into_is_none) {
-    EXPECT_FALSE(make_render_target({5, 3}, GL_RGB9_E5));
+    EXPECT_FALSE(make_render_target(make_texture({5, 3}, GL_RGB9_E5, 1)));
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
@@ -223,7 +223,7 @@ TEST(TextureObject, rows_are_tightly_packed) {
     const Texture texture = make_texture({3, 2}, GL_R8, 1); // rows of 3 bytes: GL's default wants 4
     const std::vector<std::byte> bytes{std::byte{1}, std::byte{2}, std::byte{3},
                                        std::byte{4}, std::byte{5}, std::byte{6}};
-    upload(texture, GL_RED, GL_UNSIGNED_BYTE, bytes);
+    upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE, bytes);
     std::vector<std::byte> back(6);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(texture.id(), 0, GL_RED, GL_UNSIGNED_BYTE, 6, back.data());

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <optional>
+
 namespace tidemark::render {
 namespace {
 
@@ -14,30 +16,97 @@ gl::Reflection with(const std::vector<std::string>& names) {
     return reflection;
 }
 
-TEST(PlanFrame, a_pass_reads_what_its_program_kept) {
+using Reflections = std::vector<std::optional<gl::Reflection>>;
+
+scene::Channel reads(size_t pass) {
+    scene::Channel channel;
+    channel.input = scene::PassOutput{pass};
+    return channel;
+}
+
+/// Passes whose channels are all unbound; the last is Image.
+scene::Scene scene_of(size_t passes) {
     scene::Scene scene;
-    scene.passes.resize(1);
-    const FramePlan plan = plan_frame(scene, {with({"iTime", "iChannel3", "iChannel0", "iChannelTime"})});
+    scene.passes.resize(passes);
+    for (scene::Pass& pass : scene.passes) {
+        pass.kind = scene::PassKind::buffer;
+        for (scene::Channel& channel : pass.channels)
+            channel.input = scene::Unbound{};
+    }
+    scene.passes.back().kind = scene::PassKind::image;
+    return scene;
+}
+
+TEST(PlanFrame, a_pass_reads_what_its_program_kept) {
+    scene::Scene scene = scene_of(1);
+    const FramePlan plan =
+        plan_frame(scene, Reflections{with({"iTime", "iChannel3", "iChannel0", "iChannelTime"})}, 0);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].pass, 0u);
     EXPECT_THAT(plan.passes[0].channels, ElementsAre(0, 3));
+    EXPECT_FALSE(plan.feedback);
 }
 
 TEST(PlanFrame, a_program_without_channels_reads_none) {
-    scene::Scene scene;
-    scene.passes.resize(1);
-    EXPECT_THAT(plan_frame(scene, {with({"iChannel4", "iChannelResolution"})}).passes[0].channels,
-                ElementsAre());
+    const FramePlan plan = plan_frame(scene_of(1), Reflections{with({"iChannel4", "iChannelResolution"})}, 0);
+    EXPECT_THAT(plan.passes[0].channels, ElementsAre());
+}
+
+TEST(PlanFrame, a_size_that_is_asked_for_needs_the_channel_that_somebody_chose) {
+    scene::Scene scene = scene_of(1);
+    scene.passes[0].channels[1].input = scene::Noise{};
+    scene.passes[0].channels[2].input = scene::Noise{};
+    scene.passes[0].channels[2].where = {"a.glsl", 1};
+    const FramePlan plan = plan_frame(scene, Reflections{with({"iChannelResolution"})}, 0);
+    EXPECT_THAT(plan.passes[0].channels, ElementsAre(2));
 }
 
 TEST(PlanFrame, passes_are_drawn_in_the_scene_s_order) {
-    scene::Scene scene;
-    scene.passes.resize(3);
-    const FramePlan plan = plan_frame(scene, {with({"iChannel0"}), with({}), with({"iChannel1"})});
+    scene::Scene scene = scene_of(3);
+    scene.passes[2].channels[1] = reads(0);
+    scene.passes[0].channels[0] = reads(1);
+    const FramePlan plan =
+        plan_frame(scene, Reflections{with({"iChannel0"}), with({}), with({"iChannel1"})}, 2);
     ASSERT_EQ(plan.passes.size(), 3u);
     for (size_t i = 0; i < 3; ++i)
         EXPECT_EQ(plan.passes[i].pass, i);
     EXPECT_THAT(plan.passes[2].channels, ElementsAre(1));
+}
+
+TEST(PlanFrame, a_pass_that_nobody_reads_is_not_drawn) {
+    scene::Scene scene = scene_of(3);
+    scene.passes[2].channels[0] = reads(0);
+    scene.passes[2].channels[1] = reads(1); // but its program does not
+    const FramePlan plan = plan_frame(scene, Reflections{with({}), with({}), with({"iChannel0"})}, 2);
+    EXPECT_NE(plan.find(0), nullptr);
+    EXPECT_EQ(plan.find(1), nullptr);
+}
+
+TEST(PlanFrame, only_a_pass_that_reads_itself_has_two_textures) {
+    scene::Scene scene = scene_of(3);
+    scene.passes[0].channels[0] = reads(0);
+    scene.passes[0].channels[1] = reads(1); // last frame's, read before it is drawn over
+    scene.passes[2].channels[0] = reads(0);
+    const FramePlan plan =
+        plan_frame(scene, Reflections{with({"iChannel0", "iChannel1"}), with({}), with({"iChannel0"})}, 2);
+    EXPECT_TRUE(plan.targets[0].two_textures);
+    EXPECT_FALSE(plan.targets[1].two_textures);
+    EXPECT_TRUE(plan.feedback);
+}
+
+TEST(PlanFrame, a_buffer_has_mipmaps_when_a_reader_filters_between_them) {
+    scene::Scene scene = scene_of(2);
+    scene.passes[1].channels[0] = reads(0);
+    scene.passes[1].channels[0].sampling.mipmaps = scene::Mipmaps::linear;
+    EXPECT_TRUE(plan_frame(scene, Reflections{with({}), with({"iChannel0"})}, 1).targets[0].mipmaps);
+    scene.passes[1].channels[0].sampling.mipmaps = scene::Mipmaps::none;
+    EXPECT_FALSE(plan_frame(scene, Reflections{with({}), with({"iChannel0"})}, 1).targets[0].mipmaps);
+}
+
+TEST(FrameRef, what_stands_before_is_this_frame_s) {
+    EXPECT_EQ(frame_ref(2, 1), FrameRef::current);
+    EXPECT_EQ(frame_ref(1, 1), FrameRef::previous);
+    EXPECT_EQ(frame_ref(1, 2), FrameRef::previous);
 }
 
 } // namespace
