@@ -20,7 +20,9 @@ class BadScene(ProgramTest):
 
     def test_directory(self):
         (self.folder / "folder.glsl").mkdir()
-        self.expect_refusal("folder.glsl", "tidemark: error: cannot read 'folder.glsl': it is a directory")
+        self.expect_refusal("folder.glsl", "tidemark: error: 'folder.glsl' has no image.glsl: a scene folder holds "
+                                           "image.glsl and, as needed, buffer_a.glsl to buffer_d.glsl, common.glsl, "
+                                           "cube_a.glsl and sound.glsl")
 
     def test_neither_file_nor_directory(self):
         os.mkfifo(self.folder / "pipe.glsl")

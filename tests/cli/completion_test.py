@@ -24,7 +24,8 @@ class Completion(ProgramTest):
 
     def test_commands(self):
         self.assertEqual(self.completed("cap"), {"capture"})
-        self.assertEqual(self.completed(""), {"view", "capture", "inspect", "bake", "completion", "--help", "-h",
+        self.assertEqual(self.completed(""), {"view", "capture", "inspect", "check", "import", "export", "bake",
+                                              "completion", "--help", "-h",
                                               "--version", "completion.bash"})
 
     def test_options_of_a_command(self):

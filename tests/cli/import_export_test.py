@@ -1,0 +1,117 @@
+"""`import` and `export`: ShaderToy's JSON as a folder of files and back; what a scene may read."""
+import json
+
+from support.program import ROOT, ProgramTest, main
+
+PROJECTS = ROOT / "tests" / "cases" / "projects"
+SHADER = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n"
+
+
+def in_order(text: bytes | str):
+    """The JSON with the order of its members."""
+    return json.loads(text, object_pairs_hook=list)
+
+
+class RoundTrip(ProgramTest):
+    def test_of_every_form(self):
+        for project in sorted(PROJECTS.glob("*.json")):
+            with self.subTest(project=project.name):
+                folder = project.stem
+                self.succeed("import", str(project), "-o", folder)
+                back = self.succeed("export", folder)
+                self.assertEqual(in_order(back.stdout), in_order(project.read_bytes()))
+                self.assertEqual(back.stderr, "")
+                self.assertEqual(self.succeed("export", f"{folder}/scene.json").stdout, back.stdout)
+
+    def test_code_byte_for_byte(self):
+        code = "\ufeff// é 🌊 \"quoted\" \\ \r\n\tvoid mainImage(out vec4 c, in vec2 p) {}\r\r\n\n// \x01\x7f no end"
+        self.write("x.json", json.dumps([{"type": "image", "code": code}]))
+        self.succeed("import", "x.json")
+        self.assertEqual((self.folder / "x/image.glsl").read_bytes(), code.encode())
+        self.assertEqual(json.loads(self.succeed("export", "x").stdout), [{"type": "image", "code": code}])
+
+    def test_an_edit_comes_back(self):
+        self.write("x.json", json.dumps([{"type": "image", "code": SHADER, "id": "1"}]))
+        self.succeed("import", "x.json")
+        self.write("x/image.glsl", SHADER + "// mine\n")
+        done = self.succeed("export", "x", "-o", "y.json", "--json")
+        self.assertEqual(done.stderr, "wrote y.json\n")
+        self.assertEqual(json.loads(done.stdout)["file"], "y.json")
+        self.assertEqual(json.loads((self.folder / "y.json").read_text()),
+                         [{"type": "image", "code": SHADER + "// mine\n", "id": "1"}])
+
+
+class Import(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.project = [{"type": "image", "code": SHADER}, {"type": "common", "code": "int c;\n"}]
+        self.write("x.json", json.dumps(self.project))
+
+    def test_names_the_folder_by_the_file(self):
+        done = self.succeed("import", "x.json", "--json")
+        self.assertEqual(done.stderr, "wrote x: image.glsl, common.glsl, scene.json\n")
+        report = json.loads(done.stdout)
+        self.assertEqual((report["folder"], report["files"]), ("x", ["image.glsl", "common.glsl", "scene.json"]))
+
+    def test_again_takes_away_what_is_gone(self):
+        self.succeed("import", "x.json")
+        self.write("x.json", json.dumps(self.project[:1]))
+        self.succeed("import", "x.json")
+        self.assertFalse((self.folder / "x/common.glsl").exists())
+
+    def test_never_over_somebodys_work(self):
+        words = ("tidemark: error: 'x/{}' was not written by import, or has changed since: give another folder with "
+                 "-o, or --force to write into this one")
+        self.write("x/notes.txt", "mine")
+        self.expect_failure(["import", "x.json"], 4, words.format("notes.txt"))
+        self.succeed("import", "x.json", "--force")
+        self.assertEqual((self.folder / "x/notes.txt").read_text(), "mine")
+        (self.folder / "x/notes.txt").unlink()
+        self.succeed("import", "x.json")
+        self.write("x/common.glsl", "int mine;\n")
+        self.expect_failure(["import", "x.json"], 4, words.format("common.glsl"))
+        self.assertEqual((self.folder / "x/common.glsl").read_text(), "int mine;\n")
+
+    def test_what_is_no_project(self):
+        self.expect_failure(["import", "none.json"], 3, "tidemark: error: cannot read 'none.json': no such file")
+        self.write("a.json", "{\n  nothing\n")
+        self.expect_failure_like(["import", "a.json"], 3, r"a\.json:2:4: error: this is no JSON: .*")
+        self.write("b.json", '{"Error": "Shader not found"}')
+        self.expect_failure(["import", "b.json"], 3, "b.json: error: ShaderToy answered with an error instead of a "
+                                                     "project: Shader not found")
+        self.expect_failure(["import"], 2, "tidemark: error: import: FILE is required")
+
+    def test_into_a_file(self):
+        self.write("y", "")
+        self.expect_failure_like(["import", "x.json", "-o", "y"], 4, "tidemark: error: cannot make the folder 'y': .*")
+
+
+class Export(ProgramTest):
+    def test_of_a_file_is_a_project(self):
+        self.write("a.glsl", "#iUniform float speed = 2.0\n" + SHADER)
+        project = json.loads(self.succeed("export", "a.glsl", "--set", "speed=3").stdout)
+        passes = project["Shader"]["renderpass"]
+        self.assertEqual([p["type"] for p in passes], ["image", "common"])
+        self.assertEqual(passes[1]["code"], "const float speed = 3.0;\n")
+        self.assertEqual(project["Shader"]["info"]["name"], "a")
+
+    def test_usage(self):
+        self.write("x.json", "[]")
+        self.expect_failure(["export", "x.json"], 2, "tidemark: error: 'x.json' is ShaderToy's JSON already")
+        self.expect_failure(["export", "a.glsl", "--json"], 2,
+                            "tidemark: error: --json and -o - both want standard output: give one of them")
+        self.expect_failure(["export", "none.glsl"], 3, "tidemark: error: cannot read 'none.glsl': no such file")
+
+
+class Outside(ProgramTest):
+    def test_needs_leave(self):
+        self.write("s/a.glsl", '#include "../b.glsl"\n' + SHADER)
+        self.write("b.glsl", "int b;\n")
+        self.expect_failure(["export", "s/a.glsl"], 3,
+                            "s/a.glsl:1: error: 'b.glsl' lies outside the scene's folder 's': move it there, into a "
+                            "folder 'textures' or 'lib' beside it, or give --allow-outside")
+        self.succeed("export", "s/a.glsl", "--allow-outside")
+
+
+if __name__ == "__main__":
+    main(needs_context=False)
