@@ -174,23 +174,22 @@ void Viewer::handle(const platform::KeyPressed& event) {
     if (event.key == Key::control)
         control_down_ = true;
     keyboard_.press(platform::js_key_code(event.key));
+    stale_ = stale_ || scene_reads_keyboard();
+    const bool ours = control_down_ || event.key == Key::escape || !scene_reads_keyboard();
     const bool repeats = event.key == Key::left || event.key == Key::right;
-    if ((!event.repeat || repeats) && !keys_are_the_scenes(event.key))
+    if (ours && (!event.repeat || repeats))
         obey(event.key, now_seconds());
-    stale_ = true;
 }
 
 void Viewer::handle(const platform::KeyReleased& event) {
     if (event.key == Key::control)
         control_down_ = false;
     keyboard_.release(platform::js_key_code(event.key));
-    stale_ = true;
+    stale_ = stale_ || scene_reads_keyboard();
 }
 
-/// A scene that reads the keyboard has the keys to itself; with Ctrl they are the viewer's again.
-bool Viewer::keys_are_the_scenes(Key key) const {
-    if (control_down_ || key == Key::escape)
-        return false;
+/// Such a scene has the keys to itself; with Ctrl they are the viewer's again.
+bool Viewer::scene_reads_keyboard() const {
     for (const render::PlannedPass& planned : renderer_.plan().passes)
         for (const int channel : planned.channels)
             if (std::holds_alternative<scene::Keyboard>(
@@ -201,17 +200,21 @@ bool Viewer::keys_are_the_scenes(Key key) const {
 
 void Viewer::obey(Key key, double now) {
     switch (key) {
-    case Key::left: return clock_.step(-1, settings_.frames.fps, now);
-    case Key::right: return clock_.step(1, settings_.frames.fps, now);
-    case Key::space: return clock_.toggle_pause(now);
-    case Key::home: renderer_.reset(); return clock_.restart(now);
-    case Key::r: camera_ = settings_.frames.camera; return;
-    case Key::s: return save_picture();
-    case Key::f: return window_.toggle_full_screen();
+    case Key::left: clock_.step(-1, settings_.frames.fps, now); break;
+    case Key::right: clock_.step(1, settings_.frames.fps, now); break;
+    case Key::space: clock_.toggle_pause(now); break;
+    case Key::home:
+        renderer_.reset();
+        clock_.restart(now);
+        break;
+    case Key::r: camera_ = settings_.frames.camera; break;
+    case Key::f: window_.toggle_full_screen(); break;
+    case Key::escape: closing_ = true; break;
+    case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
     case Key::h: return say(k_help);
-    case Key::escape: closing_ = true; return;
     default: return;
     }
+    stale_ = true;
 }
 
 void Viewer::handle(const platform::FramebufferResized& event) {

@@ -54,7 +54,7 @@ private:
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
-    bool keys_are_the_scenes(platform::Key key) const;
+    bool scene_reads_keyboard() const;
     void handle(const platform::FramebufferResized& event);
     void handle(const platform::RedrawNeeded&) { stale_ = true; }
     void handle(const platform::CloseRequested&) { closing_ = true; }

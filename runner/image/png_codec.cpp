@@ -30,6 +30,16 @@ bool guarded(png_structp png, const Work& work) {
     return true;
 }
 
+/// libpng does not change what it is given. The two must outlive the chunk.
+png_text text_chunk(const char* name, const char* value) {
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = const_cast<png_charp>(name);
+    text.text = const_cast<png_charp>(value);
+    text.text_length = std::strlen(value);
+    return text;
+}
+
 class Writer {
 public:
     Writer() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &error_, keep_error, drop_warning)) {
@@ -43,15 +53,9 @@ public:
     EncodeResult encode(const EncodeJob& job) {
         if (!info_)
             return tl::unexpected<std::string>("out of memory");
-        std::vector<png_text> texts;
-        for (const auto& [name, value] : job.attributes) {
-            png_text text{};
-            text.compression = PNG_TEXT_COMPRESSION_NONE;
-            text.key = const_cast<png_charp>(name.c_str());
-            text.text = const_cast<png_charp>(value.c_str());
-            text.text_length = value.size();
-            texts.push_back(text);
-        }
+        std::vector<png_text> texts{text_chunk("Software", "Tidemark")};
+        for (const auto& [name, value] : job.attributes)
+            texts.push_back(text_chunk(name.c_str(), value.c_str()));
         if (!guarded(png_, [&] { write(job, texts); }))
             return tl::unexpected(error_);
         return std::move(bytes_);

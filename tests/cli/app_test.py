@@ -46,7 +46,8 @@ class Unknown(ProgramTest):
         self.expect_failure(["vew"], 2, "tidemark: error: unknown command 'vew': did you mean 'view'?")
 
     def test_command_near_none_is_taken_for_a_scene(self):
-        self.expect_failure(["frobnicate"], 3, "tidemark: error: cannot read 'frobnicate': no such file")
+        self.expect_failure(["frobnicate"], 2, "tidemark: error: 'frobnicate' is neither a command nor a scene; "
+                                               "`tidemark --help` lists the commands")
 
     def test_scene_whose_name_is_like_a_command(self):
         self.write("vew", "float x;\n")
