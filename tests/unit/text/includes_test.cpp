@@ -117,6 +117,13 @@ TEST(Includes, a_missing_file_is_named_with_the_way_to_it) {
               "main.glsl:2: note: included from here");
 }
 
+TEST(Includes, a_failure_lists_every_file_that_it_may_be_about) {
+    const auto expanded =
+        expand({{"main.glsl", "#include \"b.glsl\"\n"}, {"b.glsl", "#include \"lib/no.glsl\""}});
+    ASSERT_FALSE(expanded);
+    EXPECT_THAT(expanded.error().files, ElementsAre("main.glsl", "b.glsl", "lib/no.glsl"));
+}
+
 TEST(Includes, a_missing_first_file_has_no_place) {
     EXPECT_EQ(listed(expand({})), "tidemark: error: cannot read 'main.glsl': no such file");
 }
