@@ -129,6 +129,11 @@ Result<void> Renderer::make_targets() {
 Result<void> Renderer::bind_channels() {
     for (const PlannedPass& planned : plan_.passes) {
         CompiledPass& compiled = passes_[planned.pass];
+        if (compiled.program->reflection().has("iKeyboard"))
+            return fail(ErrorCode::load,
+                        fmt::format("'{}': #iKeyboard is not supported; read the keyboard as `#iChannel0 "
+                                    "\"keyboard\"`",
+                                    scene_.file.string()));
         for (const int number : planned.channels) {
             const scene::Channel& channel = scene_.passes[planned.pass].channels[size_t(number)];
             BoundChannel bound{number, make_sampler(channel.sampling), {}};
