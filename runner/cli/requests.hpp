@@ -20,12 +20,12 @@ namespace tidemark::cli {
 
 /// A scene and what the options change in it. The texts are checked when the scene is loaded.
 struct SceneRequest {
-    std::filesystem::path path;
-    std::vector<std::string> sets;     ///< --set NAME=VALUE
-    std::vector<std::string> defines;  ///< --define NAME=VALUE
-    std::vector<std::string> channels; ///< --channel N=WHAT
-    scene::LoadOptions files;          ///< --media, --allow-outside
-    std::vector<Diagnostic> said;      ///< warnings that were printed before, by a load of the same scene
+    std::filesystem::path path{};
+    std::vector<std::string> sets{};     ///< --set NAME=VALUE
+    std::vector<std::string> defines{};  ///< --define NAME=VALUE
+    std::vector<std::string> channels{}; ///< --channel N=WHAT
+    scene::LoadOptions files{};          ///< --media, --allow-outside
+    std::vector<Diagnostic> said{};      ///< warnings that were printed before, by a load of the same scene
 };
 
 /// Prints the scene's warnings.
