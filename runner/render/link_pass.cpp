@@ -2,6 +2,7 @@
 
 #include "glsl/assemble.hpp"
 #include "glsl/driver_log.hpp"
+#include "glsl/pass_reading.hpp"
 
 #include <fmt/format.h>
 
@@ -18,12 +19,13 @@ struct Refusal {
 
 class Linker {
 public:
-    Linker(const scene::Scene& scene, const scene::Pass& pass) : scene_(scene), pass_(pass) {}
+    Linker(const scene::Scene& scene, const scene::Pass& pass)
+        : scene_(scene), pass_(pass), reading_(scene, pass) {}
 
     /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
     /// dialect fails, the driver's words tell which kinds are worth trying.
     std::optional<LinkedPass> link() {
-        const std::vector<glsl::Dialect> dialects = glsl::dialects_to_try(scene_, pass_);
+        const std::vector<glsl::Dialect> dialects = reading_.dialects();
         if (auto linked = first_that_links(dialects))
             return linked;
         for (const glsl::ChannelKinds& kinds :
@@ -39,7 +41,7 @@ public:
     /// The likeliest dialect's messages are the ones that mean something to the author.
     Error error() const {
         Error error{ErrorCode::load, fmt::format("'{}' does not compile", scene_.file.string()), {}};
-        error.diagnostics = glsl::entry_point_problems(scene_, pass_);
+        error.diagnostics = reading_.entry_point_problems();
         if (error.diagnostics.empty())
             error.diagnostics = glsl::parse_driver_log(first_->log, first_->source.lines());
         for (Diagnostic& diagnostic : error.diagnostics)
@@ -51,7 +53,7 @@ public:
 private:
     std::optional<LinkedPass> first_that_links(const std::vector<glsl::Dialect>& dialects) {
         for (const glsl::Dialect& dialect : dialects) {
-            glsl::ShaderSource source = glsl::assemble(scene_, pass_, dialect);
+            glsl::ShaderSource source = reading_.assemble(dialect);
             auto program = gl::Program::link(glsl::vertex_shader(dialect.version), source.text());
             if (program)
                 return LinkedPass{*std::move(program), dialect};
@@ -63,6 +65,7 @@ private:
 
     const scene::Scene& scene_;
     const scene::Pass& pass_;
+    glsl::PassReading reading_; ///< once for all attempts
     std::optional<Refusal> first_;
 };
 
