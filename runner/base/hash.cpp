@@ -1,8 +1,7 @@
 #include "base/hash.hpp"
 
-#include <sys/types.h> // libmd's header uses its types without including it
-
 #include <sha2.h>
+#include <sys/types.h> // libmd's header uses its types without including it
 
 namespace tidemark {
 

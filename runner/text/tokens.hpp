@@ -15,10 +15,10 @@ enum class TokenKind : unsigned char {
 };
 
 struct Token {
-    std::string_view text;      ///< a view into the text that was cut
-    size_t begin = 0;           ///< offset of the first character
-    int line = 0;               ///< counted from 1
-    int column = 0;             ///< counted from 1, in bytes
+    std::string_view text; ///< a view into the text that was cut
+    size_t begin = 0;      ///< offset of the first character
+    int line = 0;          ///< counted from 1
+    int column = 0;        ///< counted from 1, in bytes
     TokenKind kind = TokenKind::punctuation;
     bool first_on_line = false; ///< as the preprocessor counts: joined lines and comments are no line ends
     bool glued = false;         ///< nothing stands between this token and the one before
