@@ -53,7 +53,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         FrameRecord record;
         if (draw(frame, interrupt, record, image) == Outcome::interrupted)
             return writer_ ? writer_->finish().map([] { return false; }) : Result<bool>(false);
-        const auto wanted = deliver(record, std::move(image));
+        auto wanted = deliver(record, std::move(image));
         if (!wanted)
             return wanted;
         if (!*wanted)

@@ -76,7 +76,7 @@ void set_vector(GLuint program, const Uniform& uniform, int components, GLsizei 
 void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> given,
                  size_t width) {
     const Shape shape = shape_of(uniform.type);
-    const size_t per_element = size_t(shape.components * shape.columns);
+    const size_t per_element = size_t(shape.components) * size_t(shape.columns);
     if (width == 0)
         width = per_element;
     const size_t room = k_most_numbers / per_element;

@@ -93,9 +93,7 @@ private:
             if (name.kind != TokenKind::identifier || parameters_->contains(name.text))
                 return give_up(known);
             ++at_;
-            if (peek(0).is("["))
-                skip_to_end_of_declarator();
-            else if (peek(0).is("="))
+            if (peek(0).is("[") || peek(0).is("="))
                 skip_to_end_of_declarator();
             else
                 edits_.push_back({name.end(), name.end(), fmt::format("={}(0)", type)});

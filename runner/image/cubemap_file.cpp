@@ -122,7 +122,7 @@ Image cut(const Image& picture, const Cell& cell, int side) {
         for (int x = 0; x < side; ++x) {
             const int from_left = cell.column * side + (cell.turned ? side - 1 - x : x);
             const int from_top = cell.row * side + (cell.turned ? side - 1 - y : y);
-            const size_t row = size_t(picture.extent.height - 1 - from_top);
+            const auto row = size_t(picture.extent.height - 1 - from_top);
             std::memcpy(&face.bytes[(size_t(y) * size_t(side) + size_t(x)) * pixel],
                         &picture.bytes[row * picture.row_bytes() + size_t(from_left) * pixel], pixel);
         }

@@ -85,7 +85,8 @@ std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, c
     std::string lines;
     for (const auto& [name, value] : wanted.metadata) {
         assert(is_metadata_name(name));
-        const std::string text(value.c_str());
+        const std::string text(
+            value.c_str()); // NOLINT(readability-redundant-string-cstr): ends at a zero byte
         all.emplace_back("tidemark:" + name, text);
         lines += fmt::format("{}={}\n", all.back().first, text);
     }

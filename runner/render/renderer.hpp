@@ -25,7 +25,7 @@ struct RenderOptions {
     /// u8 draws Image into RGBA8, so that a picture holds what GL itself shows; f32 into RGBA32F. Buffers are
     /// always RGBA32F, cubemap passes RGBA16F.
     image::SampleType samples = image::SampleType::u8;
-    std::string pass; ///< the pass to show; empty: Image
+    std::string pass{}; ///< the pass to show; empty: Image
 };
 
 class Renderer {

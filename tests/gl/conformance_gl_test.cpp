@@ -111,8 +111,9 @@ TEST_P(Conformance, pixels_are_those_of_the_convention) {
     Keyboard keyboard;
     for (const Json& frame : expected.at("frames")) {
         SCOPED_TRACE(frame.dump());
-        if (frame.contains("resize"))
+        if (frame.contains("resize")) {
             ASSERT_TRUE(renderer->resize({frame.at("resize").at(0), frame.at("resize").at(1)}));
+        }
         if (frame.value("reset", false))
             renderer->reset();
         renderer->draw(inputs_of(frame, mouse, keyboard));

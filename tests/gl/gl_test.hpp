@@ -6,11 +6,11 @@
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -60,11 +60,6 @@ inline Floats4 floats_at(const image::Image& image, int x, int y) {
 /// A test with a folder of its own that leaves no GL error behind.
 class RenderTest : public testing::Test {
 protected:
-    RenderTest() {
-        std::string name = (fs::temp_directory_path() / "tidemark-render-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~RenderTest() override { fs::remove_all(folder_); }
     void TearDown() override { EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR)); }
 
     fs::path put(const std::string& name, const std::string& text) const {
@@ -122,7 +117,7 @@ protected:
     }
 
 private:
-    fs::path folder_;
+    TemporaryFolder folder_;
 };
 
 } // namespace tidemark::render

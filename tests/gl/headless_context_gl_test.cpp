@@ -1,7 +1,6 @@
 // Makes its own contexts, so nothing here may share a process with a test that holds one.
 #include "platform/headless_context.hpp"
 
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <fmt/format.h>

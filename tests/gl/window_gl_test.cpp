@@ -2,7 +2,6 @@
 #ifdef TIDEMARK_WINDOW
 #include "platform/window.hpp"
 
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <fmt/format.h>

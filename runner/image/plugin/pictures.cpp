@@ -158,7 +158,7 @@ std::string objection(const OIIO::ImageSpec& spec) {
 }
 
 /// Fills `pixels`, rows of which run from the bottom.
-bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int channels, OIIO::TypeDesc type,
+bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int channels, const OIIO::TypeDesc& type,
                void* pixels) {
     const auto row = OIIO::stride_t(size_t(spec.width) * size_t(channels) * type.size());
     void* top = static_cast<std::byte*>(pixels) + row * (spec.height - 1);

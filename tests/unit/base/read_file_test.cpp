@@ -1,6 +1,6 @@
 // What read_file says of paths that are no readable file.
 #include "base/file.hpp"
-#include "unit/platform/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 // A file is written whole or not at all.
 #include "base/file.hpp"
-#include "unit/platform/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 #include "cli/frame_writer.hpp"
-#include "unit/platform/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

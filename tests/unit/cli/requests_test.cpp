@@ -1,6 +1,6 @@
 // What is typed for sizes, frames and the mouse, and what a frame of a request sees.
 #include "cli/requests.hpp"
-#include "unit/platform/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

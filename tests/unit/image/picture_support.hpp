@@ -3,9 +3,9 @@
 #pragma once
 
 #include "image/image.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -19,16 +19,10 @@ namespace fs = std::filesystem;
 /// A fresh folder that goes with the test.
 class PictureTest : public testing::Test {
 protected:
-    PictureTest() {
-        std::string name = (fs::temp_directory_path() / "tidemark-image-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~PictureTest() override { fs::remove_all(folder_); }
-
     fs::path in_folder(const std::string& name) const { return folder_ / name; }
-    fs::path folder() const { return folder_; }
+    fs::path folder() const { return folder_.path(); }
     size_t files() const {
-        return size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+        return size_t(std::distance(fs::directory_iterator(folder()), fs::directory_iterator()));
     }
     fs::path put(const std::string& name, const std::string& bytes) const {
         fs::remove(in_folder(name)); // a file that is written over is flushed to the disk, which takes long
@@ -37,13 +31,8 @@ protected:
     }
 
 private:
-    fs::path folder_;
+    TemporaryFolder folder_;
 };
-
-inline std::string bytes_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 /// Every sample different from its neighbours and from the same place in any other row or channel.
 inline Image patterned_u8(Extent extent, int channels) {

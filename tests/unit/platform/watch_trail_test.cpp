@@ -1,5 +1,5 @@
 #include "platform/watch_trail.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

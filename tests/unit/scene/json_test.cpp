@@ -1,6 +1,6 @@
 // ShaderToy's JSON in all its forms becomes a Scene.
 #include "scene/scene.hpp"
-#include "unit/platform/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
-#include "unit/platform/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Scenes from files, and what the command line changes in them.
 #include "scene/scene.hpp"
-#include "unit/platform/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "sound/sound_file.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sndfile.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 /// A fresh folder that goes with the test.
 class SoundTest : public testing::Test {
 protected:
-    SoundTest() {
-        std::string name = (fs::temp_directory_path() / "tidemark-sound-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~SoundTest() override { fs::remove_all(folder_); }
-
     fs::path in_folder(const std::string& name) const { return folder_ / name; }
     fs::path put(const std::string& name, const std::string& bytes) const {
         std::ofstream(in_folder(name), std::ios::binary | std::ios::trunc) << bytes;
@@ -34,13 +28,8 @@ protected:
     }
 
 private:
-    fs::path folder_;
+    TemporaryFolder folder_;
 };
-
-inline std::string bytes_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 inline SoundData sine(double hertz, double amplitude, double seconds, int rate = 44100, int channels = 1) {
     SoundData sound{rate, channels, {}};

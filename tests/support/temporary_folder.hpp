@@ -1,10 +1,12 @@
-// A fresh folder for one test, its real path, removed with what is in it; and ways to save a file there.
+// A fresh folder for one test, its real path, removed with what is in it; and ways to save a file there and
+// to look at one.
 #pragma once
 
 #include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -38,6 +40,11 @@ inline void save_and_rename(const std::filesystem::path& file, std::string_view 
     const std::filesystem::path fresh = file.string() + ".new";
     save_in_place(fresh, text);
     std::filesystem::rename(fresh, file);
+}
+
+inline std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 } // namespace tidemark
