@@ -17,7 +17,7 @@ ALLOWED = {
     "platform": ["base"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
     "lab": ["base", "text", "scene", "glsl", "gl", "image", "render"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render", "lab"],
     "main.cpp": ["cli"],
 }
 

@@ -98,7 +98,39 @@ Error no_such_definition(std::string_view name, std::vector<std::string> names) 
     return {ErrorCode::usage, fmt::format("the scene has no #define or const '{}': {}", name, hint), {}};
 }
 
+constexpr int k_longest_chain = 32; ///< of names that stand for names, which may go round
+
+std::optional<std::string> value_of(const scene::Scene& scene, std::string_view name) {
+    for (const scene::Pass& pass : scene.passes) {
+        const std::string& text = pass.text.text();
+        for (const Definition& definition : find_definitions(text::tokenize(text)))
+            if (definition.name == name)
+                return text.substr(definition.begin, definition.end - definition.begin);
+    }
+    return std::nullopt;
+}
+
 } // namespace
+
+std::vector<std::string> definition_names(const scene::Scene& scene) {
+    std::vector<std::string> names;
+    for (const scene::Pass& pass : scene.passes)
+        for (const Definition& definition : find_definitions(text::tokenize(pass.text.text())))
+            if (std::find(names.begin(), names.end(), definition.name) == names.end())
+                names.emplace_back(definition.name);
+    return names;
+}
+
+std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name) {
+    auto value = value_of(scene, name);
+    for (int i = 0; value && i < k_longest_chain; ++i) {
+        auto meant = value_of(scene, *value);
+        if (!meant)
+            break;
+        value = std::move(meant);
+    }
+    return value;
+}
 
 Result<void> override_definition(scene::Scene& scene, std::string_view setting) {
     const auto split = scene::split_setting(setting, "--define");
