@@ -16,7 +16,8 @@ ALLOWED = {
     "sound": ["base"],
     "platform": ["base"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render"],
+    "lab": ["base", "text", "scene", "glsl", "gl", "image", "render"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render", "lab"],
     "main.cpp": ["cli"],
 }
 

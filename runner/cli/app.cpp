@@ -19,7 +19,8 @@ constexpr AddCommand k_commands[] = {
 #ifdef TIDEMARK_WINDOW
     add_view,
 #endif
-    add_capture, add_inspect, add_check, add_import, add_export, add_bake, add_completion,
+    add_capture, add_inspect, add_check, add_compare,    add_study,
+    add_import,  add_export,  add_bake,  add_completion,
 };
 
 constexpr const char* k_footer =

@@ -15,9 +15,9 @@ constexpr int k_most_digits = 20;
 
 } // namespace
 
-Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_count) {
+Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_count, std::string_view option) {
     const auto refuse = [&](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("-o {}: {}", pattern, why));
+        return fail(ErrorCode::usage, fmt::format("{}{}: {}", option, pattern, why));
     };
     OutputName name;
     name.pattern_ = pattern;

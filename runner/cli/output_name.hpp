@@ -13,8 +13,9 @@ class OutputName {
 public:
     /// `pattern` holds at most one frame number: `%d`, `%04d`, or a run of `#` (one digit each); `%%` is a
     /// percent sign. Fails (ErrorCode::usage) on a form we do not write, and on several frames under one
-    /// name.
-    static Result<OutputName> parse(std::string_view pattern, size_t frame_count);
+    /// name. `option` stands before the pattern in the error.
+    static Result<OutputName> parse(std::string_view pattern, size_t frame_count,
+                                    std::string_view option = "-o ");
 
     std::filesystem::path of_frame(int frame) const;
     /// `-`: raw frames on standard output.

@@ -1,5 +1,6 @@
 #include "glsl/overrides.hpp"
 
+#include "glsl/preprocess.hpp"
 #include "text/tokens.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ using text::TokenKind;
 
 /// A name that the text gives a value, and where that value stands.
 struct Definition {
+    size_t token; ///< of the name
     std::string_view name;
     size_t begin;
     size_t end;
@@ -31,8 +33,8 @@ std::optional<Definition> read_macro(const std::vector<Token>& tokens, size_t ha
     if (has_value && tokens[hash + 3].is("(") && tokens[hash + 3].glued)
         return std::nullopt;
     if (!has_value)
-        return Definition{name.text, name.end(), name.end(), true};
-    return Definition{name.text, tokens[hash + 3].begin, tokens[end - 1].end(), false};
+        return Definition{hash + 2, name.text, name.end(), name.end(), true};
+    return Definition{hash + 2, name.text, tokens[hash + 3].begin, tokens[end - 1].end(), false};
 }
 
 bool opens(const Token& token) {
@@ -68,7 +70,7 @@ size_t read_constants(const std::vector<Token>& tokens, size_t keyword, std::vec
                 break;
         }
         if (name.kind == TokenKind::identifier && end > i + 1)
-            found.push_back({name.text, tokens[i + 1].begin, tokens[end - 1].end(), false});
+            found.push_back({i - 1, name.text, tokens[i + 1].begin, tokens[end - 1].end(), false});
         i = end;
     }
     return i;
@@ -98,7 +100,41 @@ Error no_such_definition(std::string_view name, std::vector<std::string> names) 
     return {ErrorCode::usage, fmt::format("the scene has no #define or const '{}': {}", name, hint), {}};
 }
 
+constexpr int k_longest_chain = 32; ///< of names that stand for names, which may go round
+
+std::optional<std::string> value_of(const scene::Scene& scene, std::string_view name) {
+    for (const scene::Pass& pass : scene.passes) {
+        const std::string& text = pass.text.text();
+        const auto tokens = text::tokenize(text);
+        const Preprocessed preprocessed = preprocess(tokens);
+        for (const Definition& definition : find_definitions(tokens))
+            if (definition.name == name && preprocessed.activity[definition.token] != Activity::inactive)
+                return text.substr(definition.begin, definition.end - definition.begin);
+    }
+    return std::nullopt;
+}
+
 } // namespace
+
+std::vector<std::string> definition_names(const scene::Scene& scene) {
+    std::vector<std::string> names;
+    for (const scene::Pass& pass : scene.passes)
+        for (const Definition& definition : find_definitions(text::tokenize(pass.text.text())))
+            if (std::find(names.begin(), names.end(), definition.name) == names.end())
+                names.emplace_back(definition.name);
+    return names;
+}
+
+std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name) {
+    auto value = value_of(scene, name);
+    for (int i = 0; value && i < k_longest_chain; ++i) {
+        auto meant = value_of(scene, *value);
+        if (!meant)
+            break;
+        value = std::move(meant);
+    }
+    return value;
+}
 
 Result<void> override_definition(scene::Scene& scene, std::string_view setting) {
     const auto split = scene::split_setting(setting, "--define");

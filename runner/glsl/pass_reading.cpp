@@ -1,5 +1,6 @@
 #include "glsl/pass_reading.hpp"
 
+#include "glsl/hit.hpp"
 #include "glsl/prologue.hpp"
 #include "glsl/rewrite.hpp"
 
@@ -37,7 +38,10 @@ ChannelKinds channel_kinds(const scene::Scene& scene, const scene::Pass& pass) {
 }
 
 text::MappedText whole_text(const scene::Scene& scene, const scene::Pass& pass) {
-    text::MappedText text = scene.common;
+    text::MappedText text;
+    if (pass.kind == scene::PassKind::hit)
+        text.append_generated(fmt::format("#define {} 1\n", k_hit_macro));
+    text.append(scene.common);
     text.append(pass.text);
     return text;
 }

@@ -53,11 +53,11 @@ constexpr const char* k_image_main = R"(void main() {{
 {}}}
 )";
 
-constexpr std::string_view k_buffer_main = R"(void main() {
+constexpr const char* k_buffer_main = R"(void main() {{
     tidemark_color = vec4(0.0, 0.0, 0.0, 1.0);
     vec2 tidemark_at = gl_FragCoord.xy;
-    mainImage(tidemark_color, tidemark_at);
-}
+    {}(tidemark_color, tidemark_at);
+}}
 )";
 
 constexpr std::string_view k_cubemap_main = R"(uniform vec3 tidemark_corners[4];
@@ -157,7 +157,8 @@ std::string prologue(const scene::Scene& scene, const scene::Pass& pass, const S
         text += fmt::format("layout(location = 0) out vec4 {};\n", k_output);
     if (pass.keyboard_helpers)
         text += keyboard_helpers();
-    if (pass.kind == scene::PassKind::image && survey.wants("st_assert"))
+    const bool picture = pass.kind == scene::PassKind::image || pass.kind == scene::PassKind::hit;
+    if (picture && survey.wants("st_assert"))
         text += k_assertions;
     return text;
 }
@@ -187,9 +188,9 @@ Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& di
                             out),
                 std::string(k_cubemap_main)};
     default:
-        return {fmt::format("void mainImage({} vec4 fragColor, in vec2 fragCoord);\n", out),
+        return {fmt::format("void {}({} vec4 fragColor, in vec2 fragCoord);\n", entry_point(pass.kind), out),
                 image ? fmt::format(k_image_main, survey.wants("st_assert") ? k_paint_assertions : "")
-                      : std::string(k_buffer_main)};
+                      : fmt::format(k_buffer_main, entry_point(pass.kind))};
     }
 }
 

@@ -353,6 +353,7 @@ std::string_view entry_point(scene::PassKind kind) {
     switch (kind) {
     case scene::PassKind::sound: return "mainSound";
     case scene::PassKind::cubemap: return "mainCubemap";
+    case scene::PassKind::hit: return "mainHit";
     default: return "mainImage";
     }
 }

@@ -24,7 +24,8 @@ std::string_view entry_of(PassKind kind) {
         return "void mainCubemap(out vec4 fragColor, in vec2 fragCoord, in vec3 rayOri, in vec3 rayDir)";
     case PassKind::sound: return "vec2 mainSound(int samp, float time)";
     case PassKind::buffer:
-    case PassKind::image: break;
+    case PassKind::image:
+    case PassKind::hit: break;
     }
     return "void mainImage(out vec4 fragColor, in vec2 fragCoord)";
 }

@@ -52,7 +52,8 @@ const Pass* Scene::find(PassKind kind) const {
 }
 
 size_t Scene::image_index() const {
-    return size_t(find(PassKind::image) - passes.data());
+    const Pass* const image = find(PassKind::image);
+    return size_t((image ? image : find(PassKind::hit)) - passes.data());
 }
 
 TextureKind texture_kind(const Scene& scene, const ChannelInput& input) {

@@ -13,7 +13,13 @@
 
 namespace tidemark::scene {
 
-enum class PassKind { buffer, cubemap, image, sound };
+enum class PassKind {
+    buffer,
+    cubemap,
+    image,
+    sound,
+    hit, ///< Image, asked for what it hit instead of a colour: glsl/hit.hpp
+};
 
 /// One unit of drawing (ShaderToy's render pass).
 struct Pass {
@@ -34,7 +40,7 @@ struct Scene {
 
     std::string name() const;
     const Pass* find(PassKind kind) const; ///< the last pass of that kind
-    size_t image_index() const;            ///< of the Image pass; every scene has one
+    size_t image_index() const;            ///< of the Image pass (or what became of it); every scene has one
     const Pass& image() const { return passes[image_index()]; }
 };
 

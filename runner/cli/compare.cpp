@@ -1,0 +1,245 @@
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/output_name.hpp"
+#include "cli/sequence.hpp"
+#include "cli/version.hpp"
+#include "image/difference.hpp"
+#include "image/flip.hpp"
+#include "image/metrics.hpp"
+#include "image/picture_file.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+using image::PictureMetrics;
+using Json = nlohmann::ordered_json;
+
+/// One number of a comparison: how it is called, and the option that limits it.
+struct Metric {
+    const char* key;   ///< in JSON
+    const char* label; ///< for people
+    const char* unit;
+    const char* option;
+    bool more_is_better;
+    double (*of)(const PictureMetrics&);
+};
+
+constexpr Metric k_metrics[] = {
+    {"rmse", "RMSE", "", "--max-rmse", false, [](const PictureMetrics& m) { return m.samples.rmse; }},
+    {"psnr", "PSNR", " dB", "--min-psnr", true, [](const PictureMetrics& m) { return m.samples.psnr; }},
+    {"relative_mse", "relative MSE", "", "--max-relative-mse", false,
+     [](const PictureMetrics& m) { return m.samples.relative_mse; }},
+    {"largest", "largest difference", "", "--max-difference", false,
+     [](const PictureMetrics& m) { return m.samples.largest; }},
+    {"ssim", "SSIM", "", "--min-ssim", true, [](const PictureMetrics& m) { return m.ssim; }},
+    {"flip", "FLIP", "", "--max-flip", false, [](const PictureMetrics& m) { return m.flip; }},
+    {"differing", "differing pixels", " %", "--max-differing", false,
+     [](const PictureMetrics& m) { return 100.0 * m.samples.differing_share(); }},
+};
+constexpr size_t k_metric_count = std::size(k_metrics);
+
+struct CompareOptions {
+    std::string reference;
+    std::string test;
+    std::string output;
+    std::string map = "difference";
+    std::optional<double> gain;
+    double tolerance = 0.0;
+    std::array<std::optional<double>, k_metric_count> limits{};
+    bool json = false;
+};
+
+/// A pair of pictures of the same frame.
+struct Pair {
+    std::optional<int> frame;
+    std::filesystem::path reference;
+    std::filesystem::path test;
+
+    std::string label() const { return frame ? fmt::format("frame {}: ", *frame) : ""; }
+};
+
+/// Every frame of either sequence must be in the other. Two single files are a pair whatever their names.
+Result<std::vector<Pair>> pairs_of(const CompareOptions& options) {
+    const auto reference = find_sequence(options.reference), test = find_sequence(options.test);
+    for (const auto* side : {&reference, &test})
+        if (!*side)
+            return fail(side->error());
+    const bool numbered = reference->begin()->first.has_value();
+    if (numbered != test->begin()->first.has_value())
+        return fail(ErrorCode::usage,
+                    fmt::format("'{}' is a sequence and '{}' is one picture: compare like with like",
+                                numbered ? options.reference : options.test,
+                                numbered ? options.test : options.reference));
+    std::vector<Pair> pairs;
+    for (const auto& [frame, file] : *reference) {
+        const auto other = test->find(frame);
+        if (other == test->end())
+            return fail(ErrorCode::check_failed,
+                        fmt::format("frame {} is missing: there is '{}' but none of it in '{}'", *frame,
+                                    file.string(), options.test));
+        pairs.push_back({frame, file, other->second});
+    }
+    for (const auto& [frame, file] : *test)
+        if (!reference->contains(frame))
+            return fail(ErrorCode::check_failed,
+                        fmt::format("frame {} is missing: there is '{}' but none of it in '{}'", *frame,
+                                    file.string(), options.reference));
+    return pairs;
+}
+
+Result<void> check(const CompareOptions& options) {
+    if (!(options.tolerance >= 0.0))
+        return fail(ErrorCode::usage, "--tolerance: give a number from 0 up, in parts of the peak");
+    if (options.gain && !(*options.gain > 0.0))
+        return fail(ErrorCode::usage, "--gain: give a number above 0");
+    for (size_t i = 0; i < k_metric_count; ++i)
+        if (options.limits[i] && std::isnan(*options.limits[i]))
+            return fail(ErrorCode::usage, fmt::format("{}: give a number", k_metrics[i].option));
+    return {};
+}
+
+/// The limits that a comparison is beyond, in words. A NaN is beyond every limit.
+std::vector<std::string> failures(const CompareOptions& options, const Pair& pair,
+                                  const PictureMetrics& metrics) {
+    std::vector<std::string> lines;
+    for (size_t i = 0; i < k_metric_count; ++i) {
+        const Metric& metric = k_metrics[i];
+        const auto& limit = options.limits[i];
+        const double value = metric.of(metrics);
+        if (!limit || (metric.more_is_better ? value >= *limit : value <= *limit))
+            continue;
+        lines.push_back(fmt::format("{}{} {:.6g}{} is {} {} {:.6g}", pair.label(), metric.label, value,
+                                    metric.unit,
+                                    std::isnan(value)       ? "not within"
+                                    : metric.more_is_better ? "below"
+                                                            : "above",
+                                    metric.option, *limit));
+    }
+    return lines;
+}
+
+std::string text_of(const Pair& pair, const PictureMetrics& metrics) {
+    std::string line = pair.label();
+    for (const Metric& metric : k_metrics)
+        line += fmt::format("{}{} {:.6g}{}", &metric == k_metrics ? "" : ", ", metric.label,
+                            metric.of(metrics), metric.unit);
+    const image::PictureDifference& samples = metrics.samples;
+    if (samples.one_non_finite + samples.both_non_finite > 0)
+        line += fmt::format("; pixels with NaN or infinity: {} in one picture only, {} in both",
+                            samples.one_non_finite, samples.both_non_finite);
+    return line + '\n';
+}
+
+/// JSON has no infinity and no NaN: null, and `equal` and `non_finite` say which.
+Json json_of(const Pair& pair, const PictureMetrics& metrics) {
+    Json json;
+    if (pair.frame)
+        json["frame"] = *pair.frame;
+    json["reference"] = pair.reference.string();
+    json["test"] = pair.test.string();
+    for (const Metric& metric : k_metrics) {
+        const double value = metric.of(metrics);
+        json[metric.key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+    }
+    json["equal"] = metrics.samples.equal();
+    json["non_finite"] = {{"one", metrics.samples.one_non_finite}, {"both", metrics.samples.both_non_finite}};
+    return json;
+}
+
+/// The picture of the difference, in the depth of its format.
+Result<void> write_map(const CompareOptions& options, const std::filesystem::path& file,
+                       const image::Image& reference, const image::Image& test) {
+    const image::SampleDepth depth = image::natural_depth(file);
+    const double gain = options.gain.value_or(depth == image::SampleDepth::u8 ? 8.0 : 1.0);
+    const image::Image picture = options.map == "flip" ? image::heat_map(image::flip(reference, test).map)
+                                                       : image::difference_picture(reference, test, gain);
+    return image::write_picture(file, picture, {depth});
+}
+
+Result<int> compare(const CompareOptions& options) {
+    if (auto good = check(options); !good)
+        return fail(good.error());
+    const auto pairs = pairs_of(options);
+    if (!pairs)
+        return fail(pairs.error());
+    std::optional<OutputName> output;
+    if (!options.output.empty()) {
+        auto parsed = OutputName::parse(options.output, pairs->size());
+        if (parsed && parsed->standard_output())
+            return fail(ErrorCode::usage, "-o: the picture of the difference needs a file");
+        if (!parsed)
+            return fail(parsed.error());
+        output = *std::move(parsed);
+    }
+    Json json = {{"tidemark", k_version}, {"frames", Json::array()}};
+    std::string text;
+    std::vector<std::string> beyond;
+    for (const Pair& pair : *pairs) {
+        const auto reference = image::read_picture(pair.reference), test = image::read_picture(pair.test);
+        for (const auto* side : {&reference, &test})
+            if (!*side)
+                return fail(side->error());
+        const auto metrics = image::measure(*reference, *test, options.tolerance);
+        if (!metrics)
+            return fail(ErrorCode::check_failed, fmt::format("{}'{}' and '{}': {}", pair.label(), pair.reference.string(), pair.test.string(), metrics.error().message));
+        if (output)
+            if (auto written =
+                    write_map(options, output->of_frame(pair.frame.value_or(0)), *reference, *test);
+                !written)
+                return fail(written.error());
+        text += text_of(pair, *metrics);
+        json["frames"].push_back(json_of(pair, *metrics));
+        for (std::string& line : failures(options, pair, *metrics))
+            beyond.push_back(std::move(line));
+    }
+    json["failures"] = beyond;
+    if (auto printed = put(options.json ? json.dump(2) + "\n" : text); !printed)
+        return fail(printed.error());
+    for (const std::string& line : beyond)
+        say(line);
+    return beyond.empty() ? 0 : exit_code(ErrorCode::check_failed);
+}
+
+} // namespace
+
+void add_compare(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = app.add_subcommand("compare", "How far two pictures or two sequences are apart");
+    command->add_option("A", options->reference, "The reference: a picture, or a sequence with %04d or ####")
+        ->required();
+    command->add_option("B", options->test, "What is compared with it")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "Picture of the difference: .png .jpg .tif .exr .hdr, %04d or #### for a sequence")
+        ->type_name("OUT");
+    command->add_option("--map", options->map, "What that picture shows: |A - B|, or FLIP in false colours")
+        ->check(CLI::IsMember({"difference", "flip"}))
+        ->capture_default_str();
+    command
+        ->add_option("--gain", options->gain,
+                     "|A - B| is drawn so many times brighter [8; 1 where the file has floats]")
+        ->type_name("G");
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "A pixel differs when a sample does by more than this part of the peak")
+        ->type_name("D")
+        ->capture_default_str();
+    for (size_t i = 0; i < k_metric_count; ++i)
+        command
+            ->add_option(k_metrics[i].option, options->limits[i],
+                         fmt::format("Exit 1 where {} is {} this", k_metrics[i].label,
+                                     k_metrics[i].more_is_better ? "below" : "above"))
+            ->type_name("X");
+    command->add_flag("--json", options->json, "One JSON object on standard output");
+    command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
+}
+
+} // namespace tidemark::cli

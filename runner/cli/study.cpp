@@ -1,0 +1,255 @@
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/version.hpp"
+#include "gl/capabilities.hpp"
+#include "lab/conduct.hpp"
+#include "lab/report.hpp"
+#include "lab/report_data.hpp"
+#include "lab/verdict.hpp"
+#include "platform/headless_context.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <memory>
+#include <thread>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct StudyOptions {
+    SceneRequest scene;
+    std::string output;
+    std::string file; ///< --study
+    std::string size;
+    std::vector<std::string> vary;
+    std::string views;
+    std::vector<std::string> reference;
+    std::string device = "auto";
+    lab::Timing timing;
+    bool json = false;
+};
+
+/// `water_surface.study.json` beside `water_surface.glsl`; `study.json` in a folder.
+fs::path study_file_of(const fs::path& scene) {
+    std::error_code ignored;
+    return fs::is_directory(scene, ignored) ? scene / "study.json"
+                                            : fs::path(scene).replace_extension(".study.json");
+}
+
+Result<lab::Study> read_study(const fs::path& path) {
+    const auto text = read_text_file(path);
+    if (!text)
+        return fail(text.error());
+    return lab::parse_study(*text, path.string());
+}
+
+/// The scene's own study, unless the command line says what to turn.
+Result<lab::Study> base_study(const StudyOptions& options) {
+    std::error_code ignored;
+    if (!options.file.empty())
+        return read_study(options.file);
+    const fs::path beside = study_file_of(options.scene.path);
+    const bool exists = fs::exists(beside, ignored);
+    if (!exists && options.vary.empty())
+        return fail(ErrorCode::usage, fmt::format("there is no '{}': say what to turn with --vary NAME=a,b,c",
+                                                  beside.string()));
+    if (!exists)
+        return lab::Study{};
+    auto study = read_study(beside);
+    if (study && !options.vary.empty()) {
+        study->series.clear();
+        study->about.clear();
+        study->omissions.clear();
+    }
+    return study;
+}
+
+Result<std::vector<lab::View>> views_of(const std::string& text) {
+    if (!text.ends_with(".json"))
+        return lab::parse_views(text);
+    const auto file = read_text_file(text);
+    if (!file)
+        return fail(file.error());
+    auto study = lab::parse_study(fmt::format("{{\"views\": {}}}", *file), text);
+    if (!study)
+        return fail(std::move(study.error()));
+    return std::move(study->views);
+}
+
+/// The study file with what the command line says put over it.
+Result<lab::Study> plan_study(const StudyOptions& options) {
+    auto study = base_study(options);
+    if (!study)
+        return study;
+    std::vector<lab::Axis> axes;
+    for (const std::string& text : options.vary) {
+        auto axis = lab::parse_axis(text, "--vary");
+        if (!axis)
+            return fail(std::move(axis.error()));
+        axes.push_back(*std::move(axis));
+    }
+    if (!axes.empty())
+        study->series = lab::series_of(axes);
+    for (const std::string& text : options.reference) {
+        auto settings = lab::parse_settings(text, "--reference");
+        if (!settings)
+            return fail(std::move(settings.error()));
+        if (&text == &options.reference.front())
+            study->reference.clear();
+        study->reference.insert(study->reference.end(), settings->begin(), settings->end());
+    }
+    if (!options.views.empty()) {
+        auto views = views_of(options.views);
+        if (!views)
+            return fail(std::move(views.error()));
+        study->views = *std::move(views);
+    }
+    if (study->views.empty())
+        study->views = lab::default_views();
+    if (!options.size.empty()) {
+        const auto extent = parse_size(options.size);
+        if (!extent)
+            return fail(extent.error());
+        study->extent = *extent;
+    }
+    if (study->series.empty())
+        return fail(ErrorCode::usage, "the study turns no knob: give it \"series\", or --vary NAME=a,b,c");
+    return study;
+}
+
+/// A line of progress for each part of the study.
+class Watcher {
+public:
+    explicit Watcher(Interrupt& interrupt) : interrupt_(interrupt) {}
+
+    lab::Watch watch() {
+        return {[this](const std::string& what, size_t total) {
+                    progress_ = std::make_unique<Progress>(what, total);
+                },
+                [this] { progress_->advance(); }, [this] { return !interrupt_.requested(); }};
+    }
+    void finish() { progress_.reset(); }
+
+private:
+    Interrupt& interrupt_;
+    std::unique_ptr<Progress> progress_;
+};
+
+std::string local_time() {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
+}
+
+void note_circumstances(lab::Circumstances& facts, const scene::Scene& scene) {
+    const gl::Capabilities driver = gl::query_capabilities();
+    facts.tidemark = k_version;
+    facts.scene = scene.file.string();
+    std::string text = scene.common.text();
+    for (const scene::Pass& pass : scene.passes)
+        text += pass.text.text();
+    facts.scene_sha256 = sha256(std::as_bytes(std::span(text)));
+    facts.renderer = driver.renderer;
+    facts.driver = driver.version;
+    facts.cores = int(std::thread::hardware_concurrency());
+}
+
+/// The folder is made before anything is measured, so that an hour's work has a place to go.
+Result<void> make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        return fail(ErrorCode::write,
+                    fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+    return write_file(folder / "study.json", "{}\n");
+}
+
+Result<int> study(const StudyOptions& options) {
+    auto plan = plan_study(options);
+    if (!plan)
+        return fail(std::move(plan.error()));
+    const fs::path folder = options.output.empty() ? fs::path(options.scene.path.stem().string() + "-study")
+                                                   : fs::path(options.output);
+    if (!(options.timing.budget > 0))
+        return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
+    Interrupt interrupt;
+    const auto scene = load(options.scene);
+    if (!scene)
+        return fail(scene.error());
+    if (auto made = make_folder(folder); !made)
+        return fail(std::move(made.error()));
+    const auto context = platform::HeadlessContext::create(options.device);
+    if (!context)
+        return fail(context.error());
+    Watcher watcher(interrupt);
+    const std::string started = local_time();
+    auto findings = lab::conduct(*scene, *plan, options.timing, watcher.watch());
+    watcher.finish();
+    if (!findings)
+        return fail(std::move(findings.error()));
+    note_circumstances(findings->set.circumstances, *scene);
+    findings->set.circumstances.started = started;
+    if (auto written = lab::write_report(folder, *findings); !written)
+        return fail(std::move(written.error()));
+    for (const std::string& sentence : lab::sentences(findings->set))
+        say(sentence);
+    for (const std::string& remark : findings->set.circumstances.remarks)
+        say(remark);
+    say(fmt::format("wrote {}", (folder / "report.html").string()));
+    if (options.json)
+        if (auto printed = put(lab::to_json(findings->set)); !printed)
+            return fail(std::move(printed.error()));
+    return interrupt.requested() ? Interrupt::k_exit_code : 0;
+}
+
+} // namespace
+
+void add_study(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<StudyOptions>();
+    CLI::App* command = app.add_subcommand("study", "Error against run time");
+    add_scene_options(*command, options->scene);
+    const auto one_each = [](CLI::Option* option) {
+        option->type_size(1)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    };
+    command->add_option("-o,--output", options->output, "Folder for the report [SCENE-study]")
+        ->type_name("FOLDER");
+    command->add_option("--study", options->file, "What to study [SCENE.study.json]")
+        ->type_name("FILE")
+        ->check(CLI::ExistingFile);
+    one_each(
+        command
+            ->add_option("--vary", options->vary,
+                         "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
+            ->type_name("NAME=a,b,c"));
+    command
+        ->add_option(
+            "--views", options->views,
+            "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4; or a file [1;10]")
+        ->type_name("LIST|FILE");
+    one_each(command
+                 ->add_option(
+                     "--reference", options->reference,
+                     "Settings that count as the truth [the strictest, made stricter until nothing moves]")
+                 ->type_name("NAME=V,..."));
+    command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
+    command
+        ->add_option("--budget", options->timing.budget,
+                     "Seconds for the timing: fewer rounds when 40 take longer")
+        ->type_name("S")
+        ->capture_default_str();
+    command
+        ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "study.json on standard output, too");
+    command->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,189 @@
+#include "lab/conduct.hpp"
+
+#include "gl/capabilities.hpp"
+#include "lab/outcome.hpp"
+#include "lab/timing.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::lab {
+namespace {
+
+class Conductor {
+public:
+    Conductor(const scene::Scene& scene, const Study& study, const Timing& timing, const Watch& watch)
+        : scene_(scene), timing_(timing), watch_(watch) {
+        findings_.set.study = study;
+        for (Point& point : points_of(study))
+            findings_.set.points.emplace_back().point = std::move(point);
+        specimens_.resize(set().points.size());
+        sights_.resize(set().points.size());
+    }
+
+    Result<Findings> run() {
+        if (auto named = check_settings(); !named)
+            return fail(std::move(named.error()));
+        for (const auto part : {&Conductor::look, &Conductor::find_truth})
+            if (auto done = (this->*part)(); !done)
+                return fail(std::move(done.error()));
+        hold_against_truth();
+        take_sources_away();
+        const bool complete = time_points(timing_, watch_, specimens_, findings_.set);
+        set().circumstances.complete = complete && !stopped_;
+        judge(set());
+        findings_.evidence.reference = std::move(truth_.pictures);
+        for (Sight& sight : sights_)
+            findings_.evidence.pictures.push_back(std::move(sight.pictures));
+        return std::move(findings_);
+    }
+
+private:
+    WorkPrecisionSet& set() { return findings_.set; }
+    const Study& study() const { return findings_.set.study; }
+
+    bool going() {
+        stopped_ = stopped_ || !watch_.keep_going();
+        return !stopped_;
+    }
+
+    /// Names and values that the scene does not have are mistakes of the person who asked, all known at once.
+    Result<void> check_settings() {
+        std::vector<std::vector<Setting>> all{study().reference};
+        for (const ErrorSource& source : study().sources)
+            all.push_back(source.settings);
+        for (const WorkPrecision& point : set().points)
+            all.push_back(point.point.settings);
+        for (const auto& settings : all)
+            if (auto good = with(scene_, settings); !good)
+                return fail(std::move(good.error()));
+        return {};
+    }
+
+    Result<Sight> sight_of(Specimen& specimen) {
+        Sight sight;
+        for (const View& view : study().views) {
+            sight.pictures.push_back(specimen.picture(view));
+            if (!specimen.has_hits())
+                continue;
+            auto hits = specimen.hits(view);
+            if (!hits)
+                return fail(std::move(hits.error()));
+            sight.hits.push_back(*std::move(hits));
+        }
+        return sight;
+    }
+
+    /// Draws every point on every view.
+    Result<void> look() {
+        watch_.begin("points drawn", set().points.size());
+        for (size_t i = 0; i < set().points.size(); ++i) {
+            WorkPrecision& point = set().points[i];
+            if (!going()) {
+                point.failure = "interrupted";
+                continue;
+            }
+            auto specimen = Specimen::create(scene_, {point.point.settings}, study().extent);
+            auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+            if (!sight && i == 0) // the scene as it is
+                return fail(std::move(sight.error()));
+            if (sight) {
+                point.compile_milliseconds = specimen->compile_milliseconds();
+                point.first_draw_milliseconds = specimen->first_draw_milliseconds();
+                sights_[i] = *std::move(sight);
+                specimens_[i] = *std::move(specimen);
+            } else {
+                point.failure = to_string(sight.error());
+            }
+            watch_.advance();
+        }
+        return {};
+    }
+
+    Result<void> find_truth() {
+        watch_.begin("the reference", 1);
+        auto pictures = converged_pictures(scene_, study(), [this] { return going(); });
+        if (!pictures)
+            return fail(std::move(pictures.error()));
+        set().picture_standard = std::move(pictures->standard);
+        truth_.pictures = std::move(pictures->views);
+        auto certified = certified_hits(scene_, study(), [this] { return going(); });
+        if (!certified)
+            return fail(std::move(certified.error()));
+        if (*certified) {
+            set().hit_standard = std::move((*certified)->standard);
+            truth_.hits = std::move((*certified)->views);
+            truth_.footprints = std::move((*certified)->footprints);
+            truth_.references = std::move((*certified)->references);
+        } else if (!pictures->hits.empty()) {
+            set().hit_standard = std::move(pictures->hit_standard);
+            truth_.hits = std::move(pictures->hits);
+            truth_.footprints.assign(study().views.size(), plain_footprint(study().extent));
+        }
+        watch_.advance();
+        return {};
+    }
+
+    void hold_against_truth() {
+        const size_t views = study().views.size();
+        watch_.begin("points judged", set().points.size());
+        findings_.evidence.causes.resize(set().points.size());
+        for (size_t i = 0; i < set().points.size(); ++i) {
+            WorkPrecision& point = set().points[i];
+            for (size_t view = 0; point.failure.empty() && view < views; ++view) {
+                point.views.push_back(outcome_of(sights_[i], truth_, view));
+                if (point.views.back().hits)
+                    findings_.evidence.causes[i].push_back(
+                        cause_map(causes(truth_.hits[view], sights_[i].hits[view]), study().extent));
+            }
+            if (point.failure.empty())
+                point.all = outcome_of_all(sights_[i], truth_, point.views);
+            watch_.advance();
+        }
+    }
+
+    /// Each source's settings are added to those before; the step from one sight to the next is its share,
+    /// and the algorithm's is what then remains.
+    void take_sources_away() {
+        if (study().sources.empty())
+            return;
+        watch_.begin("points taken apart", set().points.size());
+        const Sight true_sight{truth_.pictures, truth_.hits};
+        for (size_t i = 0; i < set().points.size() && going(); ++i) {
+            WorkPrecision& point = set().points[i];
+            Recipe recipe{point.point.settings};
+            Sight before = sights_[i];
+            for (const ErrorSource& source : study().sources) {
+                if (!point.measured())
+                    break;
+                recipe.settings.insert(recipe.settings.end(), source.settings.begin(), source.settings.end());
+                auto specimen = Specimen::create(scene_, recipe, study().extent);
+                auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+                if (!sight)
+                    continue;
+                point.shares.push_back(share_of(source.name, before, *sight, truth_));
+                before = *std::move(sight);
+            }
+            if (point.measured())
+                point.shares.push_back(share_of("algorithm", before, true_sight, truth_));
+            watch_.advance();
+        }
+    }
+
+    const scene::Scene& scene_;
+    const Timing& timing_;
+    const Watch& watch_;
+    Findings findings_;
+    std::vector<std::optional<Specimen>> specimens_; ///< by point; nothing for a point that failed
+    std::vector<Sight> sights_;
+    Truth truth_;
+    bool stopped_ = false;
+};
+
+} // namespace
+
+Result<Findings> conduct(const scene::Scene& scene, const Study& study, const Timing& timing,
+                         const Watch& watch) {
+    return Conductor(scene, study, timing, watch).run();
+}
+
+} // namespace tidemark::lab

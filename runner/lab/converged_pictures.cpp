@@ -1,0 +1,143 @@
+#include "lab/stricter.hpp"
+#include "lab/truth.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr int k_most_steps = 6;
+/// A reference is good enough when the next stricter one differs by this part of what the strictest point
+/// does.
+constexpr double k_settled = 0.1;
+
+/// What one setting of the scene shows in all views.
+struct Shown {
+    std::vector<Setting> settings;
+    std::vector<image::Image> pictures;
+    std::vector<Hits> hits;
+};
+
+Result<std::optional<Shown>> show(const scene::Scene& scene, const Study& study,
+                                  std::vector<Setting> settings, const KeepGoing& keep_going) {
+    auto specimen = Specimen::create(scene, {settings}, study.extent);
+    if (!specimen)
+        return fail(std::move(specimen.error()));
+    Shown shown{std::move(settings), {}, {}};
+    for (const View& view : study.views) {
+        if (!keep_going())
+            return std::optional<Shown>{};
+        shown.pictures.push_back(specimen->picture(view));
+        if (!specimen->has_hits())
+            continue;
+        auto hits = specimen->hits(view);
+        if (!hits)
+            return fail(std::move(hits.error()));
+        shown.hits.push_back(*std::move(hits));
+    }
+    return std::optional<Shown>(std::move(shown));
+}
+
+double rms_of_hits(const std::vector<Hits>& left, const std::vector<Hits>& right, Extent extent) {
+    Hits all_left, all_right;
+    for (size_t i = 0; i < left.size(); ++i) {
+        all_left.append(left[i]);
+        all_right.append(right[i]);
+    }
+    std::vector<double> footprint;
+    for (size_t i = 0; i < left.size(); ++i) {
+        const auto plain = plain_footprint(extent);
+        footprint.insert(footprint.end(), plain.begin(), plain.end());
+    }
+    return hit_errors(all_left, all_right, footprint).rms;
+}
+
+/// A change of two references and how it was come by.
+struct Change {
+    double pictures = 0;
+    double hits = 0;
+};
+
+Change change_of(const Shown& a, const Shown& b, Extent extent) {
+    return {pooled_rmse(a.pictures, b.pictures), a.hits.empty() ? 0 : rms_of_hits(a.hits, b.hits, extent)};
+}
+
+PictureTruth truth_of(Shown shown, const std::optional<Change>& change, const std::string& how) {
+    PictureTruth truth;
+    truth.standard.method =
+        fmt::format("the scene itself with {}, single precision", to_string(shown.settings));
+    truth.standard.check = how;
+    if (change)
+        truth.standard.uncertainty = change->pictures;
+    if (!shown.hits.empty()) {
+        truth.hit_standard = truth.standard;
+        if (change)
+            truth.hit_standard.uncertainty = change->hits;
+    }
+    truth.views = std::move(shown.pictures);
+    truth.hits = std::move(shown.hits);
+    return truth;
+}
+
+} // namespace
+
+std::vector<double> plain_footprint(Extent extent) {
+    return std::vector<double>(extent.pixels(), 1.0 / extent.height);
+}
+
+double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right) {
+    double squares = 0;
+    size_t samples = 0;
+    for (size_t i = 0; i < left.size(); ++i) {
+        const auto difference = image::compare(left[i], right[i]);
+        squares += difference ? difference->rmse * difference->rmse * double(left[i].samples()) : NAN;
+        samples += left[i].samples();
+    }
+    return std::sqrt(squares / double(std::max<size_t>(1, samples)));
+}
+
+Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
+                                        const KeepGoing& keep_going) {
+    auto first = show(scene, study, strictest(study, 0), keep_going);
+    if (!first)
+        return fail(std::move(first.error()));
+    if (!*first)
+        return fail(ErrorCode::check_failed, "interrupted before there was a reference");
+    Shown best = **first;
+    const Shown& strictest_point = **first;
+    std::optional<Change> change;
+    std::string how =
+        "none: no knob of the study is a number that could go on; name a stricter setting with --reference";
+    for (int step = 1; step <= k_most_steps; ++step) {
+        std::vector<Setting> settings = strictest(study, step);
+        if (settings == best.settings)
+            break;
+        auto next = show(scene, study, settings, keep_going);
+        if (!next || !*next) {
+            if (change)
+                break;
+            how = next ? "none: interrupted"
+                       : fmt::format("none: the scene does not compile with {}", to_string(settings));
+            break;
+        }
+        const Change changed = change_of(best, **next, study.extent);
+        const bool grew = change && changed.pictures > change->pictures;
+        if (grew) // past the best that floats can do: the pair before was nearer
+            break;
+        how = fmt::format("the change from {}: RMSE {:.2g}", to_string(best.settings), changed.pictures);
+        change = changed;
+        const bool named = !study.reference.empty();
+        if (named) { // it stays the reference that was asked for
+            how = fmt::format("the change to {}: RMSE {:.2g}", to_string(settings), changed.pictures);
+            break;
+        }
+        best = **std::move(next);
+        if (changed.pictures <= k_settled * pooled_rmse(strictest_point.pictures, best.pictures))
+            break;
+    }
+    return truth_of(std::move(best), change, how);
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,162 @@
+#include "lab/hits.hpp"
+
+#include "glsl/hit.hpp"
+#include "lab/statistics.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr double k_miss = -1.0;
+
+bool met(double distance) {
+    return distance >= 0;
+}
+
+double percent(size_t part, size_t whole) {
+    return whole == 0 ? 0.0 : 100.0 * double(part) / double(whole);
+}
+
+/// Off by more than `tolerance`, in whatever way.
+bool wrong(double reference, double test, double tolerance) {
+    if (std::isnan(test) || met(reference) != met(test))
+        return true;
+    return met(test) && std::abs(test - reference) > tolerance;
+}
+
+Cause cause_of(double reference, double test, int flags) {
+    if (!wrong(reference, test, k_wrong_distance))
+        return Cause::right;
+    if (std::isnan(test))
+        return Cause::no_answer;
+    if (flags & glsl::k_hit_exhausted)
+        return Cause::exhaustion;
+    if (!met(reference))
+        return Cause::false_hit;
+    if (met(test) && test < reference)
+        return Cause::early;
+    return flags & glsl::k_hit_negative ? Cause::sink : Cause::tunnel;
+}
+
+} // namespace
+
+void Hits::append(const Hits& other) {
+    distance.insert(distance.end(), other.distance.begin(), other.distance.end());
+    evaluations.insert(evaluations.end(), other.evaluations.begin(), other.evaluations.end());
+    flags.insert(flags.end(), other.flags.begin(), other.flags.end());
+}
+
+Hits hits_of(const image::Image& image) {
+    assert(image.type == image::SampleType::f32 && image.channels == 4);
+    Hits hits;
+    const auto samples = image.f32();
+    for (size_t i = 0; i < samples.size(); i += 4) {
+        const float t = samples[i], flags = samples[i + 3];
+        const bool answer = std::isfinite(t) && (t >= 0 || t == float(k_miss));
+        hits.distance.push_back(answer ? double(t) : std::numeric_limits<double>::quiet_NaN());
+        hits.evaluations.push_back(samples[i + 1]);
+        hits.flags.push_back(flags >= 0 && flags < 256 ? uint8_t(flags) : uint8_t{0});
+    }
+    return hits;
+}
+
+HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<double>& footprint) {
+    assert(reference.size() == test.size() && footprint.size() == test.size());
+    HitErrors errors;
+    errors.pixels = test.size();
+    std::vector<double> differences;
+    size_t false_miss = 0, false_hit = 0, hundredth = 0, tenth = 0, pixel = 0, exhausted = 0, negative = 0,
+           none = 0;
+    double squares = 0, evaluations = 0;
+    for (size_t i = 0; i < test.size(); ++i) {
+        const double expected = reference.distance[i], found = test.distance[i];
+        evaluations += double(test.evaluations[i]);
+        exhausted += (test.flags[i] & glsl::k_hit_exhausted) != 0;
+        negative += (test.flags[i] & glsl::k_hit_negative) != 0;
+        none += std::isnan(found);
+        false_miss += met(expected) && found == k_miss;
+        false_hit += !met(expected) && met(found);
+        hundredth += wrong(expected, found, 0.01);
+        tenth += wrong(expected, found, k_wrong_distance);
+        pixel += wrong(expected, found, footprint[i] * std::max(expected, 0.0));
+        if (!met(expected) || !met(found))
+            continue;
+        differences.push_back(std::abs(found - expected));
+        squares += differences.back() * differences.back();
+    }
+    errors.both = differences.size();
+    if (errors.both > 0) {
+        std::sort(differences.begin(), differences.end());
+        const auto at = [&](double part) {
+            return differences[size_t(part * double(differences.size() - 1))];
+        };
+        errors.rms = std::sqrt(squares / double(errors.both));
+        errors.median = at(0.5);
+        errors.p95 = at(0.95);
+        errors.p99 = at(0.99);
+        errors.largest = differences.back();
+    }
+    errors.false_miss = percent(false_miss, errors.pixels);
+    errors.false_hit = percent(false_hit, errors.pixels);
+    errors.wrong_hundredth = percent(hundredth, errors.pixels);
+    errors.wrong_tenth = percent(tenth, errors.pixels);
+    errors.wrong_footprint = percent(pixel, errors.pixels);
+    errors.exhausted = percent(exhausted, errors.pixels);
+    errors.negative = percent(negative, errors.pixels);
+    errors.no_answer = percent(none, errors.pixels);
+    errors.evaluations = errors.pixels == 0 ? 0.0 : evaluations / double(errors.pixels);
+    return errors;
+}
+
+std::string_view to_string(Cause cause) {
+    switch (cause) {
+    case Cause::right: return "right";
+    case Cause::exhaustion: return "exhaustion";
+    case Cause::sink: return "sink";
+    case Cause::tunnel: return "tunnel";
+    case Cause::early: return "stopped early";
+    case Cause::false_hit: return "false hit";
+    case Cause::no_answer: break;
+    }
+    return "no answer";
+}
+
+std::array<float, 3> colour_of(Cause cause) {
+    switch (cause) {
+    case Cause::right: return {0.10f, 0.11f, 0.13f};
+    case Cause::exhaustion: return {0.90f, 0.62f, 0.00f};
+    case Cause::sink: return {0.34f, 0.71f, 0.91f};
+    case Cause::tunnel: return {0.80f, 0.47f, 0.65f};
+    case Cause::early: return {0.94f, 0.89f, 0.26f};
+    case Cause::false_hit: return {0.84f, 0.37f, 0.00f};
+    case Cause::no_answer: break;
+    }
+    return {1.0f, 1.0f, 1.0f};
+}
+
+std::vector<Cause> causes(const Hits& reference, const Hits& test) {
+    std::vector<Cause> found;
+    for (size_t i = 0; i < test.size(); ++i)
+        found.push_back(cause_of(reference.distance[i], test.distance[i], test.flags[i]));
+    return found;
+}
+
+std::array<size_t, k_causes> count(const std::vector<Cause>& causes) {
+    std::array<size_t, k_causes> counts{};
+    for (const Cause cause : causes)
+        ++counts[size_t(cause)];
+    return counts;
+}
+
+image::Image cause_map(const std::vector<Cause>& causes, Extent extent) {
+    image::Image image(extent, 3, image::SampleType::f32);
+    for (size_t i = 0; i < causes.size(); ++i)
+        std::ranges::copy(colour_of(causes[i]), image.f32().begin() + ptrdiff_t(3 * i));
+    return image;
+}
+
+} // namespace tidemark::lab

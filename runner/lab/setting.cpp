@@ -1,0 +1,104 @@
+#include "lab/setting.hpp"
+
+#include "glsl/overrides.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    const size_t first = text.find_first_not_of(" \t");
+    return first == text.npos ? std::string_view{}
+                              : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// The parts between commas that are not inside parentheses.
+std::vector<std::string> split(std::string_view text) {
+    std::vector<std::string> parts;
+    int depth = 0;
+    size_t begin = 0;
+    for (size_t i = 0; i <= text.size(); ++i) {
+        if (i < text.size() && (text[i] == '(' || text[i] == ')'))
+            depth += text[i] == '(' ? 1 : -1;
+        if (i < text.size() && (text[i] != ',' || depth > 0))
+            continue;
+        parts.emplace_back(trimmed(text.substr(begin, i - begin)));
+        begin = i + 1;
+    }
+    return parts;
+}
+
+Error no_such_name(const scene::Scene& scene, std::string_view name) {
+    std::vector<std::string> names = glsl::definition_names(scene);
+    for (const scene::Knob& knob : scene.knobs)
+        names.push_back(knob.name);
+    const std::string nearest = nearest_name(name, names);
+    const std::string hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                             : names.empty()  ? std::string("it has none at all")
+                                              : fmt::format("it has {}", fmt::join(names, ", "));
+    return {ErrorCode::usage,
+            fmt::format("the scene has no #iUniform, #define or const '{}': {}", name, hint),
+            {}};
+}
+
+} // namespace
+
+Result<Axis> parse_axis(std::string_view text, std::string_view option) {
+    const size_t equals = text.find('=');
+    Axis axis;
+    if (equals != text.npos) {
+        axis.name = trimmed(text.substr(0, equals));
+        axis.values = split(text.substr(equals + 1));
+    }
+    const bool gap = std::ranges::any_of(axis.values, [](const std::string& value) { return value.empty(); });
+    if (axis.name.empty() || axis.values.empty() || gap)
+        return fail(ErrorCode::usage,
+                    fmt::format("{} {}: give NAME=a,b,c, none of them empty", option, text));
+    return axis;
+}
+
+Result<std::vector<Setting>> parse_settings(std::string_view text, std::string_view option) {
+    std::vector<Setting> settings;
+    for (const std::string& part : split(text)) {
+        auto axis = parse_axis(part, option);
+        if (!axis)
+            return fail(ErrorCode::usage, fmt::format("{} {}: give NAME=V or NAME=V,NAME=V", option, text));
+        settings.push_back({axis->name, axis->values.front()});
+    }
+    return settings;
+}
+
+std::string to_string(const std::vector<Setting>& settings) {
+    std::string text;
+    for (const Setting& setting : settings)
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", setting.name, setting.value);
+    return text.empty() ? "defaults" : text;
+}
+
+Result<void> apply(scene::Scene& scene, const Setting& setting) {
+    const std::string text = setting.name + "=" + setting.value;
+    if (std::ranges::find(scene.knobs, setting.name, &scene::Knob::name) != scene.knobs.end())
+        return scene::override_knob(scene, text);
+    if (glsl::definition_of(scene, setting.name))
+        return glsl::override_definition(scene, text);
+    return fail(no_such_name(scene, setting.name));
+}
+
+Result<scene::Scene> with(scene::Scene scene, const std::vector<Setting>& settings) {
+    for (const Setting& setting : settings)
+        if (auto applied = apply(scene, setting); !applied)
+            return fail(std::move(applied.error()));
+    return scene;
+}
+
+std::string value_of(const scene::Scene& scene, std::string_view name) {
+    const auto knob = std::ranges::find(scene.knobs, name, &scene::Knob::name);
+    return knob != scene.knobs.end() ? scene::to_string(*knob)
+                                     : glsl::definition_of(scene, name).value_or(std::string());
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,91 @@
+#include "lab/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr int k_resamples = 1000;
+
+/// std::uniform_int_distribution gives other numbers with every library.
+size_t below(std::mt19937& random, size_t count) {
+    return size_t((uint64_t(random()) * count) >> 32);
+}
+
+double quantile_of_sorted(std::span<const double> values, double part) {
+    if (values.empty())
+        return std::nan("");
+    const double place = part * double(values.size() - 1);
+    const auto low = size_t(place);
+    const size_t high = std::min(low + 1, values.size() - 1);
+    return values[low] + (place - double(low)) * (values[high] - values[low]);
+}
+
+} // namespace
+
+double quantile(std::vector<double> values, double part) {
+    std::sort(values.begin(), values.end());
+    return quantile_of_sorted(values, part);
+}
+
+Interval bootstrap(size_t count, const std::function<double(const std::vector<size_t>& rows)>& of) {
+    if (count == 0)
+        return {std::nan(""), std::nan("")};
+    std::mt19937 random(20240607);
+    std::vector<double> found;
+    std::vector<size_t> rows(count);
+    for (int i = 0; i < k_resamples; ++i) {
+        std::ranges::generate(rows, [&] { return below(random, count); });
+        found.push_back(of(rows));
+    }
+    std::sort(found.begin(), found.end());
+    return {quantile_of_sorted(found, 0.025), quantile_of_sorted(found, 0.975)};
+}
+
+Interval bootstrap_median(const std::vector<double>& values) {
+    std::vector<double> drawn;
+    return bootstrap(values.size(), [&](const std::vector<size_t>& rows) {
+        drawn.clear();
+        for (const size_t row : rows)
+            drawn.push_back(values[row]);
+        return median(drawn);
+    });
+}
+
+TimeSummary summary_of(const std::vector<double>& values) {
+    TimeSummary summary;
+    summary.runs = values.size();
+    if (values.empty()) {
+        summary.median = summary.smallest = summary.first_quartile = summary.third_quartile = std::nan("");
+        summary.confidence = {std::nan(""), std::nan("")};
+        return summary;
+    }
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    summary.median = quantile_of_sorted(sorted, 0.5);
+    summary.smallest = sorted.front();
+    summary.first_quartile = quantile_of_sorted(sorted, 0.25);
+    summary.third_quartile = quantile_of_sorted(sorted, 0.75);
+    summary.confidence = bootstrap_median(values);
+    if (const size_t third = values.size() / 3; third >= 3) {
+        const std::vector<double> first(values.begin(), values.begin() + ptrdiff_t(third));
+        const std::vector<double> last(values.end() - ptrdiff_t(third), values.end());
+        summary.drift = median(last) / median(first);
+        summary.drifted = !bootstrap_median(first).overlaps(bootstrap_median(last));
+    }
+    return summary;
+}
+
+std::vector<size_t> shuffled(size_t count, unsigned seed) {
+    std::vector<size_t> order(count);
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::mt19937 random(seed);
+    for (size_t i = count; i > 1; --i)
+        std::swap(order[i - 1], order[below(random, i)]);
+    return order;
+}
+
+} // namespace tidemark::lab

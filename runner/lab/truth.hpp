@@ -1,0 +1,51 @@
+// The truths of a study: what rays really meet, from a march with a proof, and what pictures converge to. A
+// context must be current.
+#pragma once
+
+#include "lab/hits.hpp"
+#include "lab/reference.hpp"
+#include "lab/specimen.hpp"
+#include "lab/work_precision.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace tidemark::lab {
+
+/// The truth about the hits of each view.
+struct HitTruth {
+    Standard standard;
+    std::vector<Hits> views;
+    std::vector<std::vector<double>> footprints; ///< width of a pixel at distance 1, one for each pixel
+    std::vector<Reference> references;           ///< of each view, where there is one in double
+};
+
+/// Asked between two pieces of work; false: stop here.
+using KeepGoing = std::function<bool()>;
+
+/// Marches the scene's reference in double, for scenes that have one (lab/reference.hpp). Nothing: it has
+/// none, or it was stopped.
+Result<std::optional<HitTruth>> certified_hits(const scene::Scene& scene, const Study& study,
+                                               const KeepGoing& keep_going);
+
+/// The truth about the pictures, and about the hits where there is nothing better.
+struct PictureTruth {
+    Standard standard;
+    std::vector<image::Image> views;
+    std::vector<Hits> hits; ///< empty without mainHit
+    Standard hit_standard;
+};
+
+/// Draws the scene with the study's reference settings or, without any, with the strictest value of every
+/// axis, made stricter until the picture stays the same. `keep_going` false: the best so far.
+Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
+                                        const KeepGoing& keep_going);
+
+/// Root of the mean square over the samples of all pictures.
+double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right);
+
+/// One part of the height for every pixel: for scenes whose rays are not known.
+std::vector<double> plain_footprint(Extent extent);
+
+} // namespace tidemark::lab

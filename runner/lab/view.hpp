@@ -1,0 +1,38 @@
+// What a study looks at: a moment and a camera, whatever the size of the picture.
+#pragma once
+
+#include "base/extent.hpp"
+#include "base/result.hpp"
+#include "render/frame_inputs.hpp"
+#include "render/orbit_camera.hpp"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::lab {
+
+struct View {
+    std::string name;
+    double time = 0;                           ///< iTime, seconds
+    glm::dvec2 mouse{0};                       ///< where it was clicked, as a part of width and height
+    std::optional<render::OrbitCamera> camera; ///< of scenes that declare iCamera; none: the host's own
+};
+
+/// The inputs of that view in a picture of that size; iFrame is the one at 60 frames a second.
+render::FrameInputs inputs_of(const View& view, Extent extent);
+
+/// `0;10;10@.75,.4`: times in seconds, each with a place of the mouse as a part of the picture, if any. The
+/// error (ErrorCode::usage) says what is out of range.
+Result<std::vector<View>> parse_views(std::string_view text);
+
+/// Checks time and mouse; the error says which values are possible.
+Result<void> check(const View& view);
+
+/// Two moments of a scene that nobody said anything about.
+std::vector<View> default_views();
+
+} // namespace tidemark::lab

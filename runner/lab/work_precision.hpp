@@ -1,0 +1,96 @@
+// What a study found: solvers and their settings, each at its cost and its error. Plain values; reports are
+// made of them and of nothing else.
+#pragma once
+
+#include "base/extent.hpp"
+#include "image/metrics.hpp"
+#include "lab/hits.hpp"
+#include "lab/statistics.hpp"
+#include "lab/study.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::lab {
+
+/// One point on one view, or on all views together.
+struct Outcome {
+    image::PictureMetrics picture;
+    std::optional<HitErrors> hits; ///< of scenes with mainHit
+    std::optional<double>
+        normal_degrees; ///< median angle between the true normals at the true and the found hit
+    std::array<size_t, k_causes> causes{};
+    TimeSummary time; ///< wall clock, milliseconds a frame
+    TimeSummary cpu;  ///< CPU time of the process
+};
+
+/// What taking one source of error away changed.
+struct Share {
+    std::string source;
+    double rms = 0;  ///< of t, world units; 0 without mainHit
+    double rmse = 0; ///< of the picture
+};
+
+/// A solver and its settings, at one cost and one error.
+struct WorkPrecision {
+    Point point;
+    std::string failure;        ///< why there is nothing else; empty: measured
+    std::vector<Outcome> views; ///< one for each view of the study
+    Outcome all;                ///< the views together: errors over all their pixels, time the mean of theirs
+    std::vector<Share> shares;
+    /// Milliseconds of each timed run, by view and round: rounds are comparable between points.
+    std::vector<std::vector<double>> wall;
+    std::vector<std::vector<double>> cpu;
+    double compile_milliseconds = 0;
+    double first_draw_milliseconds = 0;
+    bool hollow = false;   ///< its error is under ten times the reference's uncertainty
+    bool on_front = false; ///< no other point is both cheaper and better
+
+    bool measured() const { return failure.empty() && !views.empty(); }
+};
+
+/// A truth and what is known of it.
+struct Standard {
+    std::string method;                ///< in words; empty: there is none
+    std::optional<double> uncertainty; ///< in the unit of the error; nothing: unknown
+    std::string check;                 ///< how the uncertainty was found
+};
+
+/// How the figures came about.
+struct Circumstances {
+    std::string tidemark;
+    std::string scene;
+    std::string scene_sha256;
+    std::string renderer;
+    std::string driver;
+    std::string started; ///< local time, ISO 8601
+    double load_before = 0;
+    double load_after = 0;
+    int cores = 0;
+    size_t warm_up_rounds = 0;
+    size_t timed_rounds = 0;
+    std::string clock = "wall clock around glFinish";
+    bool complete = true;
+    std::vector<std::string> remarks; ///< omissions and what else a reader should know
+};
+
+struct WorkPrecisionSet {
+    Study study;
+    Circumstances circumstances;
+    Standard hit_standard;
+    Standard picture_standard;
+    std::vector<WorkPrecision> points; ///< points_of(study), in that order
+
+    bool has_hits() const { return !hit_standard.method.empty(); }
+};
+
+/// The error that diagrams and verdicts are about: RMS of t where there are hits, else RMSE of the picture.
+double error_of(const WorkPrecisionSet& set, const Outcome& outcome);
+std::string error_name(const WorkPrecisionSet& set);
+
+/// Marks hollow points and the Pareto front of error and median time.
+void judge(WorkPrecisionSet& set);
+
+} // namespace tidemark::lab

@@ -1,0 +1,134 @@
+"""`compare`: two pictures or two sequences, their numbers, limits and errors."""
+import json
+import math
+
+from support import png
+from support.program import ProgramTest, main
+
+METRICS = ["rmse", "psnr", "relative_mse", "largest", "ssim", "flip", "differing"]
+
+
+class Compare(ProgramTest):
+    def picture(self, name: str, value: int, size: tuple[int, int] = (16, 12)) -> str:
+        width, height = size
+        self.write(name, png.encode(width, height, 3, [bytes([value]) * (3 * width)] * height))
+        return name
+
+    def compared(self, *arguments: str, code: int = 0) -> dict:
+        done = self.run_program("compare", *arguments, "--json")
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout)
+
+    def refuse(self, arguments: str, code: int, words: str) -> None:
+        with self.subTest(arguments=arguments):
+            self.expect_failure(["compare", *arguments.split()], code, f"tidemark: error: {words}")
+
+
+class Pictures(Compare):
+    def test_numbers(self):
+        frame, = self.compared(self.picture("a.png", 100), self.picture("b.png", 151))["frames"]
+        self.assertEqual(frame["largest"], 0.2)
+        self.assertAlmostEqual(frame["rmse"], 0.2)
+        self.assertAlmostEqual(frame["psnr"], -20 * math.log10(0.2))
+        self.assertAlmostEqual(frame["relative_mse"], (0.2 / (100 / 255 + 0.01)) ** 2)
+        # Two flat pictures: no variance, so that the luminance term of the definition is all there is.
+        a, b = 100 / 255, 151 / 255
+        self.assertAlmostEqual(frame["ssim"], (2 * a * b + 1e-4) / (a * a + b * b + 1e-4))
+        self.assertEqual((frame["differing"], frame["equal"]), (100, False))
+        self.assertEqual(frame["non_finite"], {"one": 0, "both": 0})
+
+    def test_equal(self):
+        self.picture("a.png", 9)
+        done = self.succeed("compare", "a.png", "a.png", "--min-psnr", "99", "--max-flip", "0", "--min-ssim", "1")
+        self.assertEqual(done.stdout.decode(), "RMSE 0, PSNR inf dB, relative MSE 0, largest difference 0, SSIM 1, "
+                                               "FLIP 0, differing pixels 0 %\n")
+        frame, = self.compared("a.png", "a.png")["frames"]
+        self.assertEqual((frame["psnr"], frame["equal"]), (None, True))
+
+    def test_limits(self):
+        self.picture("a.png", 100), self.picture("b.png", 151)
+        done = self.run_program("compare", "a.png", "b.png", "--max-rmse", "0.1", "--min-psnr", "5", "--max-differing",
+                                "1")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "RMSE 0.2 is above --max-rmse 0.1\n"
+                                      "differing pixels 100 % is above --max-differing 1\n")
+        self.compared("a.png", "b.png", "--max-differing", "1", "--tolerance", "0.21")
+        for limit in ("--max-rmse", "--max-relative-mse", "--max-difference", "--max-flip", "--max-differing"):
+            self.compared("a.png", "b.png", limit, "0", code=1)
+            self.compared("a.png", "b.png", limit, "101")
+        for limit in ("--min-psnr", "--min-ssim"):
+            self.compared("a.png", "b.png", limit, "99", code=1)
+            self.compared("a.png", "b.png", limit, "0")
+
+    def test_nan_is_counted_and_passes_no_limit(self):
+        self.write("good.glsl", "void mainImage(out vec4 c, vec2 p) { c = vec4(.5); }")
+        self.write("nan.glsl", "void mainImage(out vec4 c, vec2 p) { c = vec4(p.x < 1. ? sqrt(-p.x) : .5); }")
+        for name in ("good", "nan"):
+            self.succeed("capture", f"{name}.glsl", "--size", "20x20", "-o", f"{name}.exr", "--depth", "float")
+        frame, = self.compared("good.exr", "nan.exr", "--max-rmse", "1e9", code=1)["frames"]
+        self.assertEqual(frame["non_finite"], {"one": 20, "both": 0})
+        self.assertEqual((frame["rmse"], frame["flip"], frame["largest"]), (None, None, 0))
+        frame, = self.compared("nan.exr", "nan.exr", "--max-rmse", "0")["frames"]
+        self.assertEqual(frame["non_finite"], {"one": 0, "both": 20})
+
+    def test_difference_picture(self):
+        self.picture("a.png", 100), self.picture("b.png", 110)
+        self.succeed("compare", "a.png", "b.png", "-o", "d.png")
+        self.assertEqual(png.read(self.folder / "d.png").pixel(3, 3), (80, 80, 80))
+        self.succeed("compare", "a.png", "b.png", "-o", "d.png", "--gain", "2")
+        self.assertEqual(png.read(self.folder / "d.png").pixel(3, 3), (20, 20, 20))
+        self.succeed("compare", "a.png", "a.png", "-o", "d.png", "--map", "flip")
+        self.assertEqual(png.read(self.folder / "d.png").pixel(3, 3), (0, 0, 5))
+
+    def test_errors(self):
+        self.picture("a.png", 1), self.picture("small.png", 1, (8, 8))
+        self.refuse("a.png small.png", 1, "'a.png' and 'small.png': the pictures cannot be compared: one is 16x12 with "
+                                          "3 channels, the other 8x8 with 3 channels")
+        self.refuse("a.png none.png", 3, "cannot read 'none.png': no such file")
+        self.refuse("a.png a.png -o no/d.png", 4, "cannot write 'no/d.png': No such file or directory")
+        self.refuse("a.png a.png -o -", 2, "-o: the picture of the difference needs a file")
+        self.refuse("a.png a.png --gain 0", 2, "--gain: give a number above 0")
+        self.refuse("a.png a.png --tolerance -1", 2, "--tolerance: give a number from 0 up, in parts of the peak")
+        self.refuse("a.png a.png --max-rmse nan", 2, "--max-rmse: give a number")
+
+
+class Sequences(Compare):
+    def setUp(self):
+        super().setUp()
+        for frame in (3, 4, 12):
+            self.picture(f"a_{frame:04}.png", 100)
+            self.picture(f"b{frame}.png", 100 + frame)
+
+    def test_frames_go_by_their_numbers(self):
+        frames = self.compared("a_%04d.png", "b%d.png")["frames"]
+        self.assertEqual([f["frame"] for f in frames], [3, 4, 12])
+        for frame in frames:
+            self.assertAlmostEqual(frame["largest"], frame["frame"] / 255)
+        self.assertEqual(frames[2]["test"], "b12.png")
+
+    def test_limits_name_the_frame(self):
+        done = self.run_program("compare", "a_####.png", "b%d.png", "--max-difference", "0.02")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "frame 12: largest difference 0.0470588 is above --max-difference 0.02\n")
+
+    def test_difference_pictures(self):
+        self.succeed("compare", "a_####.png", "b%d.png", "-o", "d##.png", "--gain", "1")
+        self.assertEqual([png.read(self.folder / f"d{n}.png").pixel(0, 0)[0] for n in ("03", "04", "12")], [3, 4, 12])
+
+    def test_errors(self):
+        self.picture("a_0005.png", 0)
+        self.refuse("a_%04d.png b%d.png", 1, "frame 5 is missing: there is 'a_0005.png' but none of it in 'b%d.png'")
+        self.refuse("b%d.png a_%04d.png", 1, "frame 5 is missing: there is 'a_0005.png' but none of it in 'b%d.png'")
+        self.refuse("a_%04d.png b3.png", 2,
+                    "'a_%04d.png' is a sequence and 'b3.png' is one picture: compare like with like")
+        self.refuse("x_%04d.png b%d.png", 3, "there is no file 'x_%04d.png'")
+        self.refuse("a_%04x.png b%d.png", 2, "a_%04x.png: write the frame number as %04d or ####")
+        self.refuse("b%d.png b%d.png -o d.png", 2,
+                    "-o d.png: 3 frames need a frame number in the name, as in wave.%04d.png")
+        self.picture("b4.png", 0, (4, 4)), self.picture("b5.png", 0)
+        self.refuse("a_%04d.png b%d.png", 1, "frame 4: 'a_0004.png' and 'b4.png': the pictures cannot be compared: one "
+                                             "is 16x12 with 3 channels, the other 4x4 with 3 channels")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,20 @@
+#include "base/base64.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark {
+namespace {
+
+TEST(Base64, the_vectors_of_rfc_4648) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foo"), "Zm9v");
+    EXPECT_EQ(base64("foob"), "Zm9vYg==");
+    EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64("\xfb\xff\xbf"), "+/+/");
+}
+
+} // namespace
+} // namespace tidemark
