@@ -16,6 +16,7 @@ ALLOWED = {
     "sound": ["base"],
     "platform": ["base"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
+    "lab": ["base", "text", "scene", "glsl", "gl", "image", "render"],
     "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render"],
     "main.cpp": ["cli"],
 }
