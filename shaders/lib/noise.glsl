@@ -29,6 +29,17 @@ float value_noise(vec3 position, int beyond) {
     return k_hash_unit * (face.x + s.z * (face.y - face.x));
 }
 
+// In the plane: that of z = 0.
+float value_noise(vec2 position) {
+    vec2 cell = floor(position);
+    vec2 part = position - cell;
+    vec2 s = part * part * (3.0 - 2.0 * part);
+    vec4 square = scatter(Points(Point(0), k_lattice_weight.x, k_lattice_weight.y,
+                                 k_lattice_weight.x + k_lattice_weight.y) + lattice_point(vec3(cell, 0.0), 0));
+    vec2 edge = square.xz + s.x * (square.yw - square.xz);
+    return k_hash_unit * (edge.x + s.y * (edge.y - edge.x));
+}
+
 // The noise and, in yzw, its gradient.
 vec4 value_noise_gradient(vec3 position, int beyond) {
     vec3 cell = floor(position);
