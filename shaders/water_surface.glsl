@@ -144,7 +144,7 @@ float crests(vec3 position) {
     float height = 3.14 * wave_height;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         height *= wave_gain;
-        depth += height * short_sine(abs(value_noise(drifted(point, octave), -sea_cells[octave]) - 0.5));
+        depth += height * short_sine(abs(value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave])) - 0.5));
         point = finer(point);
     }
     return depth;
@@ -159,7 +159,7 @@ vec3 crests_slope(vec3 position) {
     float height = 3.14 * wave_height;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         height *= wave_gain;
-        vec4 noise = value_noise_gradient(drifted(point, octave), -sea_cells[octave]);
+        vec4 noise = value_noise_gradient(drifted(point, octave), ivec3(0, 0, -sea_cells[octave]));
         float sine = short_sine(abs(noise.x - 0.5));
         float cosine = sqrt(1.0 - sine * sine);
         float fold = noise.x < 0.5 ? -cosine : cosine;
@@ -201,7 +201,7 @@ vec2 march_clearance(float t) {
     float height = 3.14 * wave_height;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         height *= wave_gain;
-        sum += height * short_sine(abs(value_noise(drifted(point, octave), -sea_cells[octave]) - 0.5));
+        sum += height * short_sine(abs(value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave])) - 0.5));
         slope += 1.5 * height * stretch;
         clearance = max(clearance, sum / slope);
         point = finer(point);

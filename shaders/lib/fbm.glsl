@@ -11,7 +11,7 @@ float fbm(vec2 position, int octaves, float gain, float lacunarity) {
     float total = 0.0;
     float height = 1.0;
     for (int octave = 0; octave < octaves; ++octave) {
-        sum += height * value_noise(position);
+        sum += height * value_noise(position, ivec2(0));
         total += height;
         height *= gain;
         position = lacunarity * position + vec2(17.3, 43.7);

@@ -22,9 +22,9 @@ vec4 scatter(Points points) {
     return vec4(ivec4(((points ^ (points >> 15)) * 0xb995450du) >> 8));
 }
 
-// `cell` has whole coordinates below 2^31. `beyond` is added to z, exactly at any size.
-Point lattice_point(vec3 cell, int beyond) {
-    uvec3 at = uvec3(ivec3(cell) + ivec3(0, 0, beyond)) * k_lattice_weight;
+// `cell` has whole coordinates below 2^31; `beyond` is added to it, exactly at any size.
+Point lattice_point(vec3 cell, ivec3 beyond) {
+    uvec3 at = uvec3(ivec3(cell) + beyond) * k_lattice_weight;
     return at.x + at.y + at.z;
 }
 #else
@@ -42,8 +42,8 @@ vec4 scatter(Points points) {
 }
 
 // Exact as long as the sum is below 2^24.
-Point lattice_point(vec3 cell, int beyond) {
-    return dot(cell + vec3(0.0, 0.0, float(beyond)), k_lattice_weight);
+Point lattice_point(vec3 cell, ivec3 beyond) {
+    return dot(cell + vec3(beyond), k_lattice_weight);
 }
 #endif
 #endif

@@ -8,16 +8,15 @@
 #include "hash.glsl"
 
 // The eight values around `cell`: at x and at x + 1, each in the order (y, z) = 00, 10, 01, 11.
-void lattice_cube(vec3 cell, int beyond, out vec4 left, out vec4 right) {
+void lattice_cube(vec3 cell, ivec3 beyond, out vec4 left, out vec4 right) {
     Points points = Points(Point(0), k_lattice_weight.y, k_lattice_weight.z,
                            k_lattice_weight.y + k_lattice_weight.z) + lattice_point(cell, beyond);
     left = scatter(points);
     right = scatter(points + k_lattice_weight.x);
 }
 
-// `beyond` moves the lattice by that many whole cells along z: position.z keeps its last bits however far
-// the noise has drifted.
-float value_noise(vec3 position, int beyond) {
+// `beyond` moves the lattice by whole cells: `position` keeps its last bits however far the noise has drifted.
+float value_noise(vec3 position, ivec3 beyond) {
     vec3 cell = floor(position);
     vec3 part = position - cell;
     vec3 s = part * part * (3.0 - 2.0 * part);
@@ -29,19 +28,19 @@ float value_noise(vec3 position, int beyond) {
     return k_hash_unit * (face.x + s.z * (face.y - face.x));
 }
 
-// In the plane: that of z = 0.
-float value_noise(vec2 position) {
+// In the plane: that of z = 0; `beyond` moves the lattice by whole cells along both axes.
+float value_noise(vec2 position, ivec2 beyond) {
     vec2 cell = floor(position);
     vec2 part = position - cell;
     vec2 s = part * part * (3.0 - 2.0 * part);
     vec4 square = scatter(Points(Point(0), k_lattice_weight.x, k_lattice_weight.y,
-                                 k_lattice_weight.x + k_lattice_weight.y) + lattice_point(vec3(cell, 0.0), 0));
+                                 k_lattice_weight.x + k_lattice_weight.y) + lattice_point(vec3(cell, 0.0), ivec3(beyond, 0)));
     vec2 edge = square.xz + s.x * (square.yw - square.xz);
     return k_hash_unit * (edge.x + s.y * (edge.y - edge.x));
 }
 
 // The noise and, in yzw, its gradient.
-vec4 value_noise_gradient(vec3 position, int beyond) {
+vec4 value_noise_gradient(vec3 position, ivec3 beyond) {
     vec3 cell = floor(position);
     vec3 part = position - cell;
     vec3 s = part * part * (3.0 - 2.0 * part);

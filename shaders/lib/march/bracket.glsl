@@ -23,24 +23,23 @@ float march(MarchRange range) {
     if (value < 0.0) {
         return t;
     }
+    float ahead = t;
+    float beyond = value;
     float slope = -1.0;
     float wish = value;
-    for (int i = 1; i < MAX_STEPS; ++i) {
-        float ahead = min(t + wish, range.far);
+    for (int i = 1; i < MAX_STEPS && t < range.far; ++i) {
+        ahead = min(t + wish, range.far);
         float taken = ahead - t;
-        float beyond = march_sample(ahead);
+        beyond = march_sample(ahead);
         float pixel = range.pixel * ahead;
         if (beyond < 0.0) {
             MARCH_FLAG(k_hit_negative, value - beyond > taken);
-            return march_interpolate(range, t, value, ahead, beyond);
+            break;
         }
         if (taken > value + beyond + k_gap * pixel) {
             wish = value;
             slope = -1.0;
             continue;
-        }
-        if (ahead >= range.far) {
-            return -1.0;
         }
         float seen = (beyond - value) / taken;
         slope += k_slope_memory * (seen - slope);
@@ -53,5 +52,9 @@ float march(MarchRange range) {
             wish = max(wish, k_overshoot * zero);
         }
     }
-    return march_exhausted(range, t, value);
+    // After the loop, so that pixels which are drawn together interpolate together.
+    if (beyond < 0.0) {
+        return march_interpolate(range, t, value, ahead, beyond);
+    }
+    return t < range.far ? march_exhausted(range, t, value) : -1.0;
 }
