@@ -21,7 +21,7 @@
 //
 // Knobs that are compiled in:
 #define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's; its slope bound is proved here
-#define MAX_STEPS 128
+#define MAX_STEPS 512         // field samples along a ray
 #define HIT_DISTANCE 0.001 // MARCH_SPHERE: value of the field that counts as touching
 #define FIXED_STEP 0.25    // MARCH_FIXED: distance of its samples; wants MAX_STEPS to reach far_distance
 #define NEWTON_STEPS 4     // 1..8; 4 leave 6e-14 of the movement before rounding, 3 leave 6e-7, 2 leave 2e-3

@@ -22,7 +22,7 @@
 // Knobs that are compiled in:
 #define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's
 #define INTEGER_HASH 1       // 1: the same sea on every GPU; 0: fract(sin(n) * 43785.5), which is not
-#define MAX_STEPS 192        // field samples along a ray
+#define MAX_STEPS 512        // field samples along a ray
 #define HIT_DISTANCE 0.001   // MARCH_SPHERE: value of the field that counts as touching
 #define FIXED_STEP 0.5       // MARCH_FIXED: distance of its samples; wants MAX_STEPS to reach far_distance
 #define OCTAVES 5            // 1..8, of the light: each 3.8 x finer and 0.22 x lower

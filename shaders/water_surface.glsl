@@ -33,7 +33,7 @@
 #define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's
 #define INTEGER_HASH 1       // 1: the same sea on every GPU; 0: the document's fract(sin(n) * 43785.5)
 #define ANALYTIC_NORMAL 1    // 1: from the noise's own slope; 0: from differences over SLOPE_DISTANCE
-#define MAX_STEPS 256        // field samples along a ray
+#define MAX_STEPS 512        // field samples along a ray
 #define STEP_SCALE step_scale
 #define DRIFT_PERIOD drift_period
 #endif
