@@ -71,7 +71,7 @@
 #iUniform color3 sun_color = color3(1.0, 0.88, 0.7)
 #iUniform color3 zenith_color = color3(0.13, 0.32, 0.62)
 #iUniform color3 horizon_color = color3(0.66, 0.78, 0.86)
-#iUniform float cloud_cover = 0.55 in { 0.0, 1.0 }
+#iUniform float cloud_amount = 0.55 in { 0.0, 1.0 }
 #iUniform float fog_density = 0.006 in { 0.0, 0.05 }
 #iUniform float gamma = 0.4545 in { 0.2, 1.5 }
 #iChannel0 "noise"
@@ -153,16 +153,15 @@ float march_field(float t) {
 
 #if SOLVER == MARCH_CERTIFIED
 vec2 march_clearance(float t) {
-    return vec2(march_field(t));
+    return vec2(march_field(t)); // a proof as it is
 }
 #endif
 
 // The ray through a pixel, and the distance of the water on it; -1: none.
 float look(vec2 frag_coord) {
-    bool untouched = iMouse.x == 0.0 && iMouse.y == 0.0;
-    vec2 turn = untouched ? default_turn : iMouse.xy / iResolution.xy;
+    mat3 axes = mouse_camera(mouse_turn(default_turn), vec2(yaw_range, pitch_range));
     ray_origin = camera_position;
-    ray_direction = pixel_ray(mouse_camera(turn, vec2(yaw_range, pitch_range)), frag_coord, focal_length);
+    ray_direction = pixel_ray(axes, frag_coord, focal_length);
     make_waves();
     float steepest = steepness / sqrt(1.0 - steepness * steepness);
     ray_slope = abs(ray_direction.y) + steepest * length(ray_direction.xz);
@@ -233,23 +232,8 @@ float foam_at(vec3 normal, vec2 rest, float footprint) {
 }
 #endif
 
-vec3 to_sun() {
-    return vec3(sin(sun_place.x) * cos(sun_place.y), sin(sun_place.y), cos(sun_place.x) * cos(sun_place.y));
-}
-
-// The air in a direction, without the disc of the sun.
-vec3 air(vec3 look) {
-    return sky_gradient(look, zenith_color, horizon_color);
-}
-
-vec3 sky(vec3 look) {
-    vec3 color = air(look) + sun_color * sun_glow(look, to_sun());
-#if CLOUDS
-    float drift = 256.0 * fract_of_product(0.00008, iTime);
-    vec3 lit = mix(vec3(0.75, 0.79, 0.84), sun_color + 0.12, 0.5 + 0.5 * dot(look, to_sun()));
-    color = mix(color, lit, sky_clouds(look, vec2(drift, 0.4 * drift), cloud_cover));
-#endif
-    return color;
+Sky sky() {
+    return Sky(zenith_color, horizon_color, sun_color, direction_of(sun_place), cloud_amount);
 }
 
 vec3 surface(float t, vec3 position) {
@@ -261,11 +245,10 @@ vec3 surface(float t, vec3 position) {
     vec3 base = wave_normal(rest, away, footprint);
 
     // The picture's normal and the one of the map's own frame, halved: as normalize(noiseNormal + o.Normal) is.
-    float detail = sqrt(pixel * footprint);
+    float detail = pixel * pow(footprint / pixel, 0.65);
     vec2 tilt = ripple_tilt(rest, detail);
     vec3 normal = normalize(base - 0.5 * vec3(tilt.x, 0.0, tilt.y));
-    // Facets that look away are not seen: those before them hide them.
-    normal = normalize(normal - ray_direction * max(dot(normal, ray_direction) + 0.06, 0.0));
+    normal = seen_normal(normal, ray_direction, 0.1);
 
     float foam = 0.0;
 #if FOAM
@@ -273,7 +256,7 @@ vec3 surface(float t, vec3 position) {
 #endif
     float smoothness = gloss * (1.0 - foam);
 
-    vec3 sun = to_sun();
+    vec3 sun = direction_of(sun_place);
     float lit = max(dot(normal, sun), 0.0);
     vec3 ambient = 0.55 * mix(horizon_color, zenith_color, 0.5 + 0.5 * normal.y);
     vec3 color = mix(main_color, foam_color, foam) * (ambient + 0.7 * lit * sun_color);
@@ -285,9 +268,7 @@ vec3 surface(float t, vec3 position) {
 
 #if REFLECTION
     float mirror = fresnel(normal, ray_direction, fresnel_exponent) * smoothness;
-    vec3 mirrored = reflect(ray_direction, normal);
-    mirrored.y = abs(mirrored.y);
-    color = mix(color, air(mirrored), mirror);
+    color = mix(color, sky_mirrored(sky(), ray_direction, normal), mirror);
 #endif
     float exponent = smooth_exponent(smoothness);
     color += smoothness * sun_color * (0.012 * exponent + 0.1) * 0.25 * blinn_phong(normal, sun, -ray_direction, exponent);
@@ -306,11 +287,11 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     if (t >= 0.0) {
         color = surface(t, ray_origin + t * ray_direction);
 #if FOG
-        vec3 level = normalize(vec3(ray_direction.x, 0.0, ray_direction.z) + vec3(0.0, 1e-6, 0.0));
-        color = mix(air(level) + sun_color * 0.5 * sun_glow(level, to_sun()), color, squared_clearness(t, fog_density));
+        vec3 level = normalize(vec3(ray_direction.x, 1e-6, ray_direction.z));
+        color = mix(sky_air(sky(), level), color, squared_clearness(t, fog_density));
 #endif
     } else {
-        color = sky(ray_direction);
+        color = sky_color(sky(), ray_direction);
     }
     fragColor = vec4(pow(clamp(color, 0.0, 1.0), vec3(gamma)), 1.0);
 }

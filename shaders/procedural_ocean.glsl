@@ -70,7 +70,7 @@
 #iUniform vec2 sun_place = vec2(0.35, 0.42) in { -3.1416, 3.1416 }
 #iUniform color3 zenith_color = color3(0.16, 0.37, 0.66)
 #iUniform color3 horizon_color = color3(0.62, 0.75, 0.84)
-#iUniform float cloud_cover = 0.5 in { 0.0, 1.0 }
+#iUniform float cloud_amount = 0.5 in { 0.0, 1.0 }
 #iUniform float fog_density = 0.005 in { 0.0, 0.05 }
 #iUniform float gamma = 0.65 in { 0.2, 1.5 }
 
@@ -173,10 +173,9 @@ vec2 march_clearance(float t) {
 
 // The ray through a pixel, and the distance of the water on it; -1: none.
 float look(vec2 frag_coord) {
-    bool untouched = iMouse.x == 0.0 && iMouse.y == 0.0;
-    vec2 turn = untouched ? default_turn : iMouse.xy / iResolution.xy;
+    mat3 axes = mouse_camera(mouse_turn(default_turn), vec2(yaw_range, pitch_range));
     ray_origin = camera_position;
-    ray_direction = pixel_ray(mouse_camera(turn, vec2(yaw_range, pitch_range)), frag_coord, focal_length);
+    ray_direction = pixel_ray(axes, frag_coord, focal_length);
     make_sea();
     // The noise: of the ridges' sines some hundred units away.
     MarchRange range = MarchRange(0.0, far_distance, pixel_width(focal_length), 1e-5);
@@ -199,43 +198,25 @@ vec3 rise_at(vec2 place, float epsilon) {
     return vec3(rise, h.z);
 }
 
-vec3 to_sun() {
-    return vec3(sin(sun_place.x) * cos(sun_place.y), sin(sun_place.y), cos(sun_place.x) * cos(sun_place.y));
-}
-
-// The air in a direction, without the disc of the sun.
-vec3 air(vec3 look) {
-    return sky_gradient(look, zenith_color, horizon_color);
-}
-
-vec3 sky(vec3 look) {
-    vec3 color = air(look) + specular_color * sun_glow(look, to_sun());
-#if CLOUDS
-    float drift = 256.0 * fract_of_product(0.00008, iTime);
-    vec3 lit = mix(vec3(0.72, 0.77, 0.83), specular_color, 0.5 + 0.5 * dot(look, to_sun()));
-    color = mix(color, lit, sky_clouds(look, vec2(drift, 0.4 * drift), cloud_cover));
-#endif
-    return color;
+Sky sky() {
+    return Sky(zenith_color, horizon_color, specular_color, direction_of(sun_place), cloud_amount);
 }
 
 vec3 surface(float t, vec3 position) {
     float footprint = t * pixel_width(focal_length) / max(-ray_direction.y, 0.05);
     vec3 rise = rise_at(position.xz, max(normal_epsilon, 0.5 * footprint));
     vec3 normal = normalize(vec3(-rise.x, 1.0, -rise.y));
-    // Facets that look away are not seen: those before them hide them.
-    normal = normalize(normal - ray_direction * max(dot(normal, ray_direction) + 0.05, 0.0));
+    normal = seen_normal(normal, ray_direction, 0.1);
     float high = clamp(rise.z * sea_scale / max(wave_height * 2.4, 0.001), 0.0, 1.0);
 
-    vec3 sun = to_sun();
+    vec3 sun = direction_of(sun_place);
     float lit = max(dot(normal, sun), 0.0);
     vec3 ambient = 0.6 * mix(horizon_color, zenith_color, 0.5 + 0.5 * normal.y);
     float shallow = clamp(high * high * 1.4 + 0.4 * (1.0 - normal.y), 0.0, 1.0);
     vec3 color = mix(deep_color, shallow_color, shallow) * (ambient + 0.6 * lit * specular_color + 0.35);
 
 #if REFLECTION
-    vec3 mirrored = reflect(ray_direction, normal);
-    mirrored.y = abs(mirrored.y);
-    color = mix(color, air(mirrored), min(fresnel(normal, ray_direction, fresnel_power), 1.0));
+    color = mix(color, sky_mirrored(sky(), ray_direction, normal), min(fresnel(normal, ray_direction, fresnel_power), 1.0));
 #endif
     float exponent = smooth_exponent(smoothness);
     color += specular_color * (exponent + 8.0) * 0.012 * blinn_phong(normal, sun, -ray_direction, exponent);
@@ -261,10 +242,10 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
         color = surface(t, ray_origin + t * ray_direction);
 #if FOG
         vec3 level = normalize(vec3(ray_direction.x, 1e-6, ray_direction.z));
-        color = mix(air(level), color, squared_clearness(t, fog_density));
+        color = mix(sky_air(sky(), level), color, squared_clearness(t, fog_density));
 #endif
     } else {
-        color = sky(ray_direction);
+        color = sky_color(sky(), ray_direction);
     }
     fragColor = vec4(pow(clamp(color, 0.0, 1.0), vec3(gamma)), 1.0);
 }

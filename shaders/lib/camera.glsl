@@ -14,6 +14,11 @@ mat3 mouse_camera(vec2 turned, vec2 ranges) {
     return mat3(right, cross(right, forward), forward);
 }
 
+// The mouse in parts of the picture; `untouched` while it is at (0, 0), where it is before its first click.
+vec2 mouse_turn(vec2 untouched) {
+    return iMouse.x == 0.0 && iMouse.y == 0.0 ? untouched : iMouse.xy / iResolution.xy;
+}
+
 // Unit direction of the ray through a pixel. The picture is 1 high at the distance `focal_length`.
 vec3 pixel_ray(mat3 axes, vec2 frag_coord, float focal_length) {
     vec2 at = (frag_coord - 0.5 * iResolution.xy) / iResolution.y;
