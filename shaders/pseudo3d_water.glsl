@@ -56,6 +56,8 @@
 #iChannel2 "../textures/foam_ramp.png"
 #iChannel2::WrapMode "Clamp"
 
+#include "lib/phase.glsl"
+
 // The noise picture has 256 texels a side and repeats; a repeat of the noise below has 8 of them across.
 const float k_texels = 256.0;
 const float k_cells = 8.0;
@@ -84,9 +86,10 @@ float cloud(vec2 at, vec2 dx, vec2 dy) {
     return sum / total;
 }
 
-// A shift by `speed * iTime` repeats, taken modulo the picture: as fine after a day as at the start.
+// A shift by `speed * iTime` repeats, modulo the picture: as fine after a month as at the start.
 vec2 drift(vec2 speed) {
-    return fract(speed * (k_cells / k_texels) * iTime) * k_texels;
+    vec2 pictures = speed * (k_cells / k_texels);
+    return k_texels * vec2(fract_of_product(pictures.x, iTime), fract_of_product(pictures.y, iTime));
 }
 
 float stretch(float lightness) {

@@ -6,13 +6,13 @@
 // smoothly interpolated, is K. Perlin's idea; summing ever finer octaves of it is B. Mandelbrot's. The text
 // is new.
 //
-//     stage           function        document's name
-//     wave height     crests, bob     computeWave
-//     distance field  (in march)      evaluateDistanceField
-//     raymarching     march           traceWater
-//     normal          normal_at       (in mainImage)
-//     detail          ripples         sampleNoiseTexture
-//     tint, lighting  shade           (in mainImage)
+//     stage           function              document's name
+//     wave height     crests, bob           computeWave
+//     distance field  march_field           evaluateDistanceField
+//     raymarching     march (lib/march)     traceWater
+//     normal          rise_at               (in mainImage)
+//     detail          ripples               sampleNoiseTexture
+//     tint, lighting  shade                 (in mainImage)
 //
 // The defaults are the document's numbers. Lengths are world units (the coarsest lattice cell is 6.7
 // wide), angles radians, times seconds, colours 0..1 before `gamma`. The camera stands at `camera_position`
@@ -21,9 +21,26 @@
 // look along z, 45 degrees down. (.75, .4) of the size is a good view of the open sea.
 //
 // Knobs that are compiled in:
-#define OCTAVES 7      // 0..12; the document's iterationCount. Each octave is 1.75 x finer and 0.51 x lower
-#define MAX_STEPS 128  // field samples along a ray; too few leave false water along the crests
-#define INTEGER_HASH 1 // 1: the same sea on every GPU; 0: the document's fract(sin(n) * 43785.5), which is not
+#define DOCUMENT 0 // 1: all of the document's own: its solver, hash, normal, and a drift that starts again
+#if DOCUMENT
+#define SOLVER MARCH_SPHERE
+#define INTEGER_HASH 0
+#define ANALYTIC_NORMAL 0
+#define MAX_STEPS 128
+#define STEP_SCALE 0.5
+#define DRIFT_PERIOD 62.83
+#else
+#define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's
+#define INTEGER_HASH 1       // 1: the same sea on every GPU; 0: the document's fract(sin(n) * 43785.5)
+#define ANALYTIC_NORMAL 1    // 1: from the noise's own slope; 0: from differences over SLOPE_DISTANCE
+#define MAX_STEPS 512        // field samples along a ray
+#define STEP_SCALE step_scale
+#define DRIFT_PERIOD drift_period
+#endif
+#define OCTAVES 7           // 1..12; the document's iterationCount. Each is 1.75 x finer and 0.51 x lower
+#define HIT_DISTANCE 0.0001 // MARCH_SPHERE: value of the field that counts as touching
+#define FIXED_STEP 0.1      // MARCH_FIXED: distance of its samples; wants MAX_STEPS to reach far_distance
+#define SLOPE_DISTANCE 0.01 // half of the distance that differences are taken over
 //
 // Knobs that are uniforms, camera first:
 #iUniform vec3 camera_position = vec3(0.0, 2.5, 8.0) in { -100.0, 100.0 }
@@ -31,30 +48,28 @@
 #iUniform float pitch_range = 4.7124 in { 0.0, 6.2832 }
 #iUniform float focal_length = 1.0 in { 0.2, 5.0 }
 // waves: height of the whole sum before the first gain; ratio of heights and of frequencies from octave to
-// octave; lattice cells per unit; drift in z per second; the seconds after which the drift starts again (a
-// visible cut: the noise does not repeat); amplitude and rate of the turn between octaves; bobbing height
+// octave; lattice cells per unit; drift in z per second; the seconds after which the drift starts again, a
+// visible cut (0: never; the document's 62.83); amplitude and rate of the turn between octaves; bobbing height
 // (the document's 0.3, which its factor 1/2 makes 0.6), rate and radians per unit along x
 #iUniform float wave_height = 3.0 in { 0.0, 8.0 }
 #iUniform float wave_gain = 0.51 in { 0.1, 0.8 }
 #iUniform float wave_lacunarity = 1.75 in { 1.1, 2.5 }
 #iUniform float wave_scale = 0.15 in { 0.01, 0.5 }
 #iUniform float wave_speed = 3.0 in { -10.0, 10.0 }
-#iUniform float drift_period = 62.83 in { 1.0, 100000.0 }
+#iUniform float drift_period = 0.0 in { 0.0, 100000.0 }
 #iUniform float turn_angle = 0.001 in { 0.0, 0.5 }
 #iUniform float turn_rate = 0.15 in { 0.0, 2.0 }
 #iUniform float bob_height = 0.6 in { 0.0, 3.0 }
 #iUniform float bob_rate = 1.0 in { 0.0, 5.0 }
 #iUniform float bob_frequency = 0.3 in { 0.0, 2.0 }
-// solver: part of the height above the water that a step dares to go (at 1.0 crests are overrun); value of
-// the field that counts as touching; first and last distance
-#iUniform float step_scale = 0.5 in { 0.05, 1.0 }
-#iUniform float hit_distance = 0.0001 in { 0.000005, 0.01 }
+// solver: part of the height above the water that a step dares to go (the document's 0.5; at 1.0 crests are
+// overrun; higher waves want less); first and last distance
+#iUniform float step_scale = 0.7 in { 0.05, 1.0 }
 #iUniform float near_distance = 0.1 in { 0.0, 10.0 }
 #iUniform float far_distance = 43.0 in { 1.0, 400.0 }
-// light: how much of the true slope the normal shows, and over which distance it is taken; exponent, gain
-// and brightness of the Fresnel glint; density of the fog per unit cubed; exponent of the encoded picture
+// light: how much of the true slope the normal shows; exponent, gain and brightness of the Fresnel glint;
+// density of the fog per unit cubed; exponent of the encoded picture
 #iUniform float slope_scale = 0.5 in { 0.0, 2.0 }
-#iUniform float slope_distance = 0.01 in { 0.001, 0.2 }
 #iUniform float glint_exponent = 5.0 in { 1.0, 12.0 }
 #iUniform float glint_gain = 1.5 in { 0.0, 10.0 }
 #iUniform float glint_brightness = 0.4 in { 0.0, 2.0 }
@@ -73,210 +88,213 @@
 #iUniform float ripple_contrast = 1.2 in { 0.1, 4.0 }
 #iChannel0 "noise"
 
+#include "lib/camera.glsl"
+#include "lib/fog.glsl"
+#include "lib/fresnel.glsl"
+#include "lib/march.glsl"
+#include "lib/noise.glsl"
+#include "lib/phase.glsl"
+
+// ---- The sea of this frame ------------------------------------------------------------------------------
+
 // What depends on uniforms alone, worked out once a pixel instead of once a field sample.
-struct Sea {
-    float drift;     // in z
-    float bob_phase; // 0..2 pi
-    mat2 finer;      // x and y from one octave to the next: turned and scaled
-};
+float sea_seconds;         // of the drift
+float sea_bob_phase;       // 0..2 pi
+mat2 sea_finer;            // x and y from one octave to the next: turned and scaled
+float sea_drift[OCTAVES];  // in cells of the octave: the fraction,
+int sea_cells[OCTAVES];    // and the whole, which moves the lattice
 
-Sea sea_now() {
-    Sea sea;
-    sea.drift = wave_speed * mod(iTime, drift_period);
+void make_sea() {
+    sea_bob_phase = phase(bob_rate, iTime);
 
-    // Two parts of 2 pi, the first with few bits: reduced here, the phase keeps its resolution in space when
-    // the time is large.
-    float bob_time = bob_rate * iTime;
-    float turns = floor(bob_time / 6.283185307);
-    sea.bob_phase = (bob_time - turns * 6.28125) - turns * 0.001935307180;
-
-    float angle = turn_angle * sin(turn_rate * iTime);
+    float angle = turn_angle * sin(phase(turn_rate, iTime));
     float c = wave_lacunarity * cos(angle);
     float s = wave_lacunarity * sin(angle);
-    sea.finer = mat2(c, -s, s, c);
-    return sea;
+    sea_finer = mat2(c, -s, s, c);
+
+    sea_seconds = DRIFT_PERIOD > 0.0 ? mod(iTime, DRIFT_PERIOD) : iTime;
+    float rate = wave_scale * wave_speed;
+    for (int octave = 0; octave < OCTAVES; ++octave) {
+        sea_drift[octave] = split_product(rate, sea_seconds, sea_cells[octave]);
+        rate *= wave_lacunarity;
+    }
 }
 
-// ---- Value noise ----------------------------------------------------------------------------------------
-
-#if INTEGER_HASH
-// A lattice point is one number mod 2^32: a sum with odd weights that are powers of the root of x^4 = x + 1,
-// inverted, times 2^32, so that neighbours fall far apart. Folding the high half onto the low one and one odd
-// multiplication then leave the upper 24 bits without correlation at any offset up to 6 (3.4 sigma at most
-// over 1,098 offsets, of the values and of their distance from the mean).
-const uvec3 k_lattice_weight = uvec3(3518319155u, 2882110345u, 2360945575u);
-const float k_lattice_unit = 1.0 / 16777216.0;
-
-vec4 scatter(uvec4 point) {
-    return vec4(ivec4(((point ^ (point >> 15)) * 0xb995450du) >> 8));
+// From one octave's lattice to the next.
+vec3 finer(vec3 point) {
+    return vec3(sea_finer * point.xy, wave_lacunarity * point.z);
 }
 
-void lattice(vec3 cell, out vec4 left, out vec4 right) {
-    const uvec3 w = k_lattice_weight;
-    uvec3 at = uvec3(ivec3(cell)) * w;
-    uvec4 points = uvec4(0u, w.y, w.z, w.y + w.z) + (at.x + at.y + at.z);
-    left = scatter(points);
-    right = scatter(points + w.x);
-}
-#else
-const float k_lattice_unit = 1.0;
-
-vec4 scatter(vec4 point) {
-    return fract(sin(point) * 43785.5);
-}
-
-void lattice(vec3 cell, out vec4 left, out vec4 right) {
-    const vec3 w = vec3(7.0, 157.0, 113.0);
-    vec4 points = vec4(0.0, w.y, w.z, w.y + w.z) + dot(cell, w);
-    left = scatter(points);
-    right = scatter(points + w.x);
-}
-#endif
-
-// 0..1. The four values at x and at x + 1 stand in the order (y, z) = 00, 10, 01, 11.
-float value_noise(vec3 position) {
-    vec3 cell = floor(position);
-    vec3 part = position - cell;
-    part *= part * (3.0 - 2.0 * part);
-    vec4 left, right;
-    lattice(cell, left, right);
-    // a + t (b - a) by hand: software rasterisers spend one operation more on mix().
-    vec4 edge = left + part.x * (right - left);
-    vec2 face = edge.xz + part.y * (edge.yw - edge.xz);
-    return k_lattice_unit * (face.x + part.z * (face.y - face.x));
+vec3 drifted(vec3 point, int octave) {
+    return vec3(point.xy, point.z - sea_drift[octave]);
 }
 
 // ---- The field ------------------------------------------------------------------------------------------
 
-// sin(x) for 0 <= x <= 1/2 to 6e-9: less than a rounding of the result, and the same on every GPU.
+// sin(x) for 0 <= x <= 1/2 to 2.4e-8: less than a rounding of the result, and the same on every GPU.
 float short_sine(float x) {
     float xx = x * x;
-    return x * (1.0 + xx * (-1.0 / 6.0 + xx * (1.0 / 120.0 - xx * (1.0 / 5040.0))));
+    return x * (0.99999966 + xx * (-0.16665588 + xx * 0.008246925));
 }
 
-// How far the folded octaves push the water down, 0..4.66 at the defaults; `point` in cells of the coarsest.
-float crests(vec3 point, Sea sea) {
+// How far the folded octaves push the water down: 0..4.66 at the defaults, slope 5.52 at most.
+float crests(vec3 position) {
+    vec3 point = wave_scale * position;
     float depth = 0.0;
     float height = 3.14 * wave_height;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         height *= wave_gain;
-        depth += height * short_sine(abs(value_noise(point) - 0.5));
-        point = vec3(sea.finer * point.xy, wave_lacunarity * point.z);
+        depth += height * short_sine(abs(value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave])) - 0.5));
+        point = finer(point);
     }
     return depth;
 }
 
-// -bob_height..bob_height
-float bob(float x, Sea sea) {
-    return bob_height * sin(sea.bob_phase + bob_frequency * x);
+// The crests in x and their slope along world x and z in yz.
+vec3 crests_slope(vec3 position) {
+    vec3 point = wave_scale * position;
+    mat2 turn = mat2(wave_scale); // world x and y to the octave's lattice,
+    float stretch = wave_scale;   // and world z
+    vec3 sum = vec3(0.0);
+    float height = 3.14 * wave_height;
+    for (int octave = 0; octave < OCTAVES; ++octave) {
+        height *= wave_gain;
+        vec4 noise = value_noise_gradient(drifted(point, octave), ivec3(0, 0, -sea_cells[octave]));
+        float sine = short_sine(abs(noise.x - 0.5));
+        float cosine = sqrt(1.0 - sine * sine);
+        float fold = noise.x < 0.5 ? -cosine : cosine;
+        sum += height * vec3(sine, fold * dot(turn[0], noise.yz), fold * stretch * noise.w);
+        point = finer(point);
+        turn = sea_finer * turn;
+        stretch *= wave_lacunarity;
+    }
+    return sum;
 }
 
-vec3 lattice_point(vec3 position, Sea sea) {
-    return wave_scale * (position - vec3(0.0, 0.0, sea.drift));
+// -bob_height..bob_height
+float bob(float x) {
+    return bob_height * sin(sea_bob_phase + bob_frequency * x);
 }
 
 // ---- The ray --------------------------------------------------------------------------------------------
 
-struct Hit {
-    bool water;
-    float distance;
-    float sampled; // where the field was last looked at: short of `distance` only when the steps ran out
-    float depth;   // of the crests there
-};
+vec3 ray_origin;
+vec3 ray_direction;
 
-// Steps by a part of the field's value. That is sphere tracing but for its proof: the field's slope may reach
-// 3.35 times step_scale / 0.5, so a ray can sink in a little (0.05 at most was seen at the defaults).
-Hit march(vec3 origin, vec3 direction, Sea sea) {
-    Hit hit = Hit(false, far_distance, far_distance, 0.0);
-    // Nothing of the sea is above bob_height: a ray from there that does not fall meets none.
-    if (origin.y > bob_height && direction.y >= 0.0) {
-        return hit;
+// The height above the water, all but: its slope may reach 6.70 at the defaults (3.75 was seen), so that it
+// is a distance, proved, when multiplied by 0.149. At STEP_SCALE, which is larger, a step can sink in a little.
+float march_field(float t) {
+    vec3 position = ray_origin + t * ray_direction;
+    return STEP_SCALE * (position.y + crests(position) + bob(position.x));
+}
+
+#if SOLVER == MARCH_CERTIFIED
+// No octave is negative, so every sum of the coarsest ones is a lower bound, and with its own, smaller slope
+// (3/2 a cell and octave, lib/noise.glsl) it may prove more than the whole. The best of all of them.
+vec2 march_clearance(float t) {
+    vec3 position = ray_origin + t * ray_direction;
+    float sum = position.y + bob(position.x);
+    float slope = abs(ray_direction.y) + bob_height * bob_frequency * abs(ray_direction.x);
+    float clearance = sum / slope;
+    vec3 point = wave_scale * position;
+    float stretch = wave_scale;
+    float height = 3.14 * wave_height;
+    for (int octave = 0; octave < OCTAVES; ++octave) {
+        height *= wave_gain;
+        sum += height * short_sine(abs(value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave])) - 0.5));
+        slope += 1.5 * height * stretch;
+        clearance = max(clearance, sum / slope);
+        point = finer(point);
+        stretch *= wave_lacunarity;
     }
-    vec3 start = lattice_point(origin, sea);
-    vec3 along = wave_scale * direction;
-    hit.distance = near_distance;
-    for (int i = 0; i < MAX_STEPS; ++i) {
-        hit.sampled = hit.distance;
-        vec3 position = origin + hit.sampled * direction;
-        hit.depth = crests(start + hit.sampled * along, sea);
-        float field = step_scale * (position.y + hit.depth + bob(position.x, sea));
-        if (field < hit_distance || hit.sampled > far_distance) {
-            break;
-        }
-        hit.distance += field;
-    }
-    hit.water = hit.distance <= far_distance;
-    return hit;
+    return vec2(STEP_SCALE * sum, clearance);
+}
+#endif
+
+// The ray through a pixel, and the distance of the water on it; -1: none.
+float look(vec2 frag_coord) {
+    mat3 axes = mouse_camera(iMouse.xy / iResolution.xy, vec2(yaw_range, pitch_range));
+    ray_origin = camera_position;
+    ray_direction = pixel_ray(axes, frag_coord, focal_length);
+    make_sea();
+    // The noise: of the coordinates of the finest octave, times its slope.
+    MarchRange range = MarchRange(near_distance, far_distance, pixel_width(focal_length), 2e-6);
+#if !DOCUMENT
+    float deepest = 3.14 * wave_height * sin(0.5) * wave_gain / (1.0 - wave_gain);
+    range = clip_to_slab(range, ray_origin, ray_direction, -deepest - bob_height, bob_height);
+#endif
+    return march(range);
 }
 
 // ---- Shading --------------------------------------------------------------------------------------------
 
-// Unit normal from central differences. `slope_scale` 1/2 is the document's: its field carries the factor
-// 1/2 while its vertical part does not. A loop, so that a compiler need not hold four copies of the octaves.
-vec3 normal_at(vec3 position, Sea sea) {
-    vec3 point = lattice_point(position, sea);
-    float e = slope_distance;
-    vec2 rise = vec2(bob(position.x + e, sea) - bob(position.x - e, sea), 0.0);
+// The water's slope along x and z, and the depth of the crests in z.
+vec3 rise_at(vec3 position) {
+#if ANALYTIC_NORMAL
+    vec3 rise = crests_slope(position);
+    rise.y += bob_height * bob_frequency * cos(sea_bob_phase + bob_frequency * position.x);
+    return rise.yzx;
+#else
+    // A loop, so that a compiler need not hold four copies of the octaves.
+    const float e = SLOPE_DISTANCE;
+    vec2 rise = vec2(bob(position.x + e) - bob(position.x - e), 0.0);
     for (int i = 0; i < 4; ++i) {
         vec2 axis = (i & 1) == 0 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
         float side = i < 2 ? 1.0 : -1.0;
-        rise += side * axis * crests(point + side * wave_scale * e * vec3(axis.x, 0.0, axis.y), sea);
+        rise += side * axis * crests(position + side * e * vec3(axis.x, 0.0, axis.y));
     }
-    return normalize(vec3(slope_scale * rise.x, 2.0 * e, slope_scale * rise.y));
+    return vec3(rise / (2.0 * e), crests(position));
+#endif
 }
 
-// 0.05..0.5 at a contrast above 0
+// Four octaves of the noise picture, 0.05..0.5 at a contrast above 0. Repeats after 8.
 float ripples(vec2 uv) {
     float sum = 0.5 * texture(iChannel0, 0.125 * uv).r + 0.25 * texture(iChannel0, 0.25 * uv).r +
                 0.125 * texture(iChannel0, 0.5 * uv).r + 0.125 * texture(iChannel0, uv).r;
     return 0.45 * pow(sum, ripple_contrast) + 0.05;
 }
 
-// Where the next finer octave would look, in world units: the noise picture is laid along it.
-vec2 finest(vec3 position, Sea sea) {
-    vec3 point = position - vec3(0.0, 0.0, sea.drift);
+// The noise picture, laid along the lattice of the octave after the last.
+float ripples_at(vec3 position) {
+    float stretch = 1.0;
     for (int octave = 0; octave < OCTAVES; ++octave) {
-        point = vec3(sea.finer * point.xy, wave_lacunarity * point.z);
+        position.xy = sea_finer * position.xy;
+        stretch *= wave_lacunarity;
     }
-    return point.xz;
+    vec2 scale = vec2(broad_scale, fine_scale);
+    vec2 rate = 0.125 * scale * stretch * wave_speed;
+    vec2 drift = 8.0 * vec2(fract_of_product(rate.x, sea_seconds), fract_of_product(rate.y, sea_seconds));
+    vec2 at = vec2(position.x, stretch * position.z);
+    return ripples(scale.x * at - vec2(0.0, drift.x)) + fine_weight * ripples(scale.y * at - vec2(0.0, drift.y));
 }
 
-vec3 shade(Hit hit, vec3 position, vec3 direction, float ripple, Sea sea) {
-    vec3 normal = normal_at(position, sea);
-    // Unit vectors may give a cosine a rounding above 1; pow() of what is then below 0 is undefined.
-    float facing = max(1.0 + dot(normal, direction), 0.0);
-    float glint = clamp(glint_gain * pow(facing, glint_exponent), 0.0, 1.0);
-    float tint = clamp(crest_tint * hit.depth + ripple_tint * ripple, 0.0, 1.0);
+// `slope_scale` 1/2 is the document's: its field carries the factor 1/2 while its vertical part does not.
+vec3 shade(float t, vec3 position, float ripple) {
+    vec3 rise = rise_at(position);
+    vec3 normal = normalize(vec3(slope_scale * rise.x, 1.0, slope_scale * rise.y));
+    float glint = clamp(glint_gain * fresnel(normal, ray_direction, glint_exponent), 0.0, 1.0);
+    float tint = clamp(crest_tint * rise.z + ripple_tint * ripple, 0.0, 1.0);
     vec3 water = mix(deep_color, bright_color, tint) + glint_brightness * glint;
-    float clear = exp(-fog_density * hit.distance * hit.distance * hit.distance);
-    return mix(air_color, water, clear);
+    return mix(air_color, water, cubic_clearness(t, fog_density));
 }
 
-// Columns: right, up, forward. Right is cross(forward, y) made unit by hand, so that straight down has one.
-mat3 camera_axes() {
-    vec2 turned = clamp(iMouse.xy / iResolution.xy, 0.0, 1.0) - 0.5;
-    float yaw = yaw_range * turned.x;
-    float pitch = pitch_range * turned.y;
-    float level = cos(pitch);
-    vec3 forward = vec3(sin(yaw) * level, sin(pitch), cos(yaw) * level);
-    vec3 right = (level < 0.0 ? -1.0 : 1.0) * vec3(-cos(yaw), 0.0, sin(yaw));
-    return mat3(right, cross(right, forward), forward);
+#ifdef TIDEMARK_HIT
+void mainHit(out vec4 hit, in vec2 fragCoord) {
+    hit = march_report(look(fragCoord));
 }
+#endif
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
-    vec2 uv = (fragCoord / iResolution.xy - 0.5) * vec2(iResolution.x / iResolution.y, 1.0);
-    vec3 direction = camera_axes() * normalize(vec3(uv, focal_length));
-    Sea sea = sea_now();
-    Hit hit = march(camera_position, direction, sea);
+    float t = look(fragCoord);
+    vec3 position = ray_origin + (t < 0.0 ? far_distance : t) * ray_direction;
 
     // Looked up for every pixel, the ones in the air too: beside the water's edge a texture read inside the
     // branch would have no neighbour to take its mipmap level from.
-    vec2 grain = finest(camera_position + hit.sampled * direction, sea);
-    float ripple = ripples(broad_scale * grain) + fine_weight * ripples(fine_scale * grain);
+    float ripple = ripples_at(position);
 
     vec3 color = air_color;
-    if (hit.water) {
-        color = shade(hit, camera_position + hit.distance * direction, direction, ripple, sea);
+    if (t >= 0.0) {
+        color = shade(t, position, ripple);
     }
     fragColor = vec4(pow(max(color, 0.0), vec3(gamma)), 1.0);
 }

@@ -29,4 +29,9 @@ glm::dvec3 KnobReader::triple(std::string_view name) {
     return {float(v[0]), float(v[1]), float(v[2])};
 }
 
+glm::dvec4 KnobReader::quadruple(std::string_view name) {
+    const scene::KnobValue v = value(name);
+    return {float(v[0]), float(v[1]), float(v[2]), float(v[3])};
+}
+
 } // namespace tidemark::lab

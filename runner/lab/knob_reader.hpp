@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@ public:
     double number(std::string_view name) { return float(value(name)[0]); }
     glm::dvec2 pair(std::string_view name);
     glm::dvec3 triple(std::string_view name);
+    glm::dvec4 quadruple(std::string_view name);
 
     const std::optional<Error>& error() const { return error_; }
 

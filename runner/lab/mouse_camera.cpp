@@ -8,10 +8,13 @@
 
 namespace tidemark::lab {
 
-std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const ReferenceInputs& inputs) {
+std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const ReferenceInputs& inputs,
+                                                   const std::optional<glm::dvec2>& untouched) {
     const glm::dvec3 position = knobs.triple("camera_position");
     const double focal_length = knobs.number("focal_length");
-    const glm::dvec2 turned = glm::clamp(inputs.mouse / inputs.resolution, 0.0, 1.0) - 0.5;
+    const bool at_rest = untouched && inputs.mouse == glm::dvec2(0);
+    const glm::dvec2 turn = at_rest ? *untouched : inputs.mouse / inputs.resolution;
+    const glm::dvec2 turned = glm::clamp(turn, 0.0, 1.0) - 0.5;
     const double yaw = knobs.number("yaw_range") * turned.x;
     const double pitch = knobs.number("pitch_range") * turned.y;
 

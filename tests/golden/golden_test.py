@@ -1,4 +1,4 @@
-"""The two scenes look as they did when a person last looked. README.md: how to change a golden picture."""
+"""The scenes look as they did when a person last looked. README.md: how to change a golden picture."""
 import pathlib
 import shutil
 
@@ -8,7 +8,7 @@ from support.program import ROOT, ProgramTest, main
 GOLDEN = ROOT / "tests" / "golden"
 FAILED = ROOT / "build" / "golden-failed"
 
-SCENES = ["water_surface", "pseudo3d_water"]
+SCENES = ["water_surface", "pseudo3d_water", "procedural_ocean", "gerstner_waves"]
 VIEWS = {
     "t2": ["--time", "2"],
     "t40": ["--time", "40"],
