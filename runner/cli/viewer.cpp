@@ -62,7 +62,8 @@ Result<Viewer> Viewer::open(Settings settings) {
     if (auto watched = watcher->watch(scene->files); !watched)
         say(to_string(watched.error())); // it can still be looked at
     auto renderer = render::Renderer::create(
-        *std::move(scene), {window->framebuffer_extent(), image::SampleType::u8, settings.pass});
+        *std::move(scene), {window->framebuffer_extent(), image::SampleType::u8, settings.pass,
+                            precision_of(settings.scene)});
     if (!renderer)
         return fail(std::move(renderer.error()));
     return Viewer(std::move(settings), *std::move(window), *std::move(watcher), *std::move(renderer));
@@ -287,7 +288,8 @@ Result<Viewer::ReloadTimes> Viewer::reload() {
         return fail(std::move(watched.error()));
     times.loaded = now_seconds();
     auto fresh = render::Renderer::create(*std::move(scene),
-                                          {renderer_.extent(), image::SampleType::u8, settings_.pass});
+                                          {renderer_.extent(), image::SampleType::u8, settings_.pass,
+                                           renderer_.precision()});
     if (!fresh)
         return fail(std::move(fresh.error()));
     renderer_ = *std::move(fresh);
