@@ -62,7 +62,7 @@ class Promoter {
 public:
     Promoter(text::MappedText body, bool hashes_too)
         : body_(std::move(body)), reading_(body_.text()), tokens_(reading_.tokens),
-          in_floats_(tokens_.size(), false), hashes_too_(hashes_too) {}
+          settled_(tokens_.size(), false), hashes_too_(hashes_too) {}
 
     Result<Promoted> run() {
         if (!hashes_too_)
@@ -99,9 +99,9 @@ private:
     // What stays in floats
 
     void keep(const FloatRegion& region) {
-        std::fill(in_floats_.begin() + long(region.begin), in_floats_.begin() + long(region.end), true);
+        std::fill(settled_.begin() + long(region.begin), settled_.begin() + long(region.end), true);
         for (const auto& [first, last] : region.outside) {
-            std::fill(in_floats_.begin() + long(first), in_floats_.begin() + long(last) + 1, false);
+            std::fill(settled_.begin() + long(first), settled_.begin() + long(last) + 1, false);
             edits_.before(first, fmt::format("{}(", k_single));
             edits_.after(last, ")");
             used_.insert("single");
@@ -150,7 +150,7 @@ private:
     void promote_token(size_t i) {
         const Token& token = tokens_[i];
         const Place place = reading_.places[i];
-        if (in_floats_[i])
+        if (settled_[i])
             return note_bits(i);
         if (token.kind == TokenKind::identifier && is_replaced(canonical(token.text)))
             return promote_call(i);
@@ -179,7 +179,8 @@ private:
 
     /// Neighbours of `##` are pieces of words.
     bool is_pasted(size_t i) const {
-        return (i > 0 && tokens_[i - 1].is("#")) || (i + 1 < tokens_.size() && tokens_[i + 1].is("#"));
+        return (i > 0 && tokens_[i - 1].is("#")) ||
+               (i + 1 < tokens_.size() && tokens_[i + 1].is("#") && !tokens_[i + 1].first_on_line);
     }
 
     void promote_literal(size_t i) {
@@ -199,7 +200,7 @@ private:
         else if (is_precision(token.text))
             edits_.remove(i);
         else if (token.is("precision"))
-            remove_statement(i);
+            remove_precision(i);
         else if ((token.is("gl_FragCoord") || token.is("gl_PointCoord")) &&
                  (is_ours(i) || !reading_.macros.contains(token.text)))
             edits_.replace(i, fmt::format("{}({})", token.is("gl_FragCoord") ? "dvec4" : "dvec2", token.text));
@@ -209,11 +210,14 @@ private:
             promote_special(i);
     }
 
-    void remove_statement(size_t i) {
-        for (; i < tokens_.size() && !tokens_[i].first_on_line && !tokens_[i].is(";"); ++i)
+    /// `precision highp float;`
+    void remove_precision(size_t i) {
+        for (const size_t end = std::min(i + 4, tokens_.size()); i < end; ++i) {
             edits_.remove(i);
-        if (i < tokens_.size() && tokens_[i].is(";"))
-            edits_.remove(i);
+            settled_[i] = true;
+            if (tokens_[i].is(";"))
+                return;
+        }
     }
 
     void promote_special(size_t i) {
@@ -323,7 +327,7 @@ private:
     Reading reading_;
     const std::vector<Token>& tokens_;
     TokenEdits edits_;
-    std::vector<bool> in_floats_;
+    std::vector<bool> settled_; ///< tokens that nothing more is done to
     bool hashes_too_;
     std::set<std::string_view> used_;
     std::vector<std::string> outputs_; ///< assignments at the end of main
