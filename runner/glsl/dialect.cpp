@@ -13,10 +13,12 @@ std::string to_string(const Dialect& dialect) {
     std::string_view main = dialect.main == MainPlace::first  ? ""
                             : dialect.main == MainPlace::last ? ", main last"
                                                               : ", the author's own main";
-    std::string_view precision = dialect.precision == Precision::single     ? ""
-                                 : dialect.precision == Precision::promoted ? ", in double precision"
-                                                                            : ", in double precision, hashes too";
-    return fmt::format("{}{}{}{}", version, main, dialect.initialise ? "" : ", nothing initialised", precision);
+    std::string_view precision = dialect.precision == Precision::single ? ""
+                                 : dialect.precision == Precision::promoted
+                                     ? ", in double precision"
+                                     : ", in double precision, hashes too";
+    return fmt::format("{}{}{}{}", version, main, dialect.initialise ? "" : ", nothing initialised",
+                       precision);
 }
 
 std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass) {

@@ -47,8 +47,8 @@ struct Dialect {
 /// "330 core", with what else is unusual: "300 es, main last".
 std::string to_string(const Dialect& dialect);
 
-/// The dialects worth offering for `pass` in single precision, the likeliest first; never empty. The first that links is the one:
-/// when none does, the first one's messages are the best.
+/// The dialects worth offering for `pass` in single precision, the likeliest first; never empty. The first
+/// that links is the one: when none does, the first one's messages are the best.
 std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass);
 
 /// After the driver refused `source` with `log`: kinds for the channels that nobody specified, the likeliest

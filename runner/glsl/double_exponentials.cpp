@@ -120,8 +120,8 @@ double tidemark_double_log2(double x) {
 }
 )";
 
-/// 2^(y log2 x), log2 x in two parts from 3 atanh(s) = s (3 + s^2 + s^4 W(s^2)), W good to 2^-73. A negative x
-/// has a power where floats have one by accident, because drivers make products of x^1, x^2 and x^4.
+/// 2^(y log2 x), log2 x in two parts from 3 atanh(s) = s (3 + s^2 + s^4 W(s^2)), W good to 2^-73. A negative
+/// x has a power where floats have one by accident, because drivers make products of x^1, x^2 and x^4.
 constexpr std::string_view k_pow = R"(
 double tidemark_pow_positive(double x, double y) {
     dvec2 mk = tidemark_mantissa(x);

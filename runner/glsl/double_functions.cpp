@@ -14,22 +14,31 @@ namespace {
 struct FloatFunction {
     std::string_view name;
     std::string_view result;
-    std::vector<std::string_view> parameters; ///< types of a promoted text, with commas: one for each overload
+    std::vector<std::string_view>
+        parameters; ///< types of a promoted text, with commas: one for each overload
 };
 
 std::vector<FloatFunction> float_functions() {
     return {
-        {"texture", "dvec4",
+        {"texture",
+         "dvec4",
          {"sampler2D,dvec2", "sampler2D,dvec2,double", "samplerCube,dvec3", "samplerCube,dvec3,double",
           "sampler3D,dvec3", "sampler3D,dvec3,double"}},
-        {"textureLod", "dvec4", {"sampler2D,dvec2,double", "samplerCube,dvec3,double", "sampler3D,dvec3,double"}},
-        {"textureGrad", "dvec4",
+        {"textureLod",
+         "dvec4",
+         {"sampler2D,dvec2,double", "samplerCube,dvec3,double", "sampler3D,dvec3,double"}},
+        {"textureGrad",
+         "dvec4",
          {"sampler2D,dvec2,dvec2,dvec2", "samplerCube,dvec3,dvec3,dvec3", "sampler3D,dvec3,dvec3,dvec3"}},
-        {"textureProj", "dvec4",
+        {"textureProj",
+         "dvec4",
          {"sampler2D,dvec3", "sampler2D,dvec3,double", "sampler2D,dvec4", "sampler2D,dvec4,double",
           "sampler3D,dvec4", "sampler3D,dvec4,double"}},
-        {"textureProjLod", "dvec4", {"sampler2D,dvec3,double", "sampler2D,dvec4,double", "sampler3D,dvec4,double"}},
-        {"textureProjGrad", "dvec4",
+        {"textureProjLod",
+         "dvec4",
+         {"sampler2D,dvec3,double", "sampler2D,dvec4,double", "sampler3D,dvec4,double"}},
+        {"textureProjGrad",
+         "dvec4",
          {"sampler2D,dvec3,dvec2,dvec2", "sampler2D,dvec4,dvec2,dvec2", "sampler3D,dvec4,dvec3,dvec3"}},
         {"textureQueryLod", "dvec2", {"sampler2D,dvec2", "samplerCube,dvec3", "sampler3D,dvec3"}},
         {"texelFetch", "dvec4", {"sampler2D,ivec2,int", "sampler3D,ivec3,int"}},

@@ -40,8 +40,8 @@ bool is_replaced(std::string_view name);
 /// Names and parameter types (`sinh`, `dvec2`; commas without blanks) that the author defines.
 using Signatures = std::set<std::pair<std::string, std::string>>;
 
-/// The text of the functions `used` (GLSL's names) and of all that they need; what the author defines with the
-/// same parameters is left out.
+/// The text of the functions `used` (GLSL's names) and of all that they need; what the author defines with
+/// the same parameters is left out.
 std::string double_functions(const std::set<std::string_view>& used, const Signatures& own);
 
 // The subjects; `all_double_functions` puts them together.

@@ -52,7 +52,8 @@ public:
                 found_.push_back(*std::move(region));
             }
         }
-        std::sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+        std::sort(found_.begin(), found_.end(),
+                  [](const auto& a, const auto& b) { return a.begin < b.begin; });
         return std::move(found_);
     }
 
@@ -176,9 +177,9 @@ private:
                 continue;
             int depth = 0;
             for (size_t k = i + 1; k < function.body_end && !tokens_[k].is(";"); ++k) {
-                depth += tokens_[k].is("(") || tokens_[k].is("[") ? 1
+                depth += tokens_[k].is("(") || tokens_[k].is("[")   ? 1
                          : tokens_[k].is(")") || tokens_[k].is("]") ? -1
-                                                                     : 0;
+                                                                    : 0;
                 if (depth == 0 && tokens_[k].kind == TokenKind::identifier &&
                     (k == i + 1 || tokens_[k - 1].is(",")))
                     locals.insert(tokens_[k].text);
@@ -219,7 +220,8 @@ private:
     }
 
     /// Every variable, macro or function from outside in [begin, end), with all that is applied to it.
-    bool find_outside(FloatRegion& region, size_t begin, size_t end, const std::set<std::string_view>& locals) {
+    bool find_outside(FloatRegion& region, size_t begin, size_t end,
+                      const std::set<std::string_view>& locals) {
         for (size_t i = begin; i < end; ++i) {
             if (tokens_[i].kind != TokenKind::identifier || reading_.places[i] == Place::directive ||
                 is_own(i, end, locals))
@@ -254,7 +256,8 @@ private:
         }
         if (last >= end || (last + 1 < end && tokens_[last + 1].kind == TokenKind::identifier))
             return std::nullopt;
-        const bool steps_first = first >= 2 && (reading_.is_pair(first - 2, "++") || reading_.is_pair(first - 2, "--"));
+        const bool steps_first =
+            first >= 2 && (reading_.is_pair(first - 2, "++") || reading_.is_pair(first - 2, "--"));
         const bool steps_last = reading_.is_pair(last + 1, "++") || reading_.is_pair(last + 1, "--");
         const bool assigned = is_assignment(last + 1);
         if (whole && (steps_first || steps_last || assigned))

@@ -1,6 +1,6 @@
-// Finds the hashes in a text: functions and expressions that take the last bits of a float for random numbers,
-// `fract(sin(x) * 43758.5)` and their like. In double they would give other numbers, that is, another scene:
-// the same scene in more digits needs them as they are.
+// Finds the hashes in a text: functions and expressions that take the last bits of a float for random
+// numbers, `fract(sin(x) * 43758.5)` and their like. In double they would give other numbers, that is,
+// another scene: the same scene in more digits needs them as they are.
 #pragma once
 
 #include "glsl/reading.hpp"

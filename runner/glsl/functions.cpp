@@ -123,8 +123,9 @@ std::vector<Function> find_functions(const std::vector<Token>& tokens, const Pre
 }
 
 const Function* function_around(const std::vector<Function>& functions, size_t token) {
-    auto next = std::upper_bound(functions.begin(), functions.end(), token,
-                                 [](size_t wanted, const Function& each) { return wanted < each.type_token; });
+    auto next =
+        std::upper_bound(functions.begin(), functions.end(), token,
+                         [](size_t wanted, const Function& each) { return wanted < each.type_token; });
     if (next == functions.begin())
         return nullptr;
     --next;

@@ -42,7 +42,8 @@ private:
     }
 
     bool is_lost(const Token& word) const {
-        return word.kind == TokenKind::identifier && (lost_names_.contains(word.text) || replaced_(word.text));
+        return word.kind == TokenKind::identifier &&
+               (lost_names_.contains(word.text) || replaced_(word.text));
     }
 
     bool is_lost(size_t begin, size_t end) const {

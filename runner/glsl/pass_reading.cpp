@@ -57,7 +57,8 @@ std::vector<Dialect> PassReading::dialects(Precision precision) const {
             dialects.push_back({Version::core_450, place, true, channels, precision});
         dialects.push_back({Version::core_330, places.front(), true, channels, precision});
         if (precision == Precision::promoted)
-            dialects.push_back({Version::core_450, places.front(), true, channels, Precision::promoted_whole});
+            dialects.push_back(
+                {Version::core_450, places.front(), true, channels, Precision::promoted_whole});
         return dialects;
     }
     for (const MainPlace place : places)

@@ -28,16 +28,16 @@ struct WrappedCall {
     unsigned floats; ///< bit n: argument n becomes a float
 };
 constexpr WrappedCall k_wrapped_calls[] = {
-    {"textureOffset", 0b1010},      {"textureLodOffset", 0b0110},     {"textureGradOffset", 0b1110},
-    {"textureProjOffset", 0b1010},  {"textureProjLodOffset", 0b0110}, {"textureProjGradOffset", 0b1110},
-    {"textureGather", 0b0010},      {"textureGatherOffset", 0b0010},  {"textureGatherOffsets", 0b0010},
+    {"textureOffset", 0b1010},     {"textureLodOffset", 0b0110},     {"textureGradOffset", 0b1110},
+    {"textureProjOffset", 0b1010}, {"textureProjLodOffset", 0b0110}, {"textureProjGradOffset", 0b1110},
+    {"textureGather", 0b0010},     {"textureGatherOffset", 0b0010},  {"textureGatherOffsets", 0b0010},
     {"texelFetchOffset", 0b0000},
 };
 
-constexpr std::string_view k_without_double[] = {"gl_FragDepth", "interpolateAtCentroid", "interpolateAtOffset",
-                                                 "interpolateAtSample"};
+constexpr std::string_view k_without_double[] = {"gl_FragDepth", "interpolateAtCentroid",
+                                                 "interpolateAtOffset", "interpolateAtSample"};
 
-/// Words of GLSL 4.50 that texts use as names; only doubles make them collide.
+/// A text that defines one of them as a macro means something else; it must not reach our own lines.
 bool is_double_word(std::string_view word) {
     return word == "double" || !float_type_of(word).empty();
 }
@@ -68,8 +68,8 @@ public:
         if (!hashes_too_)
             for (const FloatRegion& region : find_float_regions(reading_))
                 keep(region);
-        for (const size_t constant :
-             find_lost_constants(reading_, [](std::string_view name) { return is_replaced(canonical(name)); }))
+        for (const size_t constant : find_lost_constants(
+                 reading_, [](std::string_view name) { return is_replaced(canonical(name)); }))
             edits_.remove(constant);
         for (size_t i = 0; i < tokens_.size(); ++i)
             promote_token(i);
@@ -124,9 +124,9 @@ private:
             passed += floats ? fmt::format("{}{}({})", comma, parameter.type, name) : comma + name;
         }
         edits_.replace(function.name_token, fmt::format("{}{}", k_float_copy, function.name));
-        edits_.after(function.body_end, fmt::format(" {} {}({}) {{ return {}{}({}); }}",
-                                                    promoted(function.return_type), renamed(function.name),
-                                                    declared, k_float_copy, function.name, passed));
+        edits_.after(function.body_end,
+                     fmt::format(" {} {}({}) {{ return {}{}({}); }}", promoted(function.return_type),
+                                 renamed(function.name), declared, k_float_copy, function.name, passed));
     }
 
     std::string owner_of(size_t token) const {
@@ -144,7 +144,8 @@ private:
         return is_float_type(type) ? double_type_of(type) : std::string(type);
     }
     static std::string renamed(std::string_view name) {
-        return is_replaced(canonical(name)) ? fmt::format("{}{}", k_ours, canonical(name)) : std::string(name);
+        return is_replaced(canonical(name)) ? fmt::format("{}{}", k_ours, canonical(name))
+                                            : std::string(name);
     }
 
     void promote_token(size_t i) {
@@ -154,6 +155,8 @@ private:
             return note_bits(i);
         if (token.kind == TokenKind::identifier && is_replaced(canonical(token.text)))
             return promote_call(i);
+        if (is_double_word(token.text) && reading_.macros.contains(token.text))
+            return edits_.replace(i, fmt::format("st_{}", token.text));
         if (place == Place::directive || place == Place::macro_head)
             return;
         if (is_float_literal(token))
@@ -203,9 +206,8 @@ private:
             remove_precision(i);
         else if ((token.is("gl_FragCoord") || token.is("gl_PointCoord")) &&
                  (is_ours(i) || !reading_.macros.contains(token.text)))
-            edits_.replace(i, fmt::format("{}({})", token.is("gl_FragCoord") ? "dvec4" : "dvec2", token.text));
-        else if (is_double_word(token.text))
-            edits_.replace(i, fmt::format("st_{}", token.text));
+            edits_.replace(i,
+                           fmt::format("{}({})", token.is("gl_FragCoord") ? "dvec4" : "dvec2", token.text));
         else if (reading_.active(i))
             promote_special(i);
     }
@@ -224,15 +226,16 @@ private:
         const std::string_view name = tokens_[i].text;
         if (is_one_of(name, k_without_double) && !reading_.defines(name))
             return refuse(i, fmt::format("'{}' has no form in double precision", name));
-        const bool sampler = name.starts_with("sampler") || name.starts_with("isampler") ||
-                             name.starts_with("usampler");
-        const bool known = name == "sampler" || name == "sampler2D" || name == "sampler3D" ||
-                           name == "samplerCube";
+        const bool sampler =
+            name.starts_with("sampler") || name.starts_with("isampler") || name.starts_with("usampler");
+        const bool known =
+            name == "sampler" || name == "sampler2D" || name == "sampler3D" || name == "samplerCube";
         if (sampler && !known && reading_.places[i] == Place::code && i + 1 < tokens_.size() &&
             tokens_[i + 1].kind == TokenKind::identifier)
             return refuse(i, fmt::format("lookups of a '{}' have no form in double precision", name));
         for (const WrappedCall& call : k_wrapped_calls)
-            if (call.name == name && !reading_.defines(name) && i + 1 < tokens_.size() && tokens_[i + 1].is("("))
+            if (call.name == name && !reading_.defines(name) && i + 1 < tokens_.size() &&
+                tokens_[i + 1].is("("))
                 wrap_call(i, call.floats);
     }
 
@@ -258,8 +261,8 @@ private:
 
     // What comes in and goes out
 
-    /// Global `in` and `out`: nothing is handed to a fragment shader here, so that an input is a variable like
-    /// any other; an output is a double of its name and a float that gets its value at the end.
+    /// Global `in` and `out`: nothing is handed to a fragment shader here, so that an input is a variable
+    /// like any other; an output is a double of its name and a float that gets its value at the end.
     void promote_interface() {
         const std::vector<size_t>& code = reading_.preprocessed.code;
         int depth = 0;
@@ -285,7 +288,8 @@ private:
             return;
         const Token& name = tokens_[code[type + 1]];
         if (name.kind != TokenKind::identifier || !tokens_[code[type + 2]].is(";"))
-            return refuse(code[at], "an 'out' in double precision must be one variable: split the declaration");
+            return refuse(code[at],
+                          "an 'out' in double precision must be one variable: split the declaration");
         const std::string_view plain = tokens_[code[type]].text;
         const std::string output = fmt::format("{}{}", k_outputs, outputs_.size());
         edits_.replace(code[type], plain);

@@ -11,7 +11,8 @@
 
 namespace tidemark::glsl {
 
-/// A place where a promoted text still computes in floats, so that its random numbers stay those of the scene.
+/// A place where a promoted text still computes in floats, so that its random numbers stay those of the
+/// scene.
 struct KeptHash {
     std::string function; ///< or macro; empty outside of all
     SourceLocation where;
@@ -26,9 +27,9 @@ struct Promoted {
     std::vector<KeptHash> hashes;
 };
 
-/// `body` is a whole fragment shader but for #version and #extension. Uniforms become double and are to be set
-/// as such; what it writes to goes out as floats. With `hashes_too` hashes are promoted like everything else.
-/// The error names the construct that has no double form, at its place.
+/// `body` is a whole fragment shader but for #version and #extension. Uniforms become double and are to be
+/// set as such; what it writes to goes out as floats. With `hashes_too` hashes are promoted like everything
+/// else. The error names the construct that has no double form, at its place.
 Result<Promoted> promote(text::MappedText body, bool hashes_too = false);
 
 } // namespace tidemark::glsl

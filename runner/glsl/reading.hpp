@@ -1,5 +1,5 @@
-// A text as the passes over it see it: tokens, what the preprocessor keeps of them, functions. Shared by every
-// pass that rewrites code and not only names.
+// A text as the passes over it see it: tokens, what the preprocessor keeps of them, functions. Shared by
+// every pass that rewrites code and not only names.
 #pragma once
 
 #include "glsl/functions.hpp"

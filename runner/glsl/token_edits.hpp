@@ -24,9 +24,9 @@ public:
         std::vector<text::Edit> edits;
         for (const auto& [index, change] : changes_) {
             const text::Token& token = tokens[index];
-            edits.push_back({token.begin, token.end(),
-                             change.before + change.replacement.value_or(std::string(token.text)) +
-                                 change.after});
+            edits.push_back(
+                {token.begin, token.end(),
+                 change.before + change.replacement.value_or(std::string(token.text)) + change.after});
         }
         return edits;
     }

@@ -80,7 +80,8 @@ public:
             "layout(std430, binding = 1) writeonly buffer Out {{ double results[]; }};\n"
             "layout(location = 0) out vec4 colour;\n"
             "void main() {{\n    int i = int(gl_FragCoord.x) + {1} * int(gl_FragCoord.y);\n"
-            "    if (i < points.length())\n        results[i] = tidemark_{2}({3});\n    colour = vec4(0.0);\n}}\n",
+            "    if (i < points.length())\n        results[i] = tidemark_{2}({3});\n    colour = "
+            "vec4(0.0);\n}}\n",
             double_functions({name}, {}), k_width, name, binary ? "points[i].x, points[i].y" : "points[i].x");
         auto linked = gl::Program::link(vertex_shader(Version::core_450), text);
         EXPECT_TRUE(linked) << linked.error() << text;
@@ -192,13 +193,15 @@ const std::vector<Subject>& subjects() {
         {"asinh", {}, of_one(mpfr_asinh)},
         {"acosh", {1, k_largest}, of_one(mpfr_acosh)},
         {"atanh", {-1, 1, 1}, of_one(mpfr_atanh)},
-        {"radians", {-1e300, 1e300},
+        {"radians",
+         {-1e300, 1e300},
          [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) {
              mpfr_const_pi(r, MPFR_RNDN);
              mpfr_mul(r, r, x, MPFR_RNDN);
              mpfr_div_ui(r, r, 180, MPFR_RNDN);
          }},
-        {"degrees", {-1e300, 1e300},
+        {"degrees",
+         {-1e300, 1e300},
          [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) {
              Number pi;
              mpfr_const_pi(pi.get(), MPFR_RNDN);
@@ -296,10 +299,25 @@ TEST(DoubleFunctions, special_values_are_what_mathematics_says) {
         {"tan", {{0, 0}, {k_infinity, k_nan}, {k_nan, k_nan}}},
         {"asin", {{0, 0}, {1.0000001, k_nan}, {-2, k_nan}, {k_infinity, k_nan}, {k_nan, k_nan}}},
         {"acos", {{1, 0}, {1.0000001, k_nan}, {-2, k_nan}, {k_infinity, k_nan}, {k_nan, k_nan}}},
-        {"atan", {{0, 0}, {k_infinity, std::numbers::pi / 2}, {-k_infinity, -std::numbers::pi / 2}, {k_nan, k_nan}}},
-        {"exp", {{0, 1}, {-0.0, 1}, {k_infinity, k_infinity}, {-k_infinity, 0}, {k_nan, k_nan}, {1e300, k_infinity}, {-1e300, 0}}},
+        {"atan",
+         {{0, 0}, {k_infinity, std::numbers::pi / 2}, {-k_infinity, -std::numbers::pi / 2}, {k_nan, k_nan}}},
+        {"exp",
+         {{0, 1},
+          {-0.0, 1},
+          {k_infinity, k_infinity},
+          {-k_infinity, 0},
+          {k_nan, k_nan},
+          {1e300, k_infinity},
+          {-1e300, 0}}},
         {"exp2", {{0, 1}, {k_infinity, k_infinity}, {-k_infinity, 0}, {k_nan, k_nan}, {10, 1024}, {-1, 0.5}}},
-        {"log", {{1, 0}, {0, -k_infinity}, {-0.0, -k_infinity}, {-1, k_nan}, {k_infinity, k_infinity}, {-k_infinity, k_nan}, {k_nan, k_nan}}},
+        {"log",
+         {{1, 0},
+          {0, -k_infinity},
+          {-0.0, -k_infinity},
+          {-1, k_nan},
+          {k_infinity, k_infinity},
+          {-k_infinity, k_nan},
+          {k_nan, k_nan}}},
         {"log2", {{1, 0}, {0, -k_infinity}, {-1, k_nan}, {k_infinity, k_infinity}, {k_nan, k_nan}, {8, 3}}},
         {"sinh", {{0, 0}, {k_infinity, k_infinity}, {-k_infinity, -k_infinity}, {k_nan, k_nan}}},
         {"cosh", {{0, 1}, {k_infinity, k_infinity}, {-k_infinity, k_infinity}, {k_nan, k_nan}}},

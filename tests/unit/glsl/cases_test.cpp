@@ -84,8 +84,8 @@ std::string extras(const Assembly& assembly) {
     for (const std::string& name : names)
         list += "calls " + name + "\n";
     for (const KeptHash& hash : assembly.hashes)
-        list += "float " + hash.function + " " + hash.where.file + ":" + std::to_string(hash.where.line) + " " +
-                std::string(to_string(hash.kind)) + "\n";
+        list += "float " + hash.function + " " + hash.where.file + ":" + std::to_string(hash.where.line) +
+                " " + std::string(to_string(hash.kind)) + "\n";
     return list;
 }
 
