@@ -86,7 +86,8 @@ Result<render::Renderer> compile(scene::Scene scene, const CaptureOptions& optio
     Watchdog watchdog;
     const Watchdog::Watch watch(watchdog, "compiling", std::nullopt);
     const SampleType samples = plan.depth == SampleDepth::u8 ? SampleType::u8 : SampleType::f32;
-    return render::Renderer::create(std::move(scene), {plan.frames.extent, samples, options.frames.pass});
+    return render::Renderer::create(
+        std::move(scene), {plan.frames.extent, samples, options.frames.pass, precision_of(options.scene)});
 }
 
 void say_what_was_written(const std::vector<FrameRecord>& records) {
@@ -144,6 +145,7 @@ void add_capture(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<CaptureOptions>();
     CLI::App* command = app.add_subcommand("capture", "Makes frames with no display");
     add_scene_options(*command, options->scene);
+    add_precision_options(*command, options->scene);
     add_picture_options(*command, options->frames);
     add_time_options(*command, options->frames);
     command

@@ -3,6 +3,7 @@
 #include "base/hash.hpp"
 #include "cli/console.hpp"
 #include "cli/omissions.hpp"
+#include "cli/precision_report.hpp"
 #include "cli/progress.hpp"
 #include "cli/version.hpp"
 #include "image/cubemap_file.hpp"
@@ -126,6 +127,7 @@ image::PictureFormat Capture::format_of(const render::FrameInputs& inputs) const
             {{"Scene", renderer_.scene().file.string()},
              {"Frame", fmt::format("{}", inputs.frame)},
              {"iTime", fmt::format("{}", inputs.time)},
+             {"Precision", name_of(renderer_.precision())},
              {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)},
              {"Software", fmt::format("tidemark {}", k_version)}}};
 }
@@ -138,6 +140,7 @@ nlohmann::ordered_json Capture::report() const {
     report["driver"] = driver_.version;
     report["renderer"] = driver_.renderer;
     report["pass"] = renderer_.shown_pass().name;
+    add_precision(report, renderer_);
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
     report["frames"] = nlohmann::ordered_json::array();

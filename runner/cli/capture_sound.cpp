@@ -30,7 +30,7 @@ Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest&
     const auto context = platform::HeadlessContext::create(request.device);
     if (!context)
         return fail(context.error());
-    auto renderer = render::SoundRenderer::create(*scene);
+    auto renderer = render::SoundRenderer::create(*scene, precision_of(scene_request));
     if (!renderer)
         return fail(std::move(renderer.error()));
     const auto count = size_t(std::llround(request.duration * render::k_sample_rate));

@@ -2,9 +2,10 @@
 #include "cli/console.hpp"
 #include "cli/omissions.hpp"
 #include "cli/options.hpp"
+#include "cli/precision_report.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
-#include "glsl/assemble.hpp"
+#include "glsl/pass_reading.hpp"
 #include "platform/headless_context.hpp"
 
 #include <CLI/CLI.hpp>
@@ -130,6 +131,7 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
     json["knobs"] = Json::array();
     for (const scene::Knob& knob : scene.knobs)
         json["knobs"].push_back(to_json(knob));
+    add_precision(json, renderer);
     json["left_out"] = facts.left_out;
     return json;
 }
@@ -156,16 +158,23 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
                                 scene::to_string(knob, knob.range->high));
         text += '\n';
     }
+    text += precision_lines(renderer);
     for (const std::string& thing : facts.left_out)
         text += fmt::format("  left out  {}\n", thing);
     return text;
 }
 
 /// The text of a pass, Image when none is named.
-Result<int> put_source(const scene::Scene& scene, const std::string& name) {
-    for (const scene::Pass& pass : scene.passes)
-        if (pass.name == name || (name.empty() && pass.kind == scene::PassKind::image))
-            return put(glsl::assemble(scene, pass).text()).map([] { return 0; });
+Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision) {
+    for (const scene::Pass& pass : scene.passes) {
+        if (pass.name != name && !(name.empty() && pass.kind == scene::PassKind::image))
+            continue;
+        const glsl::PassReading reading(scene, pass);
+        const auto assembly = reading.assemble(reading.dialects(precision).front());
+        if (!assembly)
+            return fail(assembly.error());
+        return put(assembly->source.text()).map([] { return 0; });
+    }
     return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has no such pass", name));
 }
 
@@ -174,12 +183,13 @@ Result<int> inspect_scene(const InspectOptions& options) {
     if (!scene)
         return fail(std::move(scene.error()));
     if (options.source)
-        return put_source(*scene, options.pass);
+        return put_source(*scene, options.pass, precision_of(options.scene));
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
     render::RenderOptions target;
     target.pass = options.pass;
+    target.precision = precision_of(options.scene);
     const auto renderer = render::Renderer::create(*std::move(scene), target);
     if (!renderer)
         return fail(renderer.error());
@@ -196,6 +206,7 @@ void add_inspect(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("inspect", "Tells what a scene needs and what was left out");
     add_scene_options(*command, options->scene);
     command->get_option("SCENE")->required(false);
+    add_precision_options(*command, options->scene);
     command->add_option("--device", options->device, "Where to draw: a name from --devices")
         ->type_name("NAME")
         ->capture_default_str();

@@ -48,6 +48,20 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
                      "The scene may read files that lie outside its folder");
 }
 
+void add_precision_options(CLI::App& command, SceneRequest& request) {
+    auto* precision =
+        command
+            .add_option_function<std::string>(
+                "--precision", [&request](const std::string& text) { request.doubles = text == "double"; },
+                "double: the scene promoted to 64-bit floats [single]")
+            ->type_name("single|double")
+            ->check(CLI::IsMember({"single", "double"}));
+    command
+        .add_flag("--double-hashes", request.double_hashes,
+                  "Promotes hashes too: other random numbers, another scene")
+        ->needs(precision);
+}
+
 void add_picture_options(CLI::App& command, FrameOptions& options) {
     command.add_option("--size", options.size, "Resolution in pixels")
         ->type_name("WxH")

@@ -15,6 +15,9 @@ namespace tidemark::cli {
 /// SCENE, --set, --define, --channel, --media, --allow-outside.
 void add_scene_options(CLI::App& command, SceneRequest& request);
 
+/// --precision, --double-hashes: of every command that draws.
+void add_precision_options(CLI::App& command, SceneRequest& request);
+
 /// The frame options as they were typed.
 struct FrameOptions {
     std::string size = "640x360";

@@ -79,6 +79,12 @@ Result<scene::Scene> load(const SceneRequest& request) {
     return scene;
 }
 
+glsl::Precision precision_of(const SceneRequest& request) {
+    return !request.doubles        ? glsl::Precision::single
+           : request.double_hashes ? glsl::Precision::promoted_whole
+                                   : glsl::Precision::promoted;
+}
+
 render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
     render::FrameInputs inputs = render::inputs_of_frame(frame, request.fps);
     if (request.time) {

@@ -4,6 +4,7 @@
 
 #include "base/extent.hpp"
 #include "base/result.hpp"
+#include "glsl/dialect.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/orbit_camera.hpp"
 #include "scene/scene.hpp"
@@ -25,8 +26,12 @@ struct SceneRequest {
     std::vector<std::string> defines{};  ///< --define NAME=VALUE
     std::vector<std::string> channels{}; ///< --channel N=WHAT
     scene::LoadOptions files{};          ///< --media, --allow-outside
+    bool doubles = false;                ///< --precision double
+    bool double_hashes = false;          ///< --double-hashes
     std::vector<Diagnostic> said{};      ///< warnings that were printed before, by a load of the same scene
 };
+
+glsl::Precision precision_of(const SceneRequest& request);
 
 /// Prints the scene's warnings.
 Result<scene::Scene> load(const SceneRequest& request);

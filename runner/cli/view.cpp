@@ -35,6 +35,7 @@ void add_view(CLI::App& app, Action& chosen) {
     CLI::App* command =
         app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
     add_scene_options(*command, options->scene);
+    add_precision_options(*command, options->scene);
     add_picture_options(*command, options->frames);
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }

@@ -61,8 +61,9 @@ Result<Viewer> Viewer::open(Settings settings) {
         return fail(std::move(watcher.error()));
     if (auto watched = watcher->watch(scene->files); !watched)
         say(to_string(watched.error())); // it can still be looked at
-    auto renderer = render::Renderer::create(
-        *std::move(scene), {window->framebuffer_extent(), image::SampleType::u8, settings.pass});
+    auto renderer =
+        render::Renderer::create(*std::move(scene), {window->framebuffer_extent(), image::SampleType::u8,
+                                                     settings.pass, precision_of(settings.scene)});
     if (!renderer)
         return fail(std::move(renderer.error()));
     return Viewer(std::move(settings), *std::move(window), *std::move(watcher), *std::move(renderer));
@@ -286,8 +287,8 @@ Result<Viewer::ReloadTimes> Viewer::reload() {
     if (auto watched = watcher_.watch(scene->files); !watched)
         return fail(std::move(watched.error()));
     times.loaded = now_seconds();
-    auto fresh = render::Renderer::create(*std::move(scene),
-                                          {renderer_.extent(), image::SampleType::u8, settings_.pass});
+    auto fresh = render::Renderer::create(*std::move(scene), {renderer_.extent(), image::SampleType::u8,
+                                                              settings_.pass, renderer_.precision()});
     if (!fresh)
         return fail(std::move(fresh.error()));
     renderer_ = *std::move(fresh);

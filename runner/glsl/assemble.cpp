@@ -2,15 +2,18 @@
 
 #include "glsl/pass_reading.hpp"
 
+#include <cassert>
+
 namespace tidemark::glsl {
 
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass) {
     const PassReading reading(scene, pass);
-    return reading.assemble(reading.dialects().front());
+    return std::move(reading.assemble(reading.dialects(Precision::single).front())->source);
 }
 
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass, const Dialect& dialect) {
-    return PassReading(scene, pass).assemble(dialect);
+    assert(dialect.precision == Precision::single);
+    return std::move(PassReading(scene, pass).assemble(dialect)->source);
 }
 
 const char* const k_vertex_shader = R"(#version 330 core

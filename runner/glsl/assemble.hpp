@@ -11,8 +11,9 @@ namespace tidemark::glsl {
 /// A fragment shader with the way back to its authors' lines.
 using ShaderSource = text::MappedText;
 
-/// The fragment shader of `pass` in `dialect`. What the text declares itself is not declared again. A buffer
-/// keeps the whole vec4 that the shader writes; Image writes alpha 1, whatever the shader does.
+/// The fragment shader of `pass` in `dialect`, one of single precision. What the text declares itself is not
+/// declared again. A buffer keeps the whole vec4 that the shader writes; Image writes alpha 1, whatever the
+/// shader does.
 ///
 /// Beside ShaderToy's own uniforms the host sets `vec3 tidemark_corners[4]` in a cubemap pass (directions at
 /// the corners of the face, counter-clockwise from texel 0,0) and, where the text names them, the members of

@@ -13,11 +13,16 @@ std::string to_string(const Dialect& dialect) {
     std::string_view main = dialect.main == MainPlace::first  ? ""
                             : dialect.main == MainPlace::last ? ", main last"
                                                               : ", the author's own main";
-    return fmt::format("{}{}{}", version, main, dialect.initialise ? "" : ", nothing initialised");
+    std::string_view precision = dialect.precision == Precision::single ? ""
+                                 : dialect.precision == Precision::promoted
+                                     ? ", in double precision"
+                                     : ", in double precision, hashes too";
+    return fmt::format("{}{}{}{}", version, main, dialect.initialise ? "" : ", nothing initialised",
+                       precision);
 }
 
 std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass) {
-    return PassReading(scene, pass).dialects();
+    return PassReading(scene, pass).dialects(Precision::single);
 }
 
 std::vector<Diagnostic> entry_point_problems(const scene::Scene& scene, const scene::Pass& pass) {

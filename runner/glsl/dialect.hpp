@@ -16,6 +16,13 @@ namespace tidemark::glsl {
 /// What `#version` says, in the order of our trust: see README, "How it is built".
 enum class Version { core_330, core_450, es_300 };
 
+/// What the author's floats are.
+enum class Precision {
+    single,
+    promoted,      ///< doubles, but for hashes (glsl/float_hashes.hpp)
+    promoted_whole ///< doubles, hashes too
+};
+
 /// Where the `main` stands that calls the author's entry point.
 enum class MainPlace {
     first, ///< before the text, so that the author's macros do not reach it
@@ -32,6 +39,7 @@ struct Dialect {
     bool initialise =
         true; ///< variables without a value start at zero, and `out fragColor` as the site's does
     ChannelKinds channels{};
+    Precision precision = Precision::single;
 
     bool operator==(const Dialect&) const = default;
 };
@@ -39,8 +47,8 @@ struct Dialect {
 /// "330 core", with what else is unusual: "300 es, main last".
 std::string to_string(const Dialect& dialect);
 
-/// The dialects worth offering for `pass`, the likeliest first; never empty. The first that links is the one:
-/// when none does, the first one's messages are the best.
+/// The dialects worth offering for `pass` in single precision, the likeliest first; never empty. The first
+/// that links is the one: when none does, the first one's messages are the best.
 std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass);
 
 /// After the driver refused `source` with `log`: kinds for the channels that nobody specified, the likeliest

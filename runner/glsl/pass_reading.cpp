@@ -52,10 +52,19 @@ PassReading::PassReading(const scene::Scene& scene, const scene::Pass& pass)
     : scene_(scene), pass_(pass), text_(whole_text(scene, pass)), tokens_(text::tokenize(text_.text())),
       preprocessed_(preprocess(tokens_)), facts_(survey(tokens_, preprocessed_, pass.kind)) {}
 
-std::vector<Dialect> PassReading::dialects() const {
+std::vector<Dialect> PassReading::dialects(Precision precision) const {
     const ChannelKinds channels = channel_kinds(scene_, pass_);
     const std::vector<MainPlace> places = places_to_try(facts_, pass_.kind);
     std::vector<Dialect> dialects;
+    if (precision != Precision::single) {
+        for (const MainPlace place : places)
+            dialects.push_back({Version::core_450, place, true, channels, precision});
+        dialects.push_back({Version::core_330, places.front(), true, channels, precision});
+        if (precision == Precision::promoted)
+            dialects.push_back(
+                {Version::core_450, places.front(), true, channels, Precision::promoted_whole});
+        return dialects;
+    }
     for (const MainPlace place : places)
         dialects.push_back({Version::core_330, place, true, channels});
     for (const Version version : {Version::core_450, Version::es_300})
@@ -64,19 +73,30 @@ std::vector<Dialect> PassReading::dialects() const {
     return dialects;
 }
 
-text::MappedText PassReading::assemble(const Dialect& dialect) const {
+Result<Assembly> PassReading::assemble(const Dialect& dialect) const {
     const Wrapper ours = wrapper(pass_, facts_, dialect);
     const Rewriting changes = rewrite(text_.text(), tokens_, preprocessed_, facts_, dialect);
-    text::MappedText source;
-    source.append_generated(prologue(scene_, pass_, facts_, dialect, changes.extensions));
+    text::MappedText body;
+    body.append_generated(prologue(scene_, pass_, facts_, dialect));
     if (dialect.main == MainPlace::first)
-        source.append_generated(ours.prototype + ours.main);
+        body.append_generated(ours.prototype + ours.main);
     text::MappedText author = text_;
     author.apply(changes.edits);
-    source.append(author);
+    body.append(author);
     if (dialect.main != MainPlace::first)
-        source.append_generated("\n" + ours.main); // the author's last line may end in a backslash
-    return source;
+        body.append_generated("\n" + ours.main); // the author's last line may end in a backslash
+    Assembly result;
+    result.source.append_generated(version_lines(dialect, changes.extensions));
+    if (dialect.precision != Precision::single) {
+        auto promoted = promote(std::move(body), dialect.precision == Precision::promoted_whole);
+        if (!promoted)
+            return fail(std::move(promoted.error()));
+        result.source.append_generated(promoted->functions);
+        body = std::move(promoted->body);
+        result.hashes = std::move(promoted->hashes);
+    }
+    result.source.append(body);
+    return result;
 }
 
 std::vector<Diagnostic> PassReading::entry_point_problems() const {

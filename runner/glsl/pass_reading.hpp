@@ -2,6 +2,7 @@
 #pragma once
 
 #include "glsl/dialect.hpp"
+#include "glsl/promote.hpp"
 #include "glsl/survey.hpp"
 #include "scene/scene.hpp"
 #include "text/mapped_text.hpp"
@@ -10,6 +11,12 @@
 
 namespace tidemark::glsl {
 
+/// What the driver gets.
+struct Assembly {
+    text::MappedText source;
+    std::vector<KeptHash> hashes{}; ///< what a promoted text leaves in floats
+};
+
 /// Refers to the scene and the pass it was made of, and to itself: it stays where it is.
 class PassReading {
 public:
@@ -17,9 +24,11 @@ public:
     PassReading(const PassReading&) = delete;
     PassReading& operator=(const PassReading&) = delete;
 
-    /// As dialects_to_try, assemble and entry_point_problems for the same pass.
-    std::vector<Dialect> dialects() const;
-    text::MappedText assemble(const Dialect& dialect) const;
+    /// As dialects_to_try and entry_point_problems for the same pass. Hashes that cannot stay in floats are
+    /// promoted where nothing else links.
+    std::vector<Dialect> dialects(Precision precision) const;
+    /// Fails (ErrorCode::load) where something has no double form; never in single precision.
+    Result<Assembly> assemble(const Dialect& dialect) const;
     std::vector<Diagnostic> entry_point_problems() const;
 
 private:

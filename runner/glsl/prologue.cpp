@@ -89,17 +89,6 @@ std::string_view sampler_type(scene::TextureKind kind) {
     return "sampler2D";
 }
 
-std::string version_lines(const Dialect& dialect, std::span<const std::string> extensions) {
-    std::string text(dialect.version == Version::core_330   ? k_core_330
-                     : dialect.version == Version::core_450 ? "#version 450 core\n"
-                                                            : "#version 300 es\n");
-    for (const std::string& line : extensions)
-        text += line;
-    if (dialect.version == Version::es_300)
-        text += k_es_precision;
-    return text;
-}
-
 std::string macros(const Survey& survey, const Dialect& dialect) {
     std::string text;
     if (!survey.defines("HW_PERFORMANCE"))
@@ -148,10 +137,22 @@ std::string uniforms(const scene::Scene& scene, const scene::Pass& pass, const S
 
 } // namespace
 
+std::string version_lines(const Dialect& dialect, std::span<const std::string> extensions) {
+    std::string text(dialect.version == Version::core_330   ? k_core_330
+                     : dialect.version == Version::core_450 ? "#version 450 core\n"
+                                                            : "#version 300 es\n");
+    if (dialect.version == Version::core_330 && dialect.precision != Precision::single)
+        text += "#extension GL_ARB_gpu_shader_fp64 : enable\n";
+    for (const std::string& line : extensions)
+        text += line;
+    if (dialect.version == Version::es_300)
+        text += k_es_precision;
+    return text;
+}
+
 std::string prologue(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
-                     const Dialect& dialect, std::span<const std::string> extensions) {
-    std::string text = version_lines(dialect, extensions);
-    text += macros(survey, dialect);
+                     const Dialect& dialect) {
+    std::string text = macros(survey, dialect);
     text += uniforms(scene, pass, survey, dialect);
     if (dialect.main != MainPlace::author || survey.own_output.empty())
         text += fmt::format("layout(location = 0) out vec4 {};\n", k_output);

@@ -10,9 +10,12 @@
 
 namespace tidemark::glsl {
 
-/// #version to the last helper. `extensions` are the author's own lines that go to the top.
+/// #version and what must follow it at once. `extensions` are the author's own lines that go to the top.
+std::string version_lines(const Dialect& dialect, std::span<const std::string> extensions);
+
+/// From there to the last helper.
 std::string prologue(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
-                     const Dialect& dialect, std::span<const std::string> extensions);
+                     const Dialect& dialect);
 
 struct Wrapper {
     std::string prototype; ///< so that `main` can stand first

@@ -19,28 +19,35 @@ struct Refusal {
 
 class Linker {
 public:
-    Linker(const scene::Scene& scene, const scene::Pass& pass)
-        : scene_(scene), pass_(pass), reading_(scene, pass) {}
+    Linker(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision)
+        : scene_(scene), pass_(pass), reading_(scene, pass), precision_(precision) {}
 
     /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
     /// dialect fails, the driver's words tell which kinds are worth trying.
-    std::optional<LinkedPass> link() {
-        const std::vector<glsl::Dialect> dialects = reading_.dialects();
+    Result<LinkedPass> link() {
+        const std::vector<glsl::Dialect> dialects = reading_.dialects(precision_);
         if (auto linked = first_that_links(dialects))
-            return linked;
+            return *std::move(linked);
+        if (unpromotable_)
+            return fail(*std::move(unpromotable_));
         for (const glsl::ChannelKinds& kinds :
              glsl::channel_kinds_to_try(scene_, pass_, first_->source, first_->log)) {
             glsl::Dialect dialect = dialects.front();
             dialect.channels = kinds;
             if (auto linked = first_that_links({dialect}))
-                return linked;
+                return *std::move(linked);
         }
-        return std::nullopt;
+        return fail(error());
     }
 
+private:
     /// The likeliest dialect's messages are the ones that mean something to the author.
     Error error() const {
-        Error error{ErrorCode::load, fmt::format("'{}' does not compile", scene_.file.string()), {}};
+        const bool promoted = precision_ != glsl::Precision::single;
+        Error error{ErrorCode::load,
+                    fmt::format("'{}' does not compile{}", scene_.file.string(),
+                                promoted ? " in double precision" : ""),
+                    {}};
         error.diagnostics = reading_.entry_point_problems();
         if (error.diagnostics.empty())
             error.diagnostics = glsl::parse_driver_log(first_->log, first_->source.lines());
@@ -50,15 +57,18 @@ public:
         return error;
     }
 
-private:
     std::optional<LinkedPass> first_that_links(const std::vector<glsl::Dialect>& dialects) {
         for (const glsl::Dialect& dialect : dialects) {
-            glsl::ShaderSource source = reading_.assemble(dialect);
-            auto program = gl::Program::link(glsl::vertex_shader(dialect.version), source.text());
+            auto assembly = reading_.assemble(dialect);
+            if (!assembly) {
+                unpromotable_ = std::move(assembly.error());
+                return std::nullopt;
+            }
+            auto program = gl::Program::link(glsl::vertex_shader(dialect.version), assembly->source.text());
             if (program)
-                return LinkedPass{*std::move(program), dialect};
+                return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes)};
             if (!first_)
-                first_ = Refusal{std::move(source), std::move(program.error())};
+                first_ = Refusal{std::move(assembly->source), std::move(program.error())};
         }
         return std::nullopt;
     }
@@ -66,17 +76,15 @@ private:
     const scene::Scene& scene_;
     const scene::Pass& pass_;
     glsl::PassReading reading_; ///< once for all attempts
+    glsl::Precision precision_;
     std::optional<Refusal> first_;
+    std::optional<Error> unpromotable_; ///< something in the text has no double form
 };
 
 } // namespace
 
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass) {
-    Linker linker(scene, pass);
-    auto linked = linker.link();
-    if (!linked)
-        return fail(linker.error());
-    return *std::move(linked);
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision) {
+    return Linker(scene, pass, precision).link();
 }
 
 } // namespace tidemark::render

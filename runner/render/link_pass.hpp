@@ -4,6 +4,7 @@
 #include "base/result.hpp"
 #include "gl/program.hpp"
 #include "glsl/dialect.hpp"
+#include "glsl/promote.hpp"
 #include "scene/scene.hpp"
 
 namespace tidemark::render {
@@ -13,9 +14,11 @@ struct LinkedPass {
     /// What it was linked as. Its kinds of channels may differ from the scene's where the scene says nothing:
     /// the text wants a cube or a volume there.
     glsl::Dialect dialect;
+    std::vector<glsl::KeptHash> hashes{}; ///< in floats, in a program of doubles
 };
 
 /// The error has the authors' own files and lines.
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass);
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass,
+                             glsl::Precision precision = glsl::Precision::single);
 
 } // namespace tidemark::render

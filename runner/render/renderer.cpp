@@ -40,6 +40,7 @@ Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& optio
     renderer.scene_ = std::move(scene);
     renderer.samples_ = options.samples;
     renderer.extent_ = options.extent;
+    renderer.precision_ = options.precision;
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
@@ -92,7 +93,7 @@ Result<void> Renderer::compile() {
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto linked = link_pass(scene_, scene_.passes[i]);
+        auto linked = link_pass(scene_, scene_.passes[i], precision_);
         if (!linked)
             return fail(std::move(linked.error()));
         supply_other_kinds(scene_, i, linked->dialect.channels);
@@ -100,6 +101,7 @@ Result<void> Renderer::compile() {
         reflections[i] = program.reflection();
         passes_[i].uniforms = UniformTable(program.reflection(), scene_.knobs);
         passes_[i].program = std::move(program);
+        passes_[i].hashes = std::move(linked->hashes);
     }
     plan_ = plan_frame(scene_, reflections, shown_);
     return {};

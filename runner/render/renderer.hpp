@@ -4,6 +4,8 @@
 
 #include "base/result.hpp"
 #include "gl/program.hpp"
+#include "glsl/dialect.hpp"
+#include "glsl/promote.hpp"
 #include "image/image.hpp"
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
@@ -26,6 +28,9 @@ struct RenderOptions {
     /// always RGBA32F, cubemap passes RGBA16F.
     image::SampleType samples = image::SampleType::u8;
     std::string pass{}; ///< the pass to show; empty: Image
+    /// Textures and targets hold what they always hold: in a promoted scene a pass reads floats and writes
+    /// floats, and computes in doubles between.
+    glsl::Precision precision = glsl::Precision::single;
 };
 
 class Renderer {
@@ -59,6 +64,9 @@ public:
     const FramePlan& plan() const { return plan_; }
     /// The program of a pass in the plan.
     const gl::Program& program(size_t pass) const { return *passes_[pass].program; }
+    glsl::Precision precision() const { return precision_; }
+    /// What a pass in the plan leaves in floats although the scene is promoted.
+    const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const { return passes_[pass].hashes; }
 
 private:
     struct BoundChannel {
@@ -70,6 +78,7 @@ private:
         std::optional<gl::Program> program; ///< none: not needed
         UniformTable uniforms;
         std::vector<BoundChannel> channels;
+        std::vector<glsl::KeptHash> hashes;
     };
 
     Result<void> choose_pass(const std::string& name);
@@ -87,6 +96,7 @@ private:
     scene::Scene scene_;
     Extent extent_;
     image::SampleType samples_ = image::SampleType::u8;
+    glsl::Precision precision_ = glsl::Precision::single;
     size_t shown_ = 0;
     gl::VertexArrayHandle no_vertices_;
     std::vector<CompiledPass> passes_; ///< one for each of the scene's

@@ -15,11 +15,11 @@ int SoundRenderer::block_samples() {
     return glsl::k_sound_tile * glsl::k_sound_tile;
 }
 
-Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene) {
+Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, glsl::Precision precision) {
     const scene::Pass* pass = scene.find(scene::PassKind::sound);
     if (!pass)
         return fail(ErrorCode::usage, fmt::format("'{}' has no Sound pass", scene.file.string()));
-    auto linked = link_pass(scene, *pass);
+    auto linked = link_pass(scene, *pass, precision);
     if (!linked)
         return fail(std::move(linked.error()));
     auto target =

@@ -4,6 +4,7 @@
 #include "base/result.hpp"
 #include "gl/program.hpp"
 #include "gl/render_target.hpp"
+#include "glsl/dialect.hpp"
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
 #include "scene/scene.hpp"
@@ -16,7 +17,8 @@ namespace tidemark::render {
 class SoundRenderer {
 public:
     /// Fails when the scene has no Sound pass, or one that does not compile.
-    static Result<SoundRenderer> create(const scene::Scene& scene);
+    static Result<SoundRenderer> create(const scene::Scene& scene,
+                                        glsl::Precision precision = glsl::Precision::single);
 
     /// Left and right in turn, 44100 a second each, of the block that starts at sample `first`.
     std::vector<int16_t> draw(int first, const Date& date);

@@ -83,9 +83,12 @@ void expect_frame(const Image& image, const Json& frame) {
         ASSERT_NO_FATAL_FAILURE(expect_pixel(image, pixel.at(0), pixel.at(1), pixel.at(2), tolerance));
 }
 
-class Conformance : public testing::TestWithParam<std::string> {};
+class Conformance : public testing::TestWithParam<std::string> {
+protected:
+    void expect_pixels_of_the_convention(glsl::Precision precision) const;
+};
 
-TEST_P(Conformance, pixels_are_those_of_the_convention) {
+void Conformance::expect_pixels_of_the_convention(glsl::Precision precision) const {
     const fs::path folder = k_cases / GetParam();
     const auto text = read_file(folder / "expected.json");
     ASSERT_TRUE(text) << to_string(text.error());
@@ -104,7 +107,7 @@ TEST_P(Conformance, pixels_are_those_of_the_convention) {
     const Json& size = expected.at("size");
     const SampleType samples =
         expected.value("target", "bytes") == "floats" ? SampleType::f32 : SampleType::u8;
-    auto renderer = Renderer::create(*std::move(scene), {{size.at(0), size.at(1)}, samples});
+    auto renderer = Renderer::create(*std::move(scene), {{size.at(0), size.at(1)}, samples, {}, precision});
     ASSERT_TRUE(renderer) << to_string(renderer.error());
 
     Mouse mouse;
@@ -122,6 +125,14 @@ TEST_P(Conformance, pixels_are_those_of_the_convention) {
         ASSERT_NO_FATAL_FAILURE(expect_frame(renderer->read_back(), frame));
     }
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST_P(Conformance, pixels_are_those_of_the_convention) {
+    expect_pixels_of_the_convention(glsl::Precision::single);
+}
+
+TEST_P(Conformance, and_in_double_precision_too) {
+    expect_pixels_of_the_convention(glsl::Precision::promoted);
 }
 
 INSTANTIATE_TEST_SUITE_P(cases, Conformance, testing::ValuesIn(case_names()),

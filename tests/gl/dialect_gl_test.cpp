@@ -5,6 +5,7 @@
 #include "gl/program.hpp"
 #include "glsl/assemble.hpp"
 #include "glsl/driver_log.hpp"
+#include "glsl/pass_reading.hpp"
 #include "platform/headless_context.hpp"
 #include "text/mapped_text.hpp"
 
@@ -63,16 +64,17 @@ Case read_case(const std::string& name) {
 }
 
 /// The first dialect that links, as the Renderer looks for it; else every driver's words.
-tl::expected<gl::Program, std::string> link(const scene::Scene& scene) {
+tl::expected<gl::Program, std::string> link(const scene::Scene& scene, Precision precision) {
+    const PassReading reading(scene, scene.passes[0]);
     std::string words;
     const auto attempt = [&](const Dialect& dialect) {
-        const ShaderSource source = assemble(scene, scene.passes[0], dialect);
+        const text::MappedText source = reading.assemble(dialect).value().source;
         auto program = gl::Program::link(vertex_shader(dialect.version), source.text());
         if (!program)
             words += to_string(dialect) + "\n" + program.error();
         return std::pair(std::move(program), source);
     };
-    for (Dialect dialect : dialects_to_try(scene, scene.passes[0])) {
+    for (Dialect dialect : reading.dialects(precision)) {
         auto [program, source] = attempt(dialect);
         if (program)
             return std::move(program);
@@ -118,20 +120,31 @@ std::vector<int> draw(const gl::Program& program) {
     return {bytes[0], bytes[1], bytes[2], bytes[3]};
 }
 
-class DialectCase : public testing::TestWithParam<std::string> {};
+class DialectCase : public testing::TestWithParam<std::string> {
+protected:
+    void expect_to_link_and_draw(Precision precision) const;
+};
 
-TEST_P(DialectCase, links_and_draws) {
+void DialectCase::expect_to_link_and_draw(Precision precision) const {
     const auto context = platform::HeadlessContext::create();
     if (!context)
         GTEST_SKIP() << context.error().message;
     const Case example = read_case(GetParam());
-    const auto program = link(example.scene);
+    const auto program = link(example.scene, precision);
     ASSERT_TRUE(program) << program.error();
     if (example.pixel.empty())
         return;
     std::vector<int> drawn = draw(*program);
     drawn.resize(example.pixel.size());
     EXPECT_EQ(drawn, example.pixel);
+}
+
+TEST_P(DialectCase, links_and_draws) {
+    expect_to_link_and_draw(Precision::single);
+}
+
+TEST_P(DialectCase, links_and_draws_in_double_precision) {
+    expect_to_link_and_draw(Precision::promoted);
 }
 
 INSTANTIATE_TEST_SUITE_P(Text, DialectCase, testing::ValuesIn(case_names()),

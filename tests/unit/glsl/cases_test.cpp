@@ -1,13 +1,16 @@
 // Text in, text out: each tests/cases/glsl/<name>.glsl is loaded as a scene; <name>.expected holds what the
 // driver gets, every line behind the place where it was written, or the error. Lines `//: --define A=1` and
 // `//: --set k=2` of a case are options; the prologue is shown where a line `//: --prologue` asks for it.
+// With `//: --precision double` (and `//: --double-hashes`) the text is promoted, and the functions that it
+// calls of ours and the hashes that stay in floats are listed first.
 #include "base/file.hpp"
-#include "glsl/assemble.hpp"
 #include "glsl/overrides.hpp"
+#include "glsl/pass_reading.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace tidemark::glsl {
@@ -28,6 +31,7 @@ std::vector<std::string> case_names() {
 
 struct Options {
     bool prologue = false;
+    Precision precision = Precision::single;
     std::vector<std::pair<std::string, std::string>> settings; ///< option and value
 };
 
@@ -41,13 +45,17 @@ Options options_of(const std::string& text) {
             continue;
         if (option == "--prologue")
             options.prologue = true;
+        else if (option == "--precision")
+            options.precision = Precision::promoted;
+        else if (option == "--double-hashes")
+            options.precision = Precision::promoted_whole;
         else if (std::getline(words >> std::ws, value))
             options.settings.emplace_back(option, value);
     }
     return options;
 }
 
-std::string listed(const ShaderSource& source, bool with_prologue) {
+std::string listed(const text::MappedText& source, bool with_prologue) {
     std::string list;
     std::istringstream lines(source.text());
     int number = 0;
@@ -58,6 +66,26 @@ std::string listed(const ShaderSource& source, bool with_prologue) {
         list += where.file.empty() ? "-" : where.file + ":" + std::to_string(where.line);
         list += line.empty() ? " |\n" : " | " + line + "\n";
     }
+    return list;
+}
+
+/// The functions of ours that a promoted text brings along, and the hashes.
+std::string extras(const Assembly& assembly) {
+    std::set<std::string> names;
+    std::istringstream lines(assembly.source.text());
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const bool ours = assembly.source.lines().locate(++number).file.empty();
+        const size_t name = line.find(" tidemark_");
+        if (ours && line.starts_with('d') && name < line.find('(') && line.find("{ return") != line.npos)
+            names.insert(line.substr(name + 1, line.find('(') - name - 1));
+    }
+    std::string list;
+    for (const std::string& name : names)
+        list += "calls " + name + "\n";
+    for (const KeptHash& hash : assembly.hashes)
+        list += "float " + hash.function + " " + hash.where.file + ":" + std::to_string(hash.where.line) +
+                " " + std::string(to_string(hash.kind)) + "\n";
     return list;
 }
 
@@ -74,7 +102,12 @@ std::string outcome(const std::string& file, const Options& options) {
     std::string knobs;
     for (const scene::Knob& knob : scene->knobs)
         knobs += "knob " + knob.name + " = " + scene::to_string(knob) + "\n";
-    return knobs + listed(assemble(*scene, scene->image()), options.prologue);
+    const PassReading reading(*scene, scene->image());
+    const auto assembly = reading.assemble(reading.dialects(options.precision).front());
+    if (!assembly)
+        return to_string(assembly.error()) + "\n";
+    return knobs + (options.precision == Precision::promoted ? extras(*assembly) : "") +
+           listed(assembly->source, options.prologue);
 }
 
 class GlslCase : public testing::TestWithParam<std::string> {};
