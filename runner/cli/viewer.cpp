@@ -190,11 +190,14 @@ void Viewer::handle(const platform::KeyReleased& event) {
 
 /// Such a scene has the keys to itself; with Ctrl they are the viewer's again.
 bool Viewer::scene_reads_keyboard() const {
-    for (const render::PlannedPass& planned : renderer_.plan().passes)
+    for (const render::PlannedPass& planned : renderer_.plan().passes) {
+        if (planned.keyboard_helpers)
+            return true;
         for (const int channel : planned.channels)
             if (std::holds_alternative<scene::Keyboard>(
                     renderer_.scene().passes[planned.pass].channels[size_t(channel)].input))
                 return true;
+    }
     return false;
 }
 

@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 #include "gl/program.hpp"
 #include "image/image.hpp"
+#include "render/bound_channel.hpp"
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/frame_plan.hpp"
@@ -15,7 +16,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace tidemark::render {
@@ -61,11 +61,6 @@ public:
     const gl::Program& program(size_t pass) const { return *passes_[pass].program; }
 
 private:
-    struct BoundChannel {
-        int unit = 0;
-        gl::SamplerHandle sampler;
-        std::variant<ChannelTextures::Index, scene::PassOutput> source;
-    };
     struct CompiledPass {
         std::optional<gl::Program> program; ///< none: not needed
         UniformTable uniforms;
@@ -76,6 +71,7 @@ private:
     std::vector<bool> reachable() const;
     Result<void> compile();
     Result<void> bind_channels();
+    const gl::Texture& texture_of(const BoundChannel& channel) const;
     Result<void> make_targets();
     Result<PassTarget> make_target(size_t pass) const;
     GLenum format_of(size_t pass) const;

@@ -33,16 +33,15 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene) {
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
     for (int number = 0; number < scene::k_channel_count; ++number) {
-        const scene::Channel& channel = pass->channels[size_t(number)];
-        const gl::Uniform* sampler = renderer.program_.reflection().find(fmt::format("iChannel{}", number));
-        if (!sampler || std::holds_alternative<scene::PassOutput>(channel.input))
+        if (!renderer.program_.reflection().has(fmt::format("iChannel{}", number)))
             continue;
-        const auto texture = renderer.textures_.require(channel);
-        if (!texture)
-            return fail(texture.error());
-        const double unit[] = {double(number)};
-        gl::set_uniform(renderer.program_, *sampler, unit);
-        renderer.channels_.push_back({number, make_sampler(channel.sampling), *texture});
+        scene::Channel channel = pass->channels[size_t(number)];
+        if (std::holds_alternative<scene::PassOutput>(channel.input)) // pictures are not there to be heard
+            channel.input = scene::Unbound{texture_kind(scene, channel.input)};
+        auto bound = make_channel(renderer.program_, number, channel, renderer.textures_);
+        if (!bound)
+            return fail(std::move(bound.error()));
+        renderer.channels_.push_back(*std::move(bound));
     }
     return renderer;
 }
@@ -57,10 +56,8 @@ std::vector<int16_t> SoundRenderer::draw(int first, const Date& date) {
     set("iSampleRate", {k_sample_rate});
     // Without milliseconds, as on the site.
     set("iDate", {double(date.year), double(date.month), double(date.day), std::floor(date.seconds)});
-    for (const Bound& channel : channels_) {
-        glBindTextureUnit(GLuint(channel.unit), textures_.texture(channel.texture).id());
-        glBindSampler(GLuint(channel.unit), channel.sampler.id());
-    }
+    for (const BoundChannel& channel : channels_)
+        bind(channel, textures_.texture(std::get<ChannelTextures::Index>(channel.source)));
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target_.framebuffer.id());
     glViewport(0, 0, glsl::k_sound_tile, glsl::k_sound_tile);
     glUseProgram(program_.id());

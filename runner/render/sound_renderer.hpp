@@ -4,6 +4,7 @@
 #include "base/result.hpp"
 #include "gl/program.hpp"
 #include "gl/render_target.hpp"
+#include "render/bound_channel.hpp"
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
 #include "scene/scene.hpp"
@@ -29,12 +30,7 @@ private:
     gl::VertexArrayHandle no_vertices_;
     gl::RenderTarget target_;
     ChannelTextures textures_;
-    struct Bound {
-        int unit;
-        gl::SamplerHandle sampler;
-        ChannelTextures::Index texture;
-    };
-    std::vector<Bound> channels_;
+    std::vector<BoundChannel> channels_;
 };
 
 } // namespace tidemark::render

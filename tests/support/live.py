@@ -107,6 +107,8 @@ class Screen:
 class View:
     """A running `tidemark view`."""
 
+    save_key = "s"
+
     def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str) -> None:
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
@@ -178,12 +180,12 @@ class View:
     # What a person sees
 
     def save(self) -> pathlib.Path:
-        """The file that the key S makes. Pictures saved before are removed."""
+        """The file that the key for it makes. Pictures saved before are removed."""
         pattern = f"{self.scene.stem}-*.png"
         for old in self.folder.glob(pattern):
             old.unlink()
-        self.key("s")
-        return wait_for(lambda: self.running() and next(self.folder.glob(pattern), None), "the picture of key S")
+        self.key(self.save_key)
+        return wait_for(lambda: self.running() and next(self.folder.glob(pattern), None), "the saved picture")
 
     def told(self, values: dict[str, str]) -> dict[str, float]:
         return probe.read(png.read(self.save()), values)
