@@ -38,8 +38,18 @@ Result<void> put_raw(const image::Image& image) {
 
 Capture::Capture(const CapturePlan& plan, render::Renderer& renderer)
     : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()),
-      stepper_(renderer, [this](int frame) { return inputs_of(plan_.frames, frame); }),
-      watchdog_([this] { finish_writing(); }) {}
+      stepper_(renderer, [this](int frame) { return inputs_at(frame); }),
+      watchdog_([this] { finish_writing(); }) {
+    if (plan.frames.input)
+        replay_.emplace(*plan.frames.input, plan.frames.camera);
+}
+
+render::FrameInputs Capture::inputs_at(int frame) {
+    render::FrameInputs inputs = inputs_of(plan_.frames, frame);
+    if (replay_)
+        replay_->fill(inputs, renderer_.extent().height);
+    return inputs;
+}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
     // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
@@ -69,7 +79,7 @@ void Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     const Watchdog::Watch watch(watchdog_, "preparing the first frame", std::nullopt);
     const auto start = Clock::now();
-    renderer_.warm_up(inputs_of(plan_.frames, plan_.frames.frames.front()));
+    renderer_.warm_up(inputs_at(plan_.frames.frames.front()));
     prepare_milliseconds_ = milliseconds_since(start);
 }
 
@@ -78,8 +88,7 @@ Capture::Outcome Capture::draw(int frame, const Interrupt& interrupt, FrameRecor
     std::optional<Watchdog::Watch> watch;
     std::optional<Progress> steps;
     Clock::time_point start;
-    record.inputs = inputs_of(plan_.frames, frame);
-    // With --time the frame follows from the time.
+    record.inputs = inputs_at(frame);
     const bool drawn = stepper_.draw(record.inputs.frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;

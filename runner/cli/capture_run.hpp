@@ -53,6 +53,7 @@ private:
 
     void prepare(Interrupt& interrupt);
     Outcome draw(int frame, const Interrupt& interrupt, FrameRecord& record, image::Image& image);
+    render::FrameInputs inputs_at(int frame);
     image::Image read_back() const;
     Result<bool> deliver(const FrameRecord& record, image::Image image);
     image::PictureFormat format_of(const render::FrameInputs& inputs) const;
@@ -61,6 +62,7 @@ private:
     const CapturePlan& plan_;
     render::Renderer& renderer_;
     gl::Capabilities driver_;
+    std::optional<Replay> replay_;
     Stepper stepper_;
     double prepare_milliseconds_ = 0;
     std::unique_ptr<FrameWriter> writer_;

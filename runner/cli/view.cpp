@@ -12,6 +12,7 @@ namespace {
 struct ViewOptions {
     SceneRequest scene;
     FrameOptions frames;
+    std::string record;
 };
 
 Result<int> view(const ViewOptions& options) {
@@ -20,6 +21,7 @@ Result<int> view(const ViewOptions& options) {
         return fail(std::move(frames.error()));
     Viewer::Settings settings{options.scene, *std::move(frames)};
     settings.pass = options.frames.pass;
+    settings.record = options.record;
     if (options.frames.date)
         settings.date = settings.frames.date;
     auto viewer = Viewer::open(std::move(settings));
@@ -36,6 +38,8 @@ void add_view(CLI::App& app, Action& chosen) {
         app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
     add_scene_options(*command, options->scene);
     add_picture_options(*command, options->frames);
+    command->add_option("--record", options->record, "Writes what mouse and keyboard do, for --input")
+        ->type_name("FILE");
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 

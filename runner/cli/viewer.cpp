@@ -1,5 +1,6 @@
 #include "cli/viewer.hpp"
 
+#include "base/file.hpp"
 #include "cli/console.hpp"
 #include "cli/version.hpp"
 #include "gl/render_target.hpp"
@@ -15,7 +16,6 @@
 namespace tidemark::cli {
 namespace {
 
-using platform::Button;
 using platform::Key;
 
 constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scene that declares iCamera
@@ -46,7 +46,10 @@ std::string headline(const Error& error) {
 Viewer::Viewer(Settings settings, platform::Window window, platform::FileWatcher watcher,
                render::Renderer renderer)
     : settings_(std::move(settings)), window_(std::move(window)), watcher_(std::move(watcher)),
-      renderer_(std::move(renderer)), clock_(now_seconds()), camera_(settings_.frames.camera) {}
+      renderer_(std::move(renderer)), clock_(now_seconds()), controls_(settings_.frames.camera) {
+    if (settings_.frames.input)
+        replay_.emplace(*settings_.frames.input, settings_.frames.camera);
+}
 
 Result<Viewer> Viewer::open(Settings settings) {
     auto scene = load(settings.scene);
@@ -70,8 +73,10 @@ Result<Viewer> Viewer::open(Settings settings) {
 
 Result<int> Viewer::run() {
     while (!closing_) {
-        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds())))
+        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds()))) {
+            let_the_scene_know(event);
             std::visit([this](const auto& happened) { handle(happened); }, event);
+        }
         follow_files();
         const double now = now_seconds();
         if (report_at_ && now >= *report_at_)
@@ -79,6 +84,13 @@ Result<int> Viewer::run() {
         if (wants_frame(now))
             draw(now);
     }
+    return finish();
+}
+
+Result<int> Viewer::finish() {
+    if (!settings_.record.empty())
+        if (auto written = write_file(settings_.record, to_string(recorded_)); !written)
+            return fail(std::move(written.error()));
     return writer_ ? writer_->finish().map([] { return 0; }) : Result<int>(0);
 }
 
@@ -103,15 +115,15 @@ double Viewer::seconds_to_sleep(double now) const {
 void Viewer::draw(double now) {
     next_draw_ = std::max(next_draw_ + 1 / settings_.frames.fps, now);
     shown_ = clock_.next_frame(now);
-    shown_.mouse = mouse_.uniform();
     shown_.date = settings_.date ? *settings_.date : render::local_date();
-    shown_.camera = camera_.matrix();
-    shown_.keyboard = keyboard_.texels();
+    if (replay_)
+        replay_->fill(shown_, renderer_.extent().height);
+    else
+        controls_.fill(shown_);
     renderer_.draw(shown_);
     gl::blit_to_window(renderer_.target(), window_.framebuffer_extent());
     window_.swap();
-    mouse_.frame_drawn();
-    keyboard_.frame_drawn();
+    controls_.frame_drawn();
     stale_ = false;
     if (reloaded_)
         report_reload();
@@ -131,50 +143,20 @@ void Viewer::show_title() {
     window_.set_title(title_);
 }
 
-void Viewer::handle(const platform::PointerMoved& event) {
-    const double dx = event.at.x - pointer_.x;
-    const double dy = event.at.y - pointer_.y;
-    pointer_ = event.at;
-    if (turning_) {
-        mouse_.move(event.at.x, event.at.y);
-        camera_.turn(dx, dy, renderer_.extent().height);
-    }
-    if (panning_)
-        camera_.pan(dx, dy, renderer_.extent().height);
-    stale_ = stale_ || turning_ || panning_;
-}
-
-void Viewer::handle(const platform::ButtonPressed& event) {
-    pointer_ = event.at;
-    if (event.button == Button::left) {
-        turning_ = true;
-        mouse_.press(event.at.x, event.at.y);
-    } else if (event.button == Button::middle) {
-        panning_ = true;
-    }
-    stale_ = true;
-}
-
-void Viewer::handle(const platform::ButtonReleased& event) {
-    if (event.button == Button::left) {
-        turning_ = false;
-        mouse_.release();
-    } else if (event.button == Button::middle) {
-        panning_ = false;
-    }
-    stale_ = true;
-}
-
-void Viewer::handle(const platform::WheelTurned& event) {
-    camera_.zoom(event.up);
-    stale_ = true;
+/// Uniforms follow the mouse and the keys; a paused picture is drawn anew when they do.
+void Viewer::let_the_scene_know(const platform::InputEvent& event) {
+    const bool key = std::holds_alternative<platform::KeyPressed>(event) ||
+                     std::holds_alternative<platform::KeyReleased>(event);
+    if (!controls_.handle(event, renderer_.extent().height))
+        return;
+    stale_ = stale_ || !key || scene_reads_keyboard();
+    if (!settings_.record.empty())
+        record(recorded_, clock_.next_frame_number(), event);
 }
 
 void Viewer::handle(const platform::KeyPressed& event) {
     if (event.key == Key::control)
         control_down_ = true;
-    keyboard_.press(platform::js_key_code(event.key));
-    stale_ = stale_ || scene_reads_keyboard();
     const bool ours = control_down_ || event.key == Key::escape || !scene_reads_keyboard();
     const bool repeats = event.key == Key::left || event.key == Key::right;
     if (ours && (!event.repeat || repeats))
@@ -184,8 +166,6 @@ void Viewer::handle(const platform::KeyPressed& event) {
 void Viewer::handle(const platform::KeyReleased& event) {
     if (event.key == Key::control)
         control_down_ = false;
-    keyboard_.release(platform::js_key_code(event.key));
-    stale_ = stale_ || scene_reads_keyboard();
 }
 
 /// Such a scene has the keys to itself; with Ctrl they are the viewer's again.
@@ -210,7 +190,7 @@ void Viewer::obey(Key key, double now) {
         renderer_.reset();
         clock_.restart(now);
         break;
-    case Key::r: camera_ = settings_.frames.camera; break;
+    case Key::r: controls_.reset_camera(); break;
     case Key::f: window_.toggle_full_screen(); break;
     case Key::escape: closing_ = true; break;
     case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew

@@ -2,14 +2,13 @@
 // saved. Whatever goes wrong after the start leaves the last good picture running.
 #pragma once
 
+#include "cli/controls.hpp"
 #include "cli/frame_writer.hpp"
+#include "cli/input_script.hpp"
 #include "cli/requests.hpp"
 #include "platform/file_watcher.hpp"
 #include "platform/window.hpp"
-#include "render/keyboard.hpp"
 #include "render/live_clock.hpp"
-#include "render/mouse.hpp"
-#include "render/orbit_camera.hpp"
 #include "render/renderer.hpp"
 
 #include <filesystem>
@@ -26,6 +25,7 @@ public:
         FrameRequest frames;                   ///< extent, fps, camera
         std::string pass = {};                 ///< the pass to show; empty: Image
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
+        std::filesystem::path record = {};     ///< where what people do is written; empty: nowhere
     };
 
     /// Opens the window and draws nothing yet. Fails like `load`, Window and Renderer do.
@@ -47,10 +47,11 @@ private:
            render::Renderer renderer);
 
     // What people do
-    void handle(const platform::PointerMoved& event);
-    void handle(const platform::ButtonPressed& event);
-    void handle(const platform::ButtonReleased& event);
-    void handle(const platform::WheelTurned& event);
+    void handle(const platform::PointerMoved&) {}
+    void handle(const platform::ButtonPressed&) {}
+    void handle(const platform::ButtonReleased&) {}
+    void handle(const platform::WheelTurned&) {}
+    void let_the_scene_know(const platform::InputEvent& event);
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
@@ -70,6 +71,7 @@ private:
 
     void draw(double now);
     void show_title();
+    Result<int> finish();
     double seconds_to_sleep(double now) const;
     bool wants_frame(double now) const;
 
@@ -78,19 +80,16 @@ private:
     platform::FileWatcher watcher_;
     render::Renderer renderer_;
     render::LiveClock clock_;
-    render::Mouse mouse_;
-    render::OrbitCamera camera_;
-    render::Keyboard keyboard_;
+    Controls controls_;
+    std::optional<Replay> replay_; ///< moves the scene instead of the controls
+    InputScript recorded_;
     std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
     std::optional<Error> failure_;        ///< of the last reload, until mended
     std::optional<double> report_at_;     ///< when the failure is news; before, the file may be half-written
     std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
     std::string title_;
-    platform::PointerPosition pointer_{};
     render::FrameInputs shown_; ///< inputs of the frame on show
     double next_draw_ = 0;
-    bool turning_ = false;
-    bool panning_ = false;
     bool control_down_ = false;
     bool stale_ = true; ///< the window does not show what it should
     bool closing_ = false;

@@ -21,6 +21,7 @@ public:
 
     /// The frame to draw now. Counts it.
     FrameInputs next_frame(double now);
+    int next_frame_number() const { return next_frame_; }
     double frame_rate() const { return frame_rate_; }
 
 private:
