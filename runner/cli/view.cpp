@@ -1,8 +1,10 @@
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/options.hpp"
 #include "cli/viewer.hpp"
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include <memory>
 
@@ -27,7 +29,13 @@ Result<int> view(const ViewOptions& options) {
     auto viewer = Viewer::open(std::move(settings));
     if (!viewer)
         return fail(std::move(viewer.error()));
-    return viewer->run();
+    auto outcome = viewer->run();
+    if (viewer->busy()) { // a driver that compiles cannot be waited for
+        if (!outcome)
+            say(to_string(outcome.error()));
+        ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+    }
+    return outcome;
 }
 
 } // namespace

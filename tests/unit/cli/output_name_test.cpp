@@ -71,7 +71,7 @@ TEST(OutputName, several_frames_need_a_number) {
 }
 
 TEST(OutputName, unknown_formats) {
-    for (const std::string pattern : {"a.bmp", "a", "a.%04d", "a.png.####", ""}) {
+    for (const std::string pattern : {"a.bmp", "a", "a.%04d", "a.png.####"}) {
         const auto name = OutputName::parse(pattern, 1);
         ASSERT_FALSE(name) << pattern;
         EXPECT_EQ(name.error().code, ErrorCode::usage);
