@@ -21,7 +21,7 @@ constexpr double k_longest = 3600;
 
 Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, double start, double duration,
                                         const Interrupt& interrupt) {
-    auto renderer = render::SoundRenderer::create(scene);
+    auto renderer = render::SoundRenderer::create(scene, render::Date{});
     if (!renderer)
         return fail(std::move(renderer.error()));
     const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
@@ -30,7 +30,7 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, double start,
     std::vector<int16_t> samples;
     Progress progress("blocks of sound", (count + block - 1) / block);
     while (samples.size() < count && !interrupt.requested()) {
-        const std::vector<int16_t> drawn = renderer->draw(first + int(samples.size() / 2), render::Date{});
+        const std::vector<int16_t> drawn = renderer->draw(first + int(samples.size() / 2));
         samples.insert(samples.end(), drawn.begin(), drawn.end());
         progress.advance();
     }

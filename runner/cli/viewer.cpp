@@ -43,7 +43,7 @@ std::string headline(const Error& error) {
 
 Viewer::Viewer(Settings settings, platform::Window window, LiveScene scene)
     : settings_(std::move(settings)), window_(std::move(window)), scene_(std::move(scene)),
-      clock_(now_seconds()), controls_(settings_.frames.camera) {
+      sound_(std::make_unique<SoundPlayer>()), clock_(now_seconds()), controls_(settings_.frames.camera) {
     if (settings_.frames.input)
         replay_.emplace(*settings_.frames.input, settings_.frames.camera);
 }
@@ -74,6 +74,7 @@ Result<int> Viewer::run() {
         if (wants_frame(now))
             draw(now);
         show_title(now);
+        sound_->follow(clock_.time(now), !clock_.paused());
     }
     return finish();
 }
@@ -263,9 +264,20 @@ Result<void> Viewer::show(Stage fresh, double now) {
     stage_.emplace(std::move(fresh));
     if (auto entered = stage_->enter(); !entered)
         return entered;
+    play_sound();
     reloaded_ = scene_.take_times();
     handle(platform::FramebufferResized{window_.framebuffer_extent()}); // it may have changed meanwhile
     return {};
+}
+
+void Viewer::play_sound() {
+    const scene::Scene& scene = stage_->renderer().scene();
+    if (!scene.find(scene::PassKind::sound))
+        return sound_->stop();
+    if (auto context = window_.create_context())
+        sound_->play(*std::move(context), scene);
+    else
+        say(to_string(context.error()));
 }
 
 /// Our share (noticing, loading) and the driver's (compiling, drawing for the first time) side by side. The

@@ -7,6 +7,7 @@
 #include "cli/input_script.hpp"
 #include "cli/live_scene.hpp"
 #include "cli/requests.hpp"
+#include "cli/sound_player.hpp"
 #include "cli/stage.hpp"
 #include "platform/window.hpp"
 #include "render/live_clock.hpp"
@@ -35,7 +36,7 @@ public:
     Result<int> run();
 
     /// A thread is at work in the driver, which cannot be stopped: whoever wants to end must end the process.
-    bool busy() const { return scene_.busy(); }
+    bool busy() const { return scene_.busy() || sound_->busy(); }
 
 private:
     Viewer(Settings settings, platform::Window window, LiveScene scene);
@@ -59,6 +60,7 @@ private:
     LiveScene::View view() const;
     Result<void> follow_scene(double now);
     Result<void> show(Stage fresh, double now);
+    void play_sound();
     void report_reload();
     bool compiles_for_long(double now) const;
 
@@ -71,6 +73,7 @@ private:
     Settings settings_;
     platform::Window window_; ///< owns the context: first in, last out
     LiveScene scene_;
+    std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;
     Controls controls_;

@@ -109,12 +109,12 @@ class View:
 
     save_key = "s"
 
-    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str, first_title: str = " fps"
-                 ) -> None:
+    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str, first_title: str = " fps",
+                 **variables: str) -> None:
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
         self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
-                                        env=environment(DISPLAY=screen.display), stderr=self.words)
+                                        env=environment(DISPLAY=screen.display, **variables), stderr=self.words)
         self.window = int(wait_for(lambda: self.running() and screen.xdotool("search", "--onlyvisible", "--class",
                                                                             "tidemark"), "the window"))
         wait_for(lambda: self.running() and first_title in self.title(), "the first frame")
@@ -218,7 +218,7 @@ class LiveTest(ProgramTest):
         cls.screen = Screen()
         cls.addClassCleanup(cls.screen.close)
 
-    def view(self, scene: str, *options: str) -> View:
-        opened = View(self.screen, self.folder, scene, *options)
+    def view(self, scene: str, *options: str, **variables: str) -> View:
+        opened = View(self.screen, self.folder, scene, *options, **variables)
         self.addCleanup(opened.close)
         return opened
