@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -99,8 +100,9 @@ Result<std::string> read_text_file(const fs::path& path) {
 }
 
 StagedFile::StagedFile(fs::path final_path) : final_(std::move(final_path)), temporary_(final_) {
-    temporary_.replace_filename(
-        fmt::format(".{}.part-{}{}", final_.stem().string(), ::getpid(), final_.extension().string()));
+    static std::atomic<unsigned> count = 0; // two threads may write to one path
+    temporary_.replace_filename(fmt::format(".{}.part-{}-{}{}", final_.stem().string(), ::getpid(), ++count,
+                                            final_.extension().string()));
 }
 
 StagedFile::StagedFile(StagedFile&& other) noexcept

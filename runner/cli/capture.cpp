@@ -4,13 +4,16 @@
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
+#include "image/video_writer.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
+#include "sound/sound_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -25,7 +28,7 @@ using image::SampleType;
 struct CaptureOptions {
     SceneRequest scene;
     FrameOptions frames;
-    std::string output;
+    std::optional<std::string> output;
     std::string depth;
     std::string device = "auto";
     std::optional<double> timeout;
@@ -42,10 +45,11 @@ Result<SampleDepth> parse_depth(const std::string& text, const OutputName& outpu
                                                                      {"16", SampleDepth::u16},
                                                                      {"half", SampleDepth::half},
                                                                      {"float", SampleDepth::f32}};
-    if (output.standard_output() && !text.empty())
-        return fail(ErrorCode::usage, "--depth: raw frames on standard output always have 8 bits");
+    const bool raw = output.standard_output() || output.video();
+    if (raw && !text.empty())
+        return fail(ErrorCode::usage, "--depth: videos and raw frames on standard output always have 8 bits");
     if (text.empty())
-        return output.standard_output() ? SampleDepth::u8 : image::natural_depth(output.pattern());
+        return raw ? SampleDepth::u8 : image::natural_depth(output.pattern());
     for (const auto& [name, depth] : k_depths)
         if (name == text)
             return depth;
@@ -62,17 +66,20 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     auto frames = resolve(options.frames);
     if (!frames)
         return fail(std::move(frames.error()));
-    if (options.output != "-")
-        drop_repeats(frames->frames);
-    const size_t count = frames->frames.size();
-    auto output =
-        OutputName::parse(options.output.empty() ? default_output(options, count) : options.output, count);
+    const size_t count = std::unordered_set(frames->frames.begin(), frames->frames.end()).size();
+    auto output = OutputName::parse(options.output.value_or(default_output(options, count)), count);
     if (!output)
         return fail(std::move(output.error()));
+    if (!output->standard_output() && !output->video())
+        drop_repeats(frames->frames);
     const auto depth = parse_depth(options.depth, *output);
     if (!depth)
         return fail(depth.error());
-    if (!output->standard_output())
+    if (output->video() && output->pattern().extension() == ".gif" &&
+        options.frames.fps > image::k_fastest_gif)
+        return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
+                                                  options.frames.fps, image::k_fastest_gif));
+    if (!output->standard_output() && !output->video())
         if (auto known = image::check_picture_format(output->pattern(), *depth); !known)
             return fail(std::move(known.error()));
     if (options.timeout && !(*options.timeout > 0))
@@ -90,8 +97,10 @@ Result<render::Renderer> compile(scene::Scene scene, const CaptureOptions& optio
         std::move(scene), {plan.frames.extent, samples, options.frames.pass, precision_of(options.scene)});
 }
 
-void say_what_was_written(const std::vector<FrameRecord>& records) {
-    if (records.size() == 1)
+void say_what_was_written(const std::vector<FrameRecord>& records, bool video) {
+    if (video)
+        say(fmt::format("wrote {}: {} frames", records.front().file, records.size()));
+    else if (records.size() == 1)
         say(fmt::format("wrote {}", records.front().file));
     else if (!records.empty())
         say(fmt::format("wrote {} frames, {} to {}", records.size(), records.front().file,
@@ -100,12 +109,34 @@ void say_what_was_written(const std::vector<FrameRecord>& records) {
 
 /// `-o x.wav` asks for the sound of a scene instead of its pictures.
 bool wants_sound(const CaptureOptions& options) {
-    return std::filesystem::path(options.output).extension() == ".wav";
+    return options.output && std::filesystem::path(*options.output).extension() == ".wav";
+}
+
+/// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong
+/// is said, and nothing else. Frames that leave some out have no sound.
+std::optional<StagedFile> draw_sound_of_video(const scene::Scene& scene, glsl::Precision precision,
+                                              const CapturePlan& plan, const Interrupt& interrupt) {
+    const std::vector<int>& frames = plan.frames.frames;
+    const bool skips = std::adjacent_find(frames.begin(), frames.end(),
+                                          [](int a, int b) { return b != a + 1; }) != frames.end();
+    if (!plan.output.video() || plan.output.pattern().extension() == ".gif" || skips ||
+        !scene.find(scene::PassKind::sound))
+        return std::nullopt;
+    const auto first = inputs_of(plan.frames, frames.front()).time;
+    auto samples = draw_sound(scene, precision, std::max(0.0, first), double(frames.size()) / plan.frames.fps,
+                              interrupt);
+    StagedFile file(std::filesystem::path(plan.output.pattern()).replace_extension(".wav"));
+    Result<void> written = samples ? sound::write_wav(file.path(), int(render::k_sample_rate), *samples)
+                                   : fail(std::move(samples.error()));
+    if (written)
+        return file;
+    say("the video is silent: " + to_string(written.error()));
+    return std::nullopt;
 }
 
 Result<int> capture(const CaptureOptions& options) {
     if (wants_sound(options))
-        return capture_sound(options.scene, {options.output, options.device, options.duration});
+        return capture_sound(options.scene, {*options.output, options.device, options.duration});
     const auto plan = plan_capture(options);
     if (!plan)
         return fail(plan.error());
@@ -113,7 +144,7 @@ Result<int> capture(const CaptureOptions& options) {
         return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
     Interrupt interrupt;
     std::jthread codec; // is loaded beside the driver, which takes as long
-    if (!plan->output.standard_output())
+    if (!plan->output.standard_output() && !plan->output.video())
         codec = image::preload_picture_codec(plan->output.pattern());
     auto scene = load(options.scene);
     if (!scene)
@@ -121,10 +152,12 @@ Result<int> capture(const CaptureOptions& options) {
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
+    const std::optional<StagedFile> sound =
+        draw_sound_of_video(*scene, precision_of(options.scene), *plan, interrupt);
     auto renderer = compile(*std::move(scene), options, *plan, interrupt);
     if (!renderer)
         return fail(std::move(renderer.error()));
-    Capture run(*plan, *renderer);
+    Capture run(*plan, *renderer, sound ? sound->path() : std::filesystem::path());
     const auto complete = run.run(interrupt);
     if (!complete)
         return fail(complete.error());
@@ -132,10 +165,10 @@ Result<int> capture(const CaptureOptions& options) {
         if (auto printed = put(run.report().dump(2) + "\n"); !printed)
             return fail(std::move(printed.error()));
     if (!options.json && !plan->output.standard_output())
-        say_what_was_written(run.records());
+        say_what_was_written(run.records(), plan->output.video());
     if (!*complete)
-        say(fmt::format("interrupted after {} of {} frames", run.records().size(),
-                        plan->frames.frames.size()));
+        say(fmt::format("interrupted after {} of {} frames{}", run.records().size(),
+                        plan->frames.frames.size(), plan->output.video() ? ": no video was written" : ""));
     return *complete ? 0 : Interrupt::k_exit_code;
 }
 
@@ -151,8 +184,8 @@ void add_capture(CLI::App& app, Action& chosen) {
     command
         ->add_option(
             "-o,--output", options->output,
-            "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; - for raw RGB frames on standard "
-            "output [SCENE.png]")
+            "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; a video: .mp4 .webm .gif; - for "
+            "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
         ->add_option("--depth", options->depth,

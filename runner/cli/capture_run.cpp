@@ -37,23 +37,33 @@ Result<void> put_raw(const image::Image& image) {
 
 } // namespace
 
-Capture::Capture(const CapturePlan& plan, render::Renderer& renderer)
+Capture::Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound)
     : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()),
-      stepper_(renderer, [this](int frame) { return inputs_of(plan_.frames, frame); }),
-      watchdog_([this] { finish_writing(); }) {}
+      stepper_(renderer, [this](int frame) { return inputs_at(frame); }), sound_(std::move(sound)),
+      watchdog_([this] { rescue_output(); }) {
+    if (plan.frames.input)
+        replay_.emplace(*plan.frames.input, plan.frames.camera);
+}
+
+render::FrameInputs Capture::inputs_at(int frame) {
+    render::FrameInputs inputs = inputs_of(plan_.frames, frame);
+    if (replay_)
+        replay_->fill(inputs, renderer_.extent().height);
+    return inputs;
+}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
-    // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
-    const auto workers = unsigned(std::min<size_t>(2, plan_.frames.frames.size()));
-    if (!plan_.output.standard_output())
-        writer_ = std::make_unique<FrameWriter>(workers);
+    if (auto opened = open_output(); !opened)
+        return fail(std::move(opened.error()));
     prepare(interrupt);
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         image::Image image;
         FrameRecord record;
-        if (draw(frame, interrupt, record, image) == Outcome::interrupted)
-            return writer_ ? writer_->finish().map([] { return false; }) : Result<bool>(false);
+        if (draw(frame, interrupt, record, image) == Outcome::interrupted) {
+            video_.reset(); // whole or not at all
+            return close_output().map([] { return false; });
+        }
         auto wanted = deliver(record, std::move(image));
         if (!wanted)
             return wanted;
@@ -62,7 +72,29 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         records_.push_back(std::move(record));
         progress.advance();
     }
-    return writer_ ? writer_->finish().map([] { return true; }) : Result<bool>(true);
+    return close_output().map([] { return true; });
+}
+
+Result<void> Capture::open_output() {
+    if (plan_.output.video()) {
+        const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
+        auto video =
+            image::VideoWriter::create(plan_.output.pattern(), {cube ? image::k_panorama : renderer_.extent(),
+                                                                plan_.frames.fps, sound_});
+        if (!video)
+            return fail(std::move(video.error()));
+        video_.emplace(*std::move(video));
+    } else if (!plan_.output.standard_output()) {
+        // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
+        writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
+    }
+    return {};
+}
+
+Result<void> Capture::close_output() {
+    if (video_)
+        return video_->finish();
+    return writer_ ? writer_->finish() : Result<void>();
 }
 
 /// What the driver puts off until the first draw, so that no frame pays for it, in time or against its limit.
@@ -70,7 +102,7 @@ void Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     const Watchdog::Watch watch(watchdog_, "preparing the first frame", std::nullopt);
     const auto start = Clock::now();
-    renderer_.warm_up(inputs_of(plan_.frames, plan_.frames.frames.front()));
+    renderer_.warm_up(inputs_at(plan_.frames.frames.front()));
     prepare_milliseconds_ = milliseconds_since(start);
 }
 
@@ -79,8 +111,7 @@ Capture::Outcome Capture::draw(int frame, const Interrupt& interrupt, FrameRecor
     std::optional<Watchdog::Watch> watch;
     std::optional<Progress> steps;
     Clock::time_point start;
-    record.inputs = inputs_of(plan_.frames, frame);
-    // With --time the frame follows from the time.
+    record.inputs = inputs_at(frame);
     const bool drawn = stepper_.draw(record.inputs.frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
@@ -109,14 +140,18 @@ image::Image Capture::read_back() const {
     return renderer_.read_back();
 }
 
-/// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved.
-void Capture::finish_writing() {
+/// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,
+/// half a video is not.
+void Capture::rescue_output() {
+    video_.reset();
     if (writer_)
         (void)writer_->finish();
 }
 
 /// False when the writer has failed and no more frames are wanted.
 Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
+    if (video_)
+        return video_->push(image).map([] { return true; });
     if (!writer_)
         return put_raw(image).map([] { return true; });
     return writer_->push({record.inputs.frame, record.file, std::move(image), format_of(record.inputs)});

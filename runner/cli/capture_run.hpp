@@ -8,10 +8,12 @@
 #include "cli/stepper.hpp"
 #include "cli/watchdog.hpp"
 #include "gl/capabilities.hpp"
+#include "image/video_writer.hpp"
 #include "render/renderer.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,8 +40,8 @@ struct FrameRecord {
 
 class Capture {
 public:
-    /// `plan` and `renderer` must outlive it.
-    Capture(const CapturePlan& plan, render::Renderer& renderer);
+    /// `plan` and `renderer` must outlive it. `sound` is a WAV file for a video; empty: silent.
+    Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound = {});
 
     /// Draws and hands over every frame; true when all were made before an interrupt.
     Result<bool> run(Interrupt& interrupt);
@@ -53,18 +55,24 @@ private:
 
     void prepare(Interrupt& interrupt);
     Outcome draw(int frame, const Interrupt& interrupt, FrameRecord& record, image::Image& image);
+    render::FrameInputs inputs_at(int frame);
     image::Image read_back() const;
     Result<bool> deliver(const FrameRecord& record, image::Image image);
     image::PictureFormat format_of(const render::FrameInputs& inputs) const;
-    void finish_writing();
+    Result<void> open_output();
+    Result<void> close_output();
+    void rescue_output();
 
     const CapturePlan& plan_;
     render::Renderer& renderer_;
     gl::Capabilities driver_;
+    std::optional<Replay> replay_;
     Stepper stepper_;
     double prepare_milliseconds_ = 0;
-    std::unique_ptr<FrameWriter> writer_;
-    Watchdog watchdog_; ///< last: its thread may use the writer
+    std::filesystem::path sound_;
+    std::unique_ptr<FrameWriter> writer_;     ///< of pictures
+    std::optional<image::VideoWriter> video_; ///< neither: frames go to standard output
+    Watchdog watchdog_;                       ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;
 };
 

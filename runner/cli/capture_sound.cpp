@@ -19,6 +19,25 @@ constexpr double k_longest = 3600;
 
 } // namespace
 
+Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
+                                        double duration, const Interrupt& interrupt) {
+    auto renderer = render::SoundRenderer::create(scene, render::Date{}, precision);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
+    const auto first = int(std::llround(start * render::k_sample_rate));
+    const auto block = 2 * size_t(render::SoundRenderer::block_samples());
+    std::vector<int16_t> samples;
+    Progress progress("blocks of sound", (count + block - 1) / block);
+    while (samples.size() < count && !interrupt.requested()) {
+        const std::vector<int16_t> drawn = renderer->draw(first + int(samples.size() / 2));
+        samples.insert(samples.end(), drawn.begin(), drawn.end());
+        progress.advance();
+    }
+    samples.resize(count);
+    return samples;
+}
+
 Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest& request) {
     if (!(request.duration > 0) || request.duration > k_longest)
         return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
@@ -30,22 +49,12 @@ Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest&
     const auto context = platform::HeadlessContext::create(request.device);
     if (!context)
         return fail(context.error());
-    auto renderer = render::SoundRenderer::create(*scene, precision_of(scene_request));
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    const auto count = size_t(std::llround(request.duration * render::k_sample_rate));
-    const auto block = size_t(render::SoundRenderer::block_samples());
-    std::vector<int16_t> samples;
-    Progress progress("blocks of sound", (count + block - 1) / block);
-    while (samples.size() < 2 * count) {
-        if (interrupt.requested())
-            return Interrupt::k_exit_code;
-        const std::vector<int16_t> drawn = renderer->draw(int(samples.size() / 2), render::Date{});
-        samples.insert(samples.end(), drawn.begin(), drawn.end());
-        progress.advance();
-    }
-    samples.resize(2 * count);
-    if (auto written = sound::write_wav(request.output, int(render::k_sample_rate), samples); !written)
+    const auto samples = draw_sound(*scene, precision_of(scene_request), 0, request.duration, interrupt);
+    if (!samples)
+        return fail(samples.error());
+    if (interrupt.requested())
+        return Interrupt::k_exit_code;
+    if (auto written = sound::write_wav(request.output, int(render::k_sample_rate), *samples); !written)
         return fail(std::move(written.error()));
     say(fmt::format("wrote {}", request.output));
     return 0;

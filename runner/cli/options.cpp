@@ -74,6 +74,10 @@ void add_picture_options(CLI::App& command, FrameOptions& options) {
     command
         .add_option("--camera", options.camera, "Orbit camera of a scene that declares iCamera, in degrees")
         ->type_name("AZIMUTH,ELEVATION,DISTANCE");
+    command.add_option("--pass", options.pass, "The pass to show, as in \"Buffer A\" [Image]")
+        ->type_name("NAME");
+    command.add_option("--input", options.input, "Mouse and keyboard events by frame, from a recording")
+        ->type_name("FILE");
 }
 
 void add_time_options(CLI::App& command, FrameOptions& options) {
@@ -91,7 +95,8 @@ void add_time_options(CLI::App& command, FrameOptions& options) {
     command
         .add_option("--mouse", options.mouse,
                     "iMouse after a click at that pixel; down: in the frame of the press")
-        ->type_name("X,Y[,down]");
+        ->type_name("X,Y[,down]")
+        ->excludes("--input");
 }
 
 Result<FrameRequest> resolve(const FrameOptions& options) {
@@ -114,6 +119,8 @@ Result<FrameRequest> resolve(const FrameOptions& options) {
     if (options.time && !std::isfinite(*options.time))
         return fail(ErrorCode::usage, "--time: give a finite number of seconds");
     request.time = options.time;
+    if (options.time)
+        request.frames = {frame_at(*options.time, options.fps)};
     if (options.frames)
         if (auto frames = keep(parse_frames(*options.frames), request.frames); !frames)
             return fail(frames.error());
@@ -126,6 +133,9 @@ Result<FrameRequest> resolve(const FrameOptions& options) {
     if (options.camera)
         if (auto camera = keep(render::parse_camera(*options.camera), request.camera); !camera)
             return fail(camera.error());
+    if (options.input)
+        if (auto input = keep(load_input_script(*options.input), request.input); !input)
+            return fail(input.error());
     return request;
 }
 

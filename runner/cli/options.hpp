@@ -28,10 +28,11 @@ struct FrameOptions {
     std::optional<std::string> mouse;
     std::optional<std::string> date;
     std::optional<std::string> camera;
+    std::optional<std::string> input;
     std::string pass; ///< empty: Image
 };
 
-/// --size, --fps, --date, --camera, --pass: what a window knows too.
+/// --size, --fps, --date, --camera, --pass, --input: what a window knows too.
 void add_picture_options(CLI::App& command, FrameOptions& options);
 /// --frame, --frames, --time, --mouse: what a window gets from the person in front of it.
 void add_time_options(CLI::App& command, FrameOptions& options);

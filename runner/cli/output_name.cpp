@@ -1,6 +1,7 @@
 #include "cli/output_name.hpp"
 
 #include "image/picture_file.hpp"
+#include "image/video_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,13 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
     name.pattern_ = pattern;
     if (pattern == "-") {
         name.standard_output_ = true;
+        return name;
+    }
+    if (pattern.empty())
+        return refuse("give the name of a file, or - for standard output");
+    if (image::is_video_name(name.pattern_)) {
+        name.video_ = true;
+        name.before_ = pattern;
         return name;
     }
     if (auto known = image::check_picture_name(name.pattern_); !known)

@@ -1,4 +1,4 @@
-// File names for frames: `out/wave.%04d.png`, `out/wave.####.png`, or one name for one picture.
+// File names for frames: `out/wave.%04d.png`, `out/wave.####.png`, one name for one picture, or for a video.
 #pragma once
 
 #include "base/result.hpp"
@@ -20,6 +20,8 @@ public:
     std::filesystem::path of_frame(int frame) const;
     /// `-`: raw frames on standard output.
     bool standard_output() const { return standard_output_; }
+    /// All frames go into one file.
+    bool video() const { return video_; }
     const std::filesystem::path& pattern() const { return pattern_; }
 
 private:
@@ -29,6 +31,7 @@ private:
     int digits_ = 0;
     bool numbered_ = false;
     bool standard_output_ = false;
+    bool video_ = false;
 };
 
 } // namespace tidemark::cli

@@ -13,8 +13,6 @@
 namespace tidemark::cli {
 namespace {
 
-/// No recording is longer: iFrame is an int, and a day at 60 frames a second is five million.
-constexpr int k_last_frame = 100'000'000;
 /// All ranges together.
 constexpr size_t k_most_frames = 10'000'000;
 /// Every whole number up to here is a float.
@@ -87,14 +85,16 @@ glsl::Precision precision_of(const SceneRequest& request) {
 
 render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
     render::FrameInputs inputs = render::inputs_of_frame(frame, request.fps);
-    if (request.time) {
-        inputs.time = *request.time;
-        inputs.frame = int(std::clamp(std::floor(*request.time * request.fps), 0.0, double(k_last_frame)));
-    }
+    if (request.time) // the frames that lead to it go before it
+        inputs.time = *request.time - (frame_at(*request.time, request.fps) - frame) / request.fps;
     inputs.mouse = request.mouse;
     inputs.date = request.date;
     inputs.camera = request.camera.matrix();
     return inputs;
+}
+
+int frame_at(double time, double fps) {
+    return int(std::clamp(std::floor(time * fps), 0.0, double(k_last_frame)));
 }
 
 Result<Extent> parse_size(std::string_view text) {

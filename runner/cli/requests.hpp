@@ -4,6 +4,7 @@
 
 #include "base/extent.hpp"
 #include "base/result.hpp"
+#include "cli/input_script.hpp"
 #include "glsl/dialect.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/orbit_camera.hpp"
@@ -36,20 +37,27 @@ glsl::Precision precision_of(const SceneRequest& request);
 /// Prints the scene's warnings.
 Result<scene::Scene> load(const SceneRequest& request);
 
+/// No recording is longer: iFrame is an int, and a day at 60 frames a second is five million.
+inline constexpr int k_last_frame = 100'000'000;
+
 /// Which frames, and what they see.
 struct FrameRequest {
     Extent extent{640, 360};
     double fps = 60;
     std::vector<int> frames{0};
-    std::optional<double> time; ///< --time: instead of frame / fps
+    std::optional<double> time; ///< --time: what the frame it falls in has instead of frame / fps
     glm::vec4 mouse{0};
     render::Date date{};
     render::OrbitCamera camera{};
+    std::optional<InputScript> input{}; ///< instead of a person, or of `mouse` and `camera` that stand still
 };
 
 /// The inputs of one of the request's frames; depends on nothing else, so that a frame asked for alone
 /// equals the same frame of a sequence.
 render::FrameInputs inputs_of(const FrameRequest& request, int frame);
+
+/// The frame that a time falls in.
+int frame_at(double time, double fps);
 
 /// `640x360`.
 Result<Extent> parse_size(std::string_view text);

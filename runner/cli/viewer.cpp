@@ -1,7 +1,9 @@
 #include "cli/viewer.hpp"
 
+#include "base/file.hpp"
 #include "cli/console.hpp"
 #include "cli/version.hpp"
+#include "cli/wall_clock.hpp"
 #include "gl/render_target.hpp"
 #include "image/picture_file.hpp"
 
@@ -15,23 +17,19 @@
 namespace tidemark::cli {
 namespace {
 
-using platform::Button;
 using platform::Key;
 
 constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scene that declares iCamera
 wheel       zooms that camera     middle drag  pans it     R  resets it
 space       pause                 left, right  a frame back, forward
 Home        restart               S            save a picture
-F           full screen           Esc          quit        H  this help
+F           full screen           Esc          quit; while it compiles: give up      H  this help
 A scene that reads the keyboard gets all keys but Esc: hold Ctrl for the above.)";
 
-/// How long a scene that does not load may still be in the middle of being saved. An editor's pause between
-/// two writes is shorter, a person's patience longer.
-constexpr double k_half_written_seconds = 0.06;
-
-double now_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+/// So long compiling goes unmentioned.
+constexpr double k_short_wait_seconds = 0.3;
+/// Seconds on show are no older than this.
+constexpr double k_title_seconds = 0.25;
 
 /// The first thing that is wrong, in one line.
 std::string headline(const Error& error) {
@@ -41,12 +39,18 @@ std::string headline(const Error& error) {
     return error.message;
 }
 
+render::RenderOptions options_for(const platform::Window& window, const Viewer::Settings& settings) {
+    return {window.framebuffer_extent(), image::SampleType::u8, settings.pass, precision_of(settings.scene)};
+}
+
 } // namespace
 
-Viewer::Viewer(Settings settings, platform::Window window, platform::FileWatcher watcher,
-               render::Renderer renderer)
-    : settings_(std::move(settings)), window_(std::move(window)), watcher_(std::move(watcher)),
-      renderer_(std::move(renderer)), clock_(now_seconds()), camera_(settings_.frames.camera) {}
+Viewer::Viewer(Settings settings, platform::Window window, LiveScene scene)
+    : settings_(std::move(settings)), window_(std::move(window)), scene_(std::move(scene)),
+      sound_(std::make_unique<SoundPlayer>()), clock_(now_seconds()), controls_(settings_.frames.camera) {
+    if (settings_.frames.input)
+        replay_.emplace(*settings_.frames.input, settings_.frames.camera);
+}
 
 Result<Viewer> Viewer::open(Settings settings) {
     auto scene = load(settings.scene);
@@ -55,31 +59,34 @@ Result<Viewer> Viewer::open(Settings settings) {
     auto window = platform::Window::create(settings.frames.extent, scene->name() + " - tidemark");
     if (!window)
         return fail(std::move(window.error()));
-    // After the window, so that it ends before it: its thread wakes the window.
-    auto watcher = platform::FileWatcher::create([] { platform::Window::wake(); });
-    if (!watcher)
-        return fail(std::move(watcher.error()));
-    if (auto watched = watcher->watch(scene->files); !watched)
-        say(to_string(watched.error())); // it can still be looked at
-    auto renderer =
-        render::Renderer::create(*std::move(scene), {window->framebuffer_extent(), image::SampleType::u8,
-                                                     settings.pass, precision_of(settings.scene)});
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    return Viewer(std::move(settings), *std::move(window), *std::move(watcher), *std::move(renderer));
+    auto live =
+        LiveScene::create(settings.scene, *std::move(scene), *window, {options_for(*window, settings), {}});
+    if (!live)
+        return fail(std::move(live.error()));
+    return Viewer(std::move(settings), *std::move(window), *std::move(live));
 }
 
 Result<int> Viewer::run() {
     while (!closing_) {
-        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds())))
+        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds()))) {
+            let_the_scene_know(event);
             std::visit([this](const auto& happened) { handle(happened); }, event);
-        follow_files();
+        }
         const double now = now_seconds();
-        if (report_at_ && now >= *report_at_)
-            report_failure();
+        if (auto followed = follow_scene(now); !followed)
+            return fail(std::move(followed.error()));
         if (wants_frame(now))
             draw(now);
+        show_title(now);
+        sound_->follow(clock_.time(now), !clock_.paused());
     }
+    return finish();
+}
+
+Result<int> Viewer::finish() {
+    if (!settings_.record.empty())
+        if (auto written = write_file(settings_.record, to_string(recorded_)); !written)
+            return fail(std::move(written.error()));
     return writer_ ? writer_->finish().map([] { return 0; }) : Result<int>(0);
 }
 
@@ -87,95 +94,82 @@ bool Viewer::wants_frame(double now) const {
     const Extent extent = window_.framebuffer_extent();
     if (extent.width == 0 || extent.height == 0)
         return false; // minimised
-    return stale_ || (!clock_.paused() && now >= next_draw_);
+    return stale_ || (stage_ && !clock_.paused() && now >= next_draw_);
 }
 
 double Viewer::seconds_to_sleep(double now) const {
     double until = std::numeric_limits<double>::infinity();
     if (stale_)
         return 0;
-    if (!clock_.paused())
+    if (stage_ && !clock_.paused())
         until = next_draw_;
-    if (report_at_)
-        until = std::min(until, *report_at_);
+    if (scene_.building_since())
+        until = std::min(until, now + k_title_seconds);
+    if (const auto wake = scene_.wake_at())
+        until = std::min(until, *wake);
     return std::max(0.0, until - now);
 }
 
 void Viewer::draw(double now) {
+    stale_ = false;
+    if (!stage_) {
+        gl::clear_window();
+        return window_.swap();
+    }
+    render::Renderer& renderer = stage_->renderer();
     next_draw_ = std::max(next_draw_ + 1 / settings_.frames.fps, now);
     shown_ = clock_.next_frame(now);
-    shown_.mouse = mouse_.uniform();
     shown_.date = settings_.date ? *settings_.date : render::local_date();
-    shown_.camera = camera_.matrix();
-    shown_.keyboard = keyboard_.texels();
-    renderer_.draw(shown_);
-    gl::blit_to_window(renderer_.target(), window_.framebuffer_extent());
+    if (replay_)
+        replay_->fill(shown_, renderer.extent().height);
+    else
+        controls_.fill(shown_);
+    renderer.draw(shown_);
+    gl::blit_to_window(renderer.target(), window_.framebuffer_extent());
     window_.swap();
-    mouse_.frame_drawn();
-    keyboard_.frame_drawn();
-    stale_ = false;
+    controls_.frame_drawn();
     if (reloaded_)
         report_reload();
-    show_title();
 }
 
-/// The error while there is one, else the frame rate, which changes twice a second at most.
-void Viewer::show_title() {
-    const std::string state = clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.time)
-                                              : fmt::format("{:.0f} fps", clock_.frame_rate());
-    std::string title = failure_ && !report_at_
-                            ? headline(*failure_)
-                            : fmt::format("{} - tidemark - {}", renderer_.scene().name(), state);
+bool Viewer::compiles_for_long(double now) const {
+    const auto since = scene_.building_since();
+    return since && now - *since > k_short_wait_seconds;
+}
+
+/// What is being waited for, else the error while there is one, else the frame rate, which changes twice a
+/// second at most.
+void Viewer::show_title(double now) {
+    std::string state = clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.time)
+                                        : fmt::format("{:.0f} fps", clock_.frame_rate());
+    if (compiles_for_long(now))
+        state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
+                            stage_ ? ", Esc gives up" : "");
+    else if (!stage_)
+        return;
+    std::string title = scene_.failure() && !compiles_for_long(now)
+                            ? headline(*scene_.failure())
+                            : fmt::format("{} - tidemark - {}", scene_.name(), state);
     if (title == title_)
         return;
     title_ = std::move(title);
     window_.set_title(title_);
 }
 
-void Viewer::handle(const platform::PointerMoved& event) {
-    const double dx = event.at.x - pointer_.x;
-    const double dy = event.at.y - pointer_.y;
-    pointer_ = event.at;
-    if (turning_) {
-        mouse_.move(event.at.x, event.at.y);
-        camera_.turn(dx, dy, renderer_.extent().height);
-    }
-    if (panning_)
-        camera_.pan(dx, dy, renderer_.extent().height);
-    stale_ = stale_ || turning_ || panning_;
-}
-
-void Viewer::handle(const platform::ButtonPressed& event) {
-    pointer_ = event.at;
-    if (event.button == Button::left) {
-        turning_ = true;
-        mouse_.press(event.at.x, event.at.y);
-    } else if (event.button == Button::middle) {
-        panning_ = true;
-    }
-    stale_ = true;
-}
-
-void Viewer::handle(const platform::ButtonReleased& event) {
-    if (event.button == Button::left) {
-        turning_ = false;
-        mouse_.release();
-    } else if (event.button == Button::middle) {
-        panning_ = false;
-    }
-    stale_ = true;
-}
-
-void Viewer::handle(const platform::WheelTurned& event) {
-    camera_.zoom(event.up);
-    stale_ = true;
+/// Uniforms follow the mouse and the keys; a paused picture is drawn anew when they do.
+void Viewer::let_the_scene_know(const platform::InputEvent& event) {
+    const bool key = std::holds_alternative<platform::KeyPressed>(event) ||
+                     std::holds_alternative<platform::KeyReleased>(event);
+    if (!controls_.handle(event, window_.framebuffer_extent().height))
+        return;
+    stale_ = stale_ || !key || scene_reads_keyboard();
+    if (!settings_.record.empty())
+        record(recorded_, clock_.next_frame_number(), event);
 }
 
 void Viewer::handle(const platform::KeyPressed& event) {
     if (event.key == Key::control)
         control_down_ = true;
-    keyboard_.press(platform::js_key_code(event.key));
-    stale_ = stale_ || scene_reads_keyboard();
     const bool ours = control_down_ || event.key == Key::escape || !scene_reads_keyboard();
     const bool repeats = event.key == Key::left || event.key == Key::right;
     if (ours && (!event.repeat || repeats))
@@ -185,17 +179,20 @@ void Viewer::handle(const platform::KeyPressed& event) {
 void Viewer::handle(const platform::KeyReleased& event) {
     if (event.key == Key::control)
         control_down_ = false;
-    keyboard_.release(platform::js_key_code(event.key));
-    stale_ = stale_ || scene_reads_keyboard();
 }
 
 /// Such a scene has the keys to itself; with Ctrl they are the viewer's again.
 bool Viewer::scene_reads_keyboard() const {
-    for (const render::PlannedPass& planned : renderer_.plan().passes)
+    if (!stage_)
+        return false;
+    for (const render::PlannedPass& planned : stage_->renderer().plan().passes) {
+        if (planned.keyboard_helpers)
+            return true;
         for (const int channel : planned.channels)
             if (std::holds_alternative<scene::Keyboard>(
-                    renderer_.scene().passes[planned.pass].channels[size_t(channel)].input))
+                    stage_->renderer().scene().passes[planned.pass].channels[size_t(channel)].input))
                 return true;
+    }
     return false;
 }
 
@@ -205,12 +202,18 @@ void Viewer::obey(Key key, double now) {
     case Key::right: clock_.step(1, settings_.frames.fps, now); break;
     case Key::space: clock_.toggle_pause(now); break;
     case Key::home:
-        renderer_.reset();
+        if (stage_)
+            stage_->renderer().reset();
         clock_.restart(now);
         break;
-    case Key::r: camera_ = settings_.frames.camera; break;
+    case Key::r: controls_.reset_camera(); break;
     case Key::f: window_.toggle_full_screen(); break;
-    case Key::escape: closing_ = true; break;
+    case Key::escape:
+        if (stage_ && compiles_for_long(now))
+            scene_.give_up();
+        else
+            closing_ = true;
+        break;
     case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
     case Key::h: return say(k_help);
     default: return;
@@ -221,79 +224,64 @@ void Viewer::obey(Key key, double now) {
 void Viewer::handle(const platform::FramebufferResized& event) {
     if (event.extent.width == 0 || event.extent.height == 0)
         return;
-    if (auto resized = renderer_.resize(event.extent); !resized)
-        say(to_string(resized.error())); // the old picture is stretched
+    if (stage_)
+        if (auto resized = stage_->renderer().resize(event.extent); !resized)
+            say(to_string(resized.error())); // the old picture is stretched
     stale_ = true;
 }
 
 void Viewer::save_picture() {
+    if (!stage_)
+        return;
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
-    const std::string name = fmt::format("{}-{:05}.png", renderer_.scene().name(), shown_.frame);
+    const std::string name = fmt::format("{}-{:05}.png", scene_.name(), shown_.frame);
     const image::PictureFormat format{image::SampleDepth::u8,
                                       {{"Scene", settings_.scene.path.string()},
                                        {"Frame", fmt::format("{}", shown_.frame)},
                                        {"iTime", fmt::format("{}", shown_.time)},
                                        {"Software", fmt::format("tidemark {}", k_version)}}};
-    if (writer_->push({shown_.frame, name, renderer_.read_back(), format}))
+    if (writer_->push({shown_.frame, name, stage_->renderer().read_back(), format}))
         say(fmt::format("saving {}", name));
     else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
         say(to_string(written.error()));
 }
 
-void Viewer::follow_files() {
-    const auto changed = watcher_.changed();
-    if (changed.empty())
-        return;
-    auto reloaded = reload();
-    stale_ = true;
-    if (!reloaded) {
-        failure_ = std::move(reloaded.error());
-        report_at_ = now_seconds() + k_half_written_seconds;
-        return;
-    }
-    if (failure_ && !report_at_)
-        say(fmt::format("{}: good again", settings_.scene.path.string()));
-    failure_.reset();
-    report_at_.reset();
-    reloaded_ = *reloaded;
-    std::error_code ignored;
-    reloaded_->saved = std::filesystem::last_write_time(changed.front(), ignored);
+LiveScene::View Viewer::view() const {
+    return {options_for(window_, settings_), shown_};
 }
 
-void Viewer::report_failure() {
-    report_at_.reset();
-    say(to_string(*failure_));
-    stale_ = true;
-}
-
-Result<Viewer::ReloadTimes> Viewer::reload() {
-    ReloadTimes times;
-    times.seen = now_seconds();
-    SceneRequest request = settings_.scene;
-    request.sets.clear(); // they are among the knobs that were turned
-    request.said = renderer_.scene().warnings;
-    auto scene = load(request);
-    if (!scene) {
-        // What is missing or wrong may be a file that the last good scene did not have.
-        std::vector<std::filesystem::path> files = renderer_.scene().files;
-        files.insert(files.end(), scene.error().files.begin(), scene.error().files.end());
-        (void)watcher_.watch(files); // a folder that is missing too cannot be watched: the rest is
-        return fail(std::move(scene.error()));
-    }
-    keep_turned_knobs(*scene);
-    // Before the slow part, so that a save during it is seen; and even if it fails, so that what it waits
-    // for is seen.
-    if (auto watched = watcher_.watch(scene->files); !watched)
-        return fail(std::move(watched.error()));
-    times.loaded = now_seconds();
-    auto fresh = render::Renderer::create(*std::move(scene), {renderer_.extent(), image::SampleType::u8,
-                                                              settings_.pass, renderer_.precision()});
+Result<void> Viewer::follow_scene(double now) {
+    const bool failed = scene_.failure() != nullptr;
+    auto fresh = scene_.follow(window_, view(), now);
     if (!fresh)
         return fail(std::move(fresh.error()));
-    renderer_ = *std::move(fresh);
-    times.compiled = now_seconds();
-    return times;
+    stale_ = stale_ || failed != (scene_.failure() != nullptr);
+    return *fresh ? show(**std::move(fresh), now) : Result<void>();
+}
+
+/// From now on. What was on show before goes.
+Result<void> Viewer::show(Stage fresh, double now) {
+    if (!stage_)
+        clock_ = render::LiveClock(now);
+    stage_.reset();
+    stage_.emplace(std::move(fresh));
+    if (auto entered = stage_->enter(); !entered)
+        return entered;
+    play_sound();
+    reloaded_ = scene_.take_times();
+    handle(platform::FramebufferResized{window_.framebuffer_extent()}); // it may have changed meanwhile
+    return {};
+}
+
+void Viewer::play_sound() {
+    const scene::Scene& scene = stage_->renderer().scene();
+    if (!scene.find(scene::PassKind::sound))
+        return sound_->stop();
+    if (auto context = window_.create_context())
+        sound_->play(*std::move(context), scene);
+    else
+        say(to_string(context.error()));
 }
 
 /// Our share (noticing, loading) and the driver's (compiling, drawing for the first time) side by side. The
@@ -309,13 +297,6 @@ void Viewer::report_reload() {
                     ms(total), ms(total - (shown - reloaded_->seen)), ms(reloaded_->loaded - reloaded_->seen),
                     ms(reloaded_->compiled - reloaded_->loaded), ms(shown - reloaded_->compiled)));
     reloaded_.reset();
-}
-
-void Viewer::keep_turned_knobs(scene::Scene& fresh) const {
-    for (const scene::Knob& old : renderer_.scene().knobs)
-        for (scene::Knob& knob : fresh.knobs)
-            if (knob.name == old.name && knob.type == old.type && old.value != old.initial)
-                knob.value = old.value;
 }
 
 } // namespace tidemark::cli

@@ -2,15 +2,15 @@
 // saved. Whatever goes wrong after the start leaves the last good picture running.
 #pragma once
 
+#include "cli/controls.hpp"
 #include "cli/frame_writer.hpp"
+#include "cli/input_script.hpp"
+#include "cli/live_scene.hpp"
 #include "cli/requests.hpp"
-#include "platform/file_watcher.hpp"
+#include "cli/sound_player.hpp"
+#include "cli/stage.hpp"
 #include "platform/window.hpp"
-#include "render/keyboard.hpp"
 #include "render/live_clock.hpp"
-#include "render/mouse.hpp"
-#include "render/orbit_camera.hpp"
-#include "render/renderer.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -26,31 +26,27 @@ public:
         FrameRequest frames;                   ///< extent, fps, camera
         std::string pass = {};                 ///< the pass to show; empty: Image
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
+        std::filesystem::path record = {};     ///< where what people do is written; empty: nowhere
     };
 
-    /// Opens the window and draws nothing yet. Fails like `load`, Window and Renderer do.
+    /// Opens the window and begins to compile. Fails like `load` and Window do.
     static Result<Viewer> open(Settings settings);
 
-    /// Until the person closes it.
+    /// Until the person closes it. Fails when the scene that it began with does not compile.
     Result<int> run();
 
-private:
-    /// What a person waits for between saving and seeing.
-    struct ReloadTimes {
-        std::filesystem::file_time_type saved; ///< the file's own time
-        double seen = 0;                       ///< wall clock, as are the next two
-        double loaded = 0;
-        double compiled = 0;
-    };
+    /// A thread is at work in the driver, which cannot be stopped: whoever wants to end must end the process.
+    bool busy() const { return scene_.busy() || sound_->busy(); }
 
-    Viewer(Settings settings, platform::Window window, platform::FileWatcher watcher,
-           render::Renderer renderer);
+private:
+    Viewer(Settings settings, platform::Window window, LiveScene scene);
 
     // What people do
-    void handle(const platform::PointerMoved& event);
-    void handle(const platform::ButtonPressed& event);
-    void handle(const platform::ButtonReleased& event);
-    void handle(const platform::WheelTurned& event);
+    void handle(const platform::PointerMoved&) {}
+    void handle(const platform::ButtonPressed&) {}
+    void handle(const platform::ButtonReleased&) {}
+    void handle(const platform::WheelTurned&) {}
+    void let_the_scene_know(const platform::InputEvent& event);
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
@@ -61,36 +57,33 @@ private:
     void handle(const platform::FocusLost&) {}
     void save_picture();
 
-    // What happens to files
-    void follow_files();
-    Result<ReloadTimes> reload();
-    void keep_turned_knobs(scene::Scene& fresh) const;
-    void report_failure();
+    LiveScene::View view() const;
+    Result<void> follow_scene(double now);
+    Result<void> show(Stage fresh, double now);
+    void play_sound();
     void report_reload();
+    bool compiles_for_long(double now) const;
 
     void draw(double now);
-    void show_title();
+    void show_title(double now);
+    Result<int> finish();
     double seconds_to_sleep(double now) const;
     bool wants_frame(double now) const;
 
     Settings settings_;
     platform::Window window_; ///< owns the context: first in, last out
-    platform::FileWatcher watcher_;
-    render::Renderer renderer_;
+    LiveScene scene_;
+    std::unique_ptr<SoundPlayer> sound_;
+    std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;
-    render::Mouse mouse_;
-    render::OrbitCamera camera_;
-    render::Keyboard keyboard_;
+    Controls controls_;
+    std::optional<Replay> replay_; ///< moves the scene instead of the controls
+    InputScript recorded_;
     std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
-    std::optional<Error> failure_;        ///< of the last reload, until mended
-    std::optional<double> report_at_;     ///< when the failure is news; before, the file may be half-written
     std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
     std::string title_;
-    platform::PointerPosition pointer_{};
     render::FrameInputs shown_; ///< inputs of the frame on show
     double next_draw_ = 0;
-    bool turning_ = false;
-    bool panning_ = false;
     bool control_down_ = false;
     bool stale_ = true; ///< the window does not show what it should
     bool closing_ = false;

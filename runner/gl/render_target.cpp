@@ -48,6 +48,12 @@ void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::sp
     glReadPixels(0, 0, target.extent().width, target.extent().height, format, type, pixels.data());
 }
 
+void clear_window() {
+    const GLfloat black[] = {0, 0, 0, 1};
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glClearBufferfv(GL_COLOR, 0, black);
+}
+
 void blit_to_window(const RenderTarget& target, Extent window) {
     const Extent from = target.extent();
     glBlitNamedFramebuffer(target.framebuffer.id(), 0, 0, 0, from.width, from.height, 0, 0, window.width,

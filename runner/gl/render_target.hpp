@@ -31,6 +31,9 @@ void copy_overlap(const RenderTarget& from, const RenderTarget& to);
 /// hold the whole target (the selected face of a cube).
 void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::span<std::byte> pixels);
 
+/// Makes the window's own framebuffer black.
+void clear_window();
+
 /// Shows the target in the window's own framebuffer, stretched to fill it when their sizes differ.
 void blit_to_window(const RenderTarget& target, Extent window);
 

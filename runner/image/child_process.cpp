@@ -26,7 +26,7 @@ std::string reason(int error_number) {
 tl::unexpected<Error> cannot_run(const std::string& program, int error_number) {
     if (error_number == ENOENT)
         return fail(ErrorCode::load,
-                    fmt::format("there is no program '{0}' in PATH, which reads videos; install the package "
+                    fmt::format("there is no program '{0}' in PATH, which videos need; install the package "
                                 "ffmpeg",
                                 program));
     return fail(ErrorCode::load, fmt::format("cannot run '{}': {}", program, reason(error_number)));
@@ -37,13 +37,13 @@ void close_and_forget(int& fd) {
         ::close(std::exchange(fd, -1));
 }
 
-/// Both ends; they close with it.
+/// Both ends, the reading one first; they close with it.
 struct Pipe {
     std::array<int, 2> ends = {-1, -1};
 
-    Pipe() {
+    explicit Pipe(int our_end) {
         if (::pipe2(ends.data(), O_CLOEXEC) == 0)
-            ::fcntl(ends[0], F_SETFL, O_NONBLOCK); // of our end only
+            ::fcntl(ends[size_t(our_end)], F_SETFL, O_NONBLOCK);
     }
     Pipe(const Pipe&) = delete;
     Pipe& operator=(const Pipe&) = delete;
@@ -57,9 +57,12 @@ struct Pipe {
 /// What the child's descriptors and signals are to be.
 class SpawnPlan {
 public:
-    SpawnPlan(int output, int words) {
+    SpawnPlan(ChildProcess::Input kind, int input, int output, int words) {
         ::posix_spawn_file_actions_init(&actions_);
-        ::posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
+        if (kind == ChildProcess::Input::written)
+            ::posix_spawn_file_actions_adddup2(&actions_, input, 0);
+        else
+            ::posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
         ::posix_spawn_file_actions_adddup2(&actions_, output, 1);
         ::posix_spawn_file_actions_adddup2(&actions_, words, 2);
         ::posix_spawn_file_actions_addclosefrom_np(&actions_, 3);
@@ -105,15 +108,15 @@ std::string last_line(std::string text) {
 
 } // namespace
 
-Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments) {
-    Pipe output, words;
-    if (!output.good() || !words.good())
+Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments, Input kind) {
+    Pipe input(1), output(0), words(0);
+    if (!input.good() || !output.good() || !words.good())
         return cannot_run(arguments[0], errno);
     std::vector<char*> argv;
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    const SpawnPlan plan(output.ends[1], words.ends[1]);
+    const SpawnPlan plan(kind, input.ends[0], output.ends[1], words.ends[1]);
     ChildProcess child;
     const int error =
         ::posix_spawnp(&child.process_, argv[0], plan.actions(), plan.attributes(), argv.data(), environ);
@@ -121,12 +124,19 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
         child.process_ = -1;
         return cannot_run(arguments[0], error);
     }
+    if (kind == Input::written)
+        child.input_ = std::exchange(input.ends[1], -1);
     child.output_ = std::exchange(output.ends[0], -1);
     child.words_ = std::exchange(words.ends[0], -1);
     return child;
 }
 
+void ChildProcess::close_input() {
+    close_and_forget(input_);
+}
+
 void ChildProcess::close_pipes() {
+    close_input();
     close_and_forget(output_);
     close_and_forget(words_);
 }
@@ -151,6 +161,23 @@ void ChildProcess::read_words(std::string& words) {
         else
             close_and_forget(words_);
     }
+}
+
+bool ChildProcess::write(std::span<const std::byte> bytes, std::string& words) {
+    while (!bytes.empty() && input_ >= 0) {
+        read_words(words);
+        const ssize_t count = ::write(input_, bytes.data(), bytes.size());
+        if (count > 0) {
+            bytes = bytes.subspan(size_t(count));
+        } else if (count < 0 && errno == EAGAIN) {
+            std::array<pollfd, 2> wait = {{{input_, POLLOUT, 0}, {words_, POLLIN, 0}}};
+            if (::poll(wait.data(), wait.size(), k_patience_ms) == 0)
+                break;
+        } else if (count == 0 || errno != EINTR) {
+            break;
+        }
+    }
+    return bytes.empty();
 }
 
 Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words) {

@@ -1,4 +1,5 @@
-// Another program, run for what it prints. No shell is in between; no child outlives its object.
+// Another program, run for what it prints or for what it makes of what it is told. No shell is in between; no
+// child outlives its object.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,18 +14,21 @@
 
 namespace tidemark::image {
 
-/// The child's standard input is empty; its standard output and error are read here. It is in a process group
-/// of its own, so that Ctrl-C in the terminal does not cut off its output.
+/// The child's standard output and error are read here; its standard input is empty, or written here. It is
+/// in a process group of its own, so that Ctrl-C in the terminal does not cut off its output.
 class ChildProcess {
 public:
+    enum class Input { none, written };
+
     /// Runs the program of that name in PATH. ErrorCode::load names the program and what to do.
-    static Result<ChildProcess> start(const std::vector<std::string>& arguments);
+    static Result<ChildProcess> start(const std::vector<std::string>& arguments, Input input = Input::none);
 
     ChildProcess(ChildProcess&& other) noexcept
-        : process_(std::exchange(other.process_, -1)), output_(std::exchange(other.output_, -1)),
-          words_(std::exchange(other.words_, -1)) {}
+        : process_(std::exchange(other.process_, -1)), input_(std::exchange(other.input_, -1)),
+          output_(std::exchange(other.output_, -1)), words_(std::exchange(other.words_, -1)) {}
     ChildProcess& operator=(ChildProcess&& other) noexcept {
         std::swap(process_, other.process_);
+        std::swap(input_, other.input_);
         std::swap(output_, other.output_);
         std::swap(words_, other.words_);
         return *this;
@@ -35,6 +39,12 @@ public:
     /// Waits for bytes of standard output and gives their number, 0 at the end. What comes on standard error
     /// in the meantime is appended to `words`. Fails when the child is silent for a minute.
     Result<size_t> read(std::span<std::byte> to, std::string& words);
+
+    /// Waits until the child has taken all bytes. False when it takes no more of them: it has ended, or does
+    /// nothing for a minute. SIGPIPE must be ignored. What comes on standard error is appended to `words`.
+    bool write(std::span<const std::byte> bytes, std::string& words);
+    /// The end of its standard input.
+    void close_input();
 
     /// Appends what standard error has now; does not wait.
     void read_words(std::string& words);
@@ -47,6 +57,7 @@ private:
     void close_pipes();
 
     pid_t process_ = -1;
+    int input_ = -1;
     int output_ = -1;
     int words_ = -1;
 };

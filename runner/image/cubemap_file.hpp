@@ -37,10 +37,13 @@ Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name 
 /// shows what its mirror image (x,-y,z) showed.
 CubeFaces vflipped(const CubeFaces& faces);
 
+/// The size of the panorama that ShaderToy exports a cube as.
+inline constexpr Extent k_panorama{4096, 2048};
+
 /// The panorama of all directions, as ShaderToy exports it (there 4096x2048): the pixel at (u, v), 0..1 from
 /// the left and from the bottom, shows the direction (-cos b sin a, sin b, cos b cos a) with a = 2 pi u and
 /// b = pi (v - 1/2). -Z is in the middle, +X right of it. Linear between texels, across the edges too. An
 /// Image like any other: row 0 is the bottom.
-Image equirectangular_of(const CubeFaces& faces, Extent size = {4096, 2048});
+Image equirectangular_of(const CubeFaces& faces, Extent size = k_panorama);
 
 } // namespace tidemark::image

@@ -2,7 +2,10 @@
 
 #include "platform/window_keys.hpp"
 
+#include <EGL/egl.h>
+#define GLFW_EXPOSE_NATIVE_EGL
 #include <GLFW/glfw3.h>
+#include <GLFW/glfw3native.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -95,10 +98,12 @@ bool library_runs() {
     return glfwGetError(nullptr) != GLFW_NOT_INITIALIZED;
 }
 
-GLFWwindow* open_window(Extent size, const char* title, int context_api) {
+GLFWwindow* open_window(Extent size, const char* title) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
-    glfwWindowHint(GLFW_CONTEXT_CREATION_API, context_api);
+    // It starts faster than GLX, it is the driver that headless drawing uses, and it has contexts apart from
+    // windows.
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -217,10 +222,7 @@ Result<Window> Window::create(Extent logical_size, const std::string& title) {
     if (!glfwInit())
         return cannot_open(last_glfw_error());
     auto state = std::make_unique<State>();
-    // EGL first: it starts faster, and it is the driver that headless drawing uses.
-    for (const int context_api : {GLFW_EGL_CONTEXT_API, GLFW_NATIVE_CONTEXT_API})
-        if (!state->window)
-            state->window.reset(open_window(logical_size, title.c_str(), context_api));
+    state->window.reset(open_window(logical_size, title.c_str()));
     if (!state->window)
         return cannot_open(last_glfw_error());
     glfwMakeContextCurrent(state->window.get());
@@ -231,6 +233,31 @@ Result<Window> Window::create(Extent logical_size, const std::string& title) {
 
 void Window::make_current() {
     glfwMakeContextCurrent(state_->window.get());
+}
+
+Result<WindowContext> Window::create_context() {
+    WindowContext made;
+    made.display_ = glfwGetEGLDisplay();
+    made.window_ = glfwGetEGLSurface(state_->window.get());
+    const EGLContext first = glfwGetEGLContext(state_->window.get());
+    EGLint wanted[] = {EGL_CONFIG_ID, 0, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    eglQueryContext(made.display_, first, EGL_CONFIG_ID, &wanted[1]);
+    eglChooseConfig(made.display_, wanted, &config, 1, &count);
+    constexpr EGLint k_version[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                    4,
+                                    EGL_CONTEXT_MINOR_VERSION,
+                                    5,
+                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                    EGL_NONE};
+    eglBindAPI(EGL_OPENGL_API);
+    made.context_ = eglCreateContext(made.display_, config, EGL_NO_CONTEXT, k_version);
+    if (made.context_)
+        return made;
+    return fail(ErrorCode::no_context,
+                fmt::format("the driver gives no second OpenGL context: EGL error {:#06x}", eglGetError()));
 }
 
 std::vector<InputEvent> Window::poll() {

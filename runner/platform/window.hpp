@@ -5,6 +5,7 @@
 #include "base/extent.hpp"
 #include "base/result.hpp"
 #include "platform/input.hpp"
+#include "platform/window_context.hpp"
 
 #include <memory>
 #include <string>
@@ -24,6 +25,8 @@ public:
     ~Window();
 
     void make_current();
+    /// Another context for the same window, current nowhere.
+    Result<WindowContext> create_context();
 
     /// What happened since the last call, in order; never waits.
     std::vector<InputEvent> poll();

@@ -119,11 +119,13 @@ public:
         return flat(image::make_stand_in_picture(name, {stand_in.width, stand_in.height}, stand_in.channels));
     }
 
-    Result<Loaded> operator()(const scene::Keyboard&) const {
-        return Loaded{
-            gl::make_texture({256, 3}, GL_R8, 1), [](const gl::Texture& texture, const FrameInputs& inputs) {
-                gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE, std::as_bytes(std::span(inputs.keyboard)));
-            }};
+    Result<Loaded> operator()(const scene::Keyboard& keyboard) const {
+        return Loaded{gl::make_texture({256, keyboard.rows}, GL_R8, 1),
+                      [](const gl::Texture& texture, const FrameInputs& inputs) {
+                          const auto texels = std::as_bytes(std::span(inputs.keyboard));
+                          gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE,
+                                     texels.first(texture.extent.pixels()));
+                      }};
     }
 
     Result<Loaded> operator()(const scene::Music& music) const {

@@ -31,7 +31,7 @@ public:
         need(shown);
         for (size_t pass = 0; pass < needed_.size(); ++pass)
             if (needed_[pass])
-                plan_.passes.push_back({pass, channels_of(pass)});
+                plan_.passes.push_back({pass, channels_of(pass), reflections_[pass]->has("iKeyboard")});
         for (const PlannedPass& planned : plan_.passes)
             for (const int channel : planned.channels)
                 plan_read(planned.pass, scene_.passes[planned.pass].channels[size_t(channel)]);

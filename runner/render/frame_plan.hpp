@@ -14,8 +14,9 @@ namespace tidemark::render {
 enum class FrameRef { current, previous };
 
 struct PlannedPass {
-    size_t pass = 0;           ///< index into Scene::passes
-    std::vector<int> channels; ///< those that need a texture, ascending
+    size_t pass = 0;               ///< index into Scene::passes
+    std::vector<int> channels;     ///< those that need a texture, ascending
+    bool keyboard_helpers = false; ///< reads the texture of `#iKeyboard`
 };
 
 /// What the output of a pass is kept in.

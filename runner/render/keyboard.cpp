@@ -23,14 +23,16 @@ void Keyboard::press(int code) {
 }
 
 void Keyboard::release(int code) {
-    if (!is_code(code))
+    if (!is_code(code) || texels_[size_t(code)] == 0)
         return;
+    texels_[size_t(3 * k_row + code)] = 255;
     texels_[size_t(code)] = 0;
     texels_[size_t(k_row + code)] = 0;
 }
 
 void Keyboard::frame_drawn() {
-    std::fill_n(texels_.begin() + k_row, k_row, uint8_t{0});
+    for (const int row : {1, 3})
+        std::fill_n(texels_.begin() + row * k_row, k_row, uint8_t{0});
 }
 
 } // namespace tidemark::render

@@ -21,6 +21,9 @@ public:
 
     /// The frame to draw now. Counts it.
     FrameInputs next_frame(double now);
+    /// iTime at that moment.
+    double time(double now) const { return time_at(now); }
+    int next_frame_number() const { return next_frame_; }
     double frame_rate() const { return frame_rate_; }
 
 private:

@@ -131,29 +131,20 @@ Result<void> Renderer::make_targets() {
 Result<void> Renderer::bind_channels() {
     for (const PlannedPass& planned : plan_.passes) {
         CompiledPass& compiled = passes_[planned.pass];
-        if (compiled.program->reflection().has("iKeyboard"))
-            return fail(ErrorCode::load,
-                        fmt::format("'{}': #iKeyboard is not supported; read the keyboard as `#iChannel0 "
-                                    "\"keyboard\"`",
-                                    scene_.file.string()));
-        for (const int number : planned.channels) {
-            const scene::Channel& channel = scene_.passes[planned.pass].channels[size_t(number)];
-            BoundChannel bound{number, make_sampler(channel.sampling), {}};
-            if (const auto* output = std::get_if<scene::PassOutput>(&channel.input)) {
-                bound.source = *output;
-            } else {
-                const auto texture = textures_.require(channel);
-                if (!texture)
-                    return fail(texture.error());
-                bound.source = *texture;
-            }
-            compiled.channels.push_back(std::move(bound));
-            const double unit[] = {double(number)};
-            for (const std::string& name :
-                 {fmt::format("iChannel{}", number), fmt::format("iCh{}.sampler", number)})
-                if (const gl::Uniform* sampler = compiled.program->reflection().find(name))
-                    gl::set_uniform(*compiled.program, *sampler, unit);
-        }
+        const auto add = [&](int unit, const scene::Channel& channel) -> Result<void> {
+            auto bound = make_channel(*compiled.program, unit, channel, textures_);
+            if (!bound)
+                return fail(std::move(bound.error()));
+            compiled.channels.push_back(*std::move(bound));
+            return {};
+        };
+        for (const int number : planned.channels)
+            if (auto added = add(number, scene_.passes[planned.pass].channels[size_t(number)]); !added)
+                return added;
+        if (planned.keyboard_helpers)
+            if (auto added = add(k_keyboard_unit, {scene::Keyboard{4}, scene::k_keyboard_sampling, {}});
+                !added)
+                return added;
     }
     return {};
 }
@@ -199,6 +190,8 @@ void Renderer::draw(const FrameInputs& inputs) {
 ChannelFacts Renderer::facts_of(const CompiledPass& pass, PassKind kind, const FrameInputs& inputs) const {
     ChannelFacts facts;
     for (const BoundChannel& channel : pass.channels) {
+        if (channel.unit == k_keyboard_unit)
+            continue;
         ChannelFact& fact = facts[size_t(channel.unit)];
         if (const auto* output = std::get_if<scene::PassOutput>(&channel.source)) {
             const Extent size = targets_[output->pass].latest().extent();
@@ -215,20 +208,20 @@ ChannelFacts Renderer::facts_of(const CompiledPass& pass, PassKind kind, const F
     return facts;
 }
 
+const gl::Texture& Renderer::texture_of(const BoundChannel& channel) const {
+    const auto* output = std::get_if<scene::PassOutput>(&channel.source);
+    return output ? targets_[output->pass].latest().texture
+                  : textures_.texture(std::get<ChannelTextures::Index>(channel.source));
+}
+
 void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
     const CompiledPass& pass = passes_[index];
     const PassKind kind = scene_.passes[index].kind;
     PassTarget& target = targets_[index];
     const gl::RenderTarget& into = target.next();
     pass.uniforms.upload(*pass.program, inputs, into.extent(), facts_of(pass, kind, inputs), scene_.knobs);
-    for (const BoundChannel& channel : pass.channels) {
-        const auto* output = std::get_if<scene::PassOutput>(&channel.source);
-        const gl::Texture& texture =
-            output ? targets_[output->pass].latest().texture
-                   : textures_.texture(std::get<ChannelTextures::Index>(channel.source));
-        glBindTextureUnit(GLuint(channel.unit), texture.id());
-        glBindSampler(GLuint(channel.unit), channel.sampler.id());
-    }
+    for (const BoundChannel& channel : pass.channels)
+        bind(channel, texture_of(channel));
     if (kind != PassKind::cubemap) {
         draw_face(pass, into);
     } else {

@@ -7,6 +7,7 @@
 #include "glsl/dialect.hpp"
 #include "glsl/promote.hpp"
 #include "image/image.hpp"
+#include "render/bound_channel.hpp"
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/frame_plan.hpp"
@@ -17,7 +18,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace tidemark::render {
@@ -69,11 +69,6 @@ public:
     const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const { return passes_[pass].hashes; }
 
 private:
-    struct BoundChannel {
-        int unit = 0;
-        gl::SamplerHandle sampler;
-        std::variant<ChannelTextures::Index, scene::PassOutput> source;
-    };
     struct CompiledPass {
         std::optional<gl::Program> program; ///< none: not needed
         UniformTable uniforms;
@@ -85,6 +80,7 @@ private:
     std::vector<bool> reachable() const;
     Result<void> compile();
     Result<void> bind_channels();
+    const gl::Texture& texture_of(const BoundChannel& channel) const;
     Result<void> make_targets();
     Result<PassTarget> make_target(size_t pass) const;
     GLenum format_of(size_t pass) const;

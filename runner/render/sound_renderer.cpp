@@ -11,11 +11,16 @@
 
 namespace tidemark::render {
 
-int SoundRenderer::block_samples() {
-    return glsl::k_sound_tile * glsl::k_sound_tile;
+int SoundRenderer::samples_in(int rows) {
+    return glsl::k_sound_tile * rows;
 }
 
-Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, glsl::Precision precision) {
+int SoundRenderer::block_samples() {
+    return samples_in(glsl::k_sound_tile);
+}
+
+Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Date& date,
+                                            glsl::Precision precision) {
     const scene::Pass* pass = scene.find(scene::PassKind::sound);
     if (!pass)
         return fail(ErrorCode::usage, fmt::format("'{}' has no Sound pass", scene.file.string()));
@@ -29,45 +34,61 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, glsl::Pre
     SoundRenderer renderer;
     renderer.program_ = std::move(linked->program);
     renderer.target_ = *std::move(target);
+    renderer.knobs_ = scene.knobs;
+    renderer.inputs_.date = date;
+    renderer.inputs_.date.seconds = std::floor(date.seconds);
+    renderer.uniforms_ = UniformTable(renderer.program_.reflection(), scene.knobs);
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
     for (int number = 0; number < scene::k_channel_count; ++number) {
-        const scene::Channel& channel = pass->channels[size_t(number)];
-        const gl::Uniform* sampler = renderer.program_.reflection().find(fmt::format("iChannel{}", number));
-        if (!sampler || std::holds_alternative<scene::PassOutput>(channel.input))
+        if (!renderer.program_.reflection().has(fmt::format("iChannel{}", number)))
             continue;
-        const auto texture = renderer.textures_.require(channel);
-        if (!texture)
-            return fail(texture.error());
-        const double unit[] = {double(number)};
-        gl::set_uniform(renderer.program_, *sampler, unit);
-        renderer.channels_.push_back({number, make_sampler(channel.sampling), *texture});
+        scene::Channel channel = pass->channels[size_t(number)];
+        if (std::holds_alternative<scene::PassOutput>(channel.input)) // pictures are not there to be heard
+            channel.input = scene::Unbound{texture_kind(scene, channel.input)};
+        auto bound = make_channel(renderer.program_, number, channel, renderer.textures_);
+        if (!bound)
+            return fail(std::move(bound.error()));
+        renderer.channels_.push_back(*std::move(bound));
     }
     return renderer;
 }
 
-std::vector<int16_t> SoundRenderer::draw(int first, const Date& date) {
-    const auto set = [&](std::string_view name, std::initializer_list<double> values) {
+ChannelFacts SoundRenderer::facts() const {
+    ChannelFacts facts;
+    for (const BoundChannel& channel : channels_)
+        facts[size_t(channel.unit)] =
+            textures_.fact(std::get<ChannelTextures::Index>(channel.source), inputs_);
+    return facts;
+}
+
+std::vector<int16_t> SoundRenderer::draw(int first) {
+    return draw_rows(first, glsl::k_sound_tile);
+}
+
+std::vector<int16_t> SoundRenderer::draw_rows(int first, int rows) {
+    const int block = first - first % block_samples();
+    const int row = (first - block) / glsl::k_sound_tile;
+    uniforms_.upload(program_, inputs_, target_.extent(), facts(), knobs_);
+    const auto set = [&](std::string_view name, double value) {
         if (const gl::Uniform* uniform = program_.reflection().find(name))
-            gl::set_uniform(program_, *uniform, {values.begin(), values.size()});
+            gl::set_uniform(program_, *uniform, {&value, 1});
     };
-    set("iTimeOffset", {first / k_sample_rate});
-    set("iSampleOffset", {double(first)});
-    set("iSampleRate", {k_sample_rate});
-    // Without milliseconds, as on the site.
-    set("iDate", {double(date.year), double(date.month), double(date.day), std::floor(date.seconds)});
-    for (const Bound& channel : channels_) {
-        glBindTextureUnit(GLuint(channel.unit), textures_.texture(channel.texture).id());
-        glBindSampler(GLuint(channel.unit), channel.sampler.id());
-    }
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target_.framebuffer.id());
+    set("iTimeOffset", block / k_sample_rate);
+    set("iSampleOffset", block);
+    for (const BoundChannel& channel : channels_)
+        bind(channel, textures_.texture(std::get<ChannelTextures::Index>(channel.source)));
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.framebuffer.id());
     glViewport(0, 0, glsl::k_sound_tile, glsl::k_sound_tile);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, row, glsl::k_sound_tile, rows);
     glUseProgram(program_.id());
     glBindVertexArray(no_vertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    std::vector<uint8_t> texels(size_t(block_samples()) * 4);
-    gl::read_pixels(target_, GL_RGBA, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(texels)));
+    glDisable(GL_SCISSOR_TEST);
+    std::vector<uint8_t> texels(size_t(samples_in(rows)) * 4);
+    glReadPixels(0, row, glsl::k_sound_tile, rows, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     return sound::decode_sound_texels(texels);
 }
 

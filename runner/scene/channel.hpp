@@ -97,8 +97,10 @@ struct Volume {
     bool operator==(const Volume&) const = default;
 };
 
-/// 256 x 3: down, pressed in this frame, toggled, by JavaScript key code.
+/// 256 columns by JavaScript key code: down, pressed in this frame, toggled; and, of the texture that
+/// `#iKeyboard` means, a fourth row: released in this frame.
 struct Keyboard {
+    int rows = 3;
     bool operator==(const Keyboard&) const = default;
 };
 

@@ -55,7 +55,7 @@ class Interrupted(ProgramTest):
         running.wait(timeout=TIME_LIMIT)
         names = self.expect_whole_pictures()
         for name in self.files() - {"wave.glsl", *names}:
-            self.assertRegex(name, r"\A\.wave\.\d{4}\.part-\d+\.png\Z")
+            self.assertRegex(name, r"\A\.wave\.\d{4}\.part-\d+-\d+\.png\Z")
 
 
 if __name__ == "__main__":

@@ -173,6 +173,29 @@ GLint back_buffer(GLenum attachment, GLenum name) {
     return value;
 }
 
+TEST_F(WindowTest, a_second_context_serves_a_thread_and_then_the_window) {
+    auto context = window_->create_context();
+    ASSERT_TRUE(context) << context.error().message;
+    GLuint texture = 0;
+    std::thread([&] {
+        EXPECT_TRUE(context->make_current());
+        glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+        context->leave();
+    }).join();
+    EXPECT_FALSE(glIsTexture(texture)); // the window's first context is current, and shares nothing
+    {
+        const KeepCurrent first;
+        ASSERT_TRUE(context->make_current());
+        EXPECT_TRUE(glIsTexture(texture));
+    }
+    EXPECT_FALSE(glIsTexture(texture));
+    ASSERT_TRUE(context->make_current_in_window());
+    EXPECT_TRUE(glIsTexture(texture));
+    EXPECT_EQ(cleared_pixel(), k_pixel);
+    window_->swap();
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
 TEST_F(WindowTest, has_an_opengl_4_5_core_context_and_plain_colours_only) {
     GLint profile = 0;
     glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);

@@ -146,7 +146,7 @@ class Keys(LiveTest):
 
 
 class Start(LiveTest):
-    def test_scene_that_does_not_compile_opens_no_window(self):
+    def test_scene_that_does_not_compile_ends_it(self):
         self.write("broken.glsl", "\nvoid mainImage(out vec4 c, in vec2 p) { c = nothing; }\n")
         self.expect_failure_like(["view", "broken.glsl"], 3,
                                  r"tidemark: error: 'broken\.glsl' does not compile\nbroken\.glsl:2: error: .*"

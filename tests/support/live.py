@@ -107,14 +107,17 @@ class Screen:
 class View:
     """A running `tidemark view`."""
 
-    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str) -> None:
+    save_key = "s"
+
+    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str, first_title: str = " fps",
+                 **variables: str) -> None:
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
         self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
-                                        env=environment(DISPLAY=screen.display), stderr=self.words)
+                                        env=environment(DISPLAY=screen.display, **variables), stderr=self.words)
         self.window = int(wait_for(lambda: self.running() and screen.xdotool("search", "--onlyvisible", "--class",
                                                                             "tidemark"), "the window"))
-        wait_for(lambda: " fps" in self.title(), "the first frame")
+        wait_for(lambda: self.running() and first_title in self.title(), "the first frame")
         self.point(5, 5)  # keys go to the window under the pointer
 
     def close(self) -> None:
@@ -178,12 +181,12 @@ class View:
     # What a person sees
 
     def save(self) -> pathlib.Path:
-        """The file that the key S makes. Pictures saved before are removed."""
+        """The file that the key for it makes. Pictures saved before are removed."""
         pattern = f"{self.scene.stem}-*.png"
         for old in self.folder.glob(pattern):
             old.unlink()
-        self.key("s")
-        return wait_for(lambda: self.running() and next(self.folder.glob(pattern), None), "the picture of key S")
+        self.key(self.save_key)
+        return wait_for(lambda: self.running() and next(self.folder.glob(pattern), None), "the saved picture")
 
     def told(self, values: dict[str, str]) -> dict[str, float]:
         return probe.read(png.read(self.save()), values)
@@ -215,7 +218,7 @@ class LiveTest(ProgramTest):
         cls.screen = Screen()
         cls.addClassCleanup(cls.screen.close)
 
-    def view(self, scene: str, *options: str) -> View:
-        opened = View(self.screen, self.folder, scene, *options)
+    def view(self, scene: str, *options: str, **variables: str) -> View:
+        opened = View(self.screen, self.folder, scene, *options, **variables)
         self.addCleanup(opened.close)
         return opened

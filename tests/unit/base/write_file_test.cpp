@@ -120,6 +120,13 @@ TEST(StagedFile, keeps_its_extension_beside_its_place) {
     EXPECT_NE(staged.path(), folder / "a.b.png");
 }
 
+TEST(StagedFile, two_for_one_place_are_two_files) {
+    const TemporaryFolder folder;
+    StagedFile first(folder / "a.png");
+    StagedFile second(folder / "a.png");
+    EXPECT_NE(first.path(), second.path());
+}
+
 TEST(StagedFile, goes_when_it_is_dropped) {
     const TemporaryFolder folder;
     {

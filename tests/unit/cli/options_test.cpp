@@ -54,6 +54,9 @@ TEST(Resolve, one_frame_or_one_time) {
     options.frame.reset();
     options.time = -1.5;
     EXPECT_EQ(resolve(options)->time, -1.5);
+    EXPECT_THAT(resolve(options)->frames, ElementsAre(0));
+    options.time = 2;
+    EXPECT_THAT(resolve(options)->frames, ElementsAre(120));
 }
 
 TEST(Resolve, rates_that_are_none) {

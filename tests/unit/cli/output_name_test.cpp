@@ -25,6 +25,15 @@ TEST(OutputName, numbers_as_printf_writes_them) {
     EXPECT_EQ(name_of("%020d.png", 100'000'000), "00000000000100000000.png");
 }
 
+TEST(OutputName, one_video_for_all_frames) {
+    for (const char* name : {"out/a.mp4", "a.webm", "50%.gif"}) {
+        EXPECT_EQ(name_of(name, 7, 300), name);
+        EXPECT_TRUE(OutputName::parse(name, 300)->video());
+    }
+    EXPECT_FALSE(OutputName::parse("a.png", 1)->video());
+    EXPECT_EQ(name_of("", 0), "-o : give the name of a file, or - for standard output");
+}
+
 TEST(OutputName, numbers_as_hashes) {
     EXPECT_EQ(name_of("a.####.png", 7, 2), "a.0007.png");
     EXPECT_EQ(name_of("a#.exr", 7), "a7.exr");
@@ -62,7 +71,7 @@ TEST(OutputName, several_frames_need_a_number) {
 }
 
 TEST(OutputName, unknown_formats) {
-    for (const std::string pattern : {"a.gif", "a", "a.%04d", "a.png.####", ""}) {
+    for (const std::string pattern : {"a.bmp", "a", "a.%04d", "a.png.####"}) {
         const auto name = OutputName::parse(pattern, 1);
         ASSERT_FALSE(name) << pattern;
         EXPECT_EQ(name.error().code, ErrorCode::usage);

@@ -108,19 +108,21 @@ TEST(InputsOf, a_frame_sees_what_was_asked_for) {
     EXPECT_EQ(inputs.camera, request.camera.matrix());
 }
 
-TEST(InputsOf, a_time_stands_for_the_frame_it_falls_in) {
+TEST(InputsOf, a_time_falls_in_a_frame_and_the_frames_before_lead_to_it) {
     FrameRequest request;
-    const auto frame_at = [&](double time) {
-        request.time = time;
-        const render::FrameInputs inputs = inputs_of(request, 0);
-        EXPECT_EQ(inputs.time, time);
-        return inputs.frame;
-    };
-    EXPECT_EQ(frame_at(0), 0);
-    EXPECT_EQ(frame_at(2), 120);
-    EXPECT_EQ(frame_at(1.999), 119);
-    EXPECT_EQ(frame_at(-5), 0);
-    EXPECT_EQ(frame_at(1e300), 100'000'000);
+    request.time = 1.999;
+    EXPECT_EQ(inputs_of(request, 119).time, 1.999);
+    EXPECT_EQ(inputs_of(request, 119).frame, 119);
+    EXPECT_EQ(inputs_of(request, 118).frame, 118);
+    EXPECT_EQ(inputs_of(request, 59).time, 1.999 - 1);
+}
+
+TEST(FrameAt, is_the_frame_that_a_time_falls_in) {
+    EXPECT_EQ(frame_at(0, 60), 0);
+    EXPECT_EQ(frame_at(2, 60), 120);
+    EXPECT_EQ(frame_at(1.999, 60), 119);
+    EXPECT_EQ(frame_at(-5, 60), 0);
+    EXPECT_EQ(frame_at(1e300, 60), k_last_frame);
 }
 
 TEST(Load, carries_out_every_option) {

@@ -326,7 +326,7 @@ TEST_F(NoVideo, without_ffmpeg_the_package_is_named) {
     ASSERT_FALSE(video);
     EXPECT_EQ(video.error().code, ErrorCode::load);
     EXPECT_EQ(video.error().message, "cannot read '" + path.string() +
-                                         "': there is no program 'ffprobe' in PATH, which reads videos; "
+                                         "': there is no program 'ffprobe' in PATH, which videos need; "
                                          "install the package ffmpeg");
     EXPECT_FALSE(has_children());
 }
@@ -360,7 +360,7 @@ TEST(ChildProcess, too_much_output_and_failure_are_errors) {
               "'head' prints more than 1 MiB");
     EXPECT_EQ(output_of({"sh", "-c", "echo one >&2; echo two >&2; false"}, 10).error().message, "two");
     EXPECT_EQ(output_of({"no-such-program-here"}, 10).error().message,
-              "there is no program 'no-such-program-here' in PATH, which reads videos; install the package "
+              "there is no program 'no-such-program-here' in PATH, which videos need; install the package "
               "ffmpeg");
 }
 

@@ -1,0 +1,74 @@
+#include "cli/controls.hpp"
+
+#include <variant>
+
+namespace tidemark::cli {
+
+using platform::Button;
+
+bool Controls::handle(const platform::InputEvent& event, double height) {
+    height_ = height;
+    return std::visit([this](const auto& happened) { return take(happened); }, event);
+}
+
+bool Controls::take(const platform::PointerMoved& event) {
+    const double dx = event.at.x - pointer_.x;
+    const double dy = event.at.y - pointer_.y;
+    pointer_ = event.at;
+    if (turning_) {
+        mouse_.move(event.at.x, event.at.y);
+        camera_.turn(dx, dy, height_);
+    }
+    if (panning_)
+        camera_.pan(dx, dy, height_);
+    return turning_ || panning_;
+}
+
+bool Controls::take(const platform::ButtonPressed& event) {
+    pointer_ = event.at;
+    if (event.button == Button::left) {
+        turning_ = true;
+        mouse_.press(event.at.x, event.at.y);
+    } else if (event.button == Button::middle) {
+        panning_ = true;
+    }
+    return true;
+}
+
+bool Controls::take(const platform::ButtonReleased& event) {
+    if (event.button == Button::left) {
+        turning_ = false;
+        mouse_.release();
+    } else if (event.button == Button::middle) {
+        panning_ = false;
+    }
+    return true;
+}
+
+bool Controls::take(const platform::WheelTurned& event) {
+    camera_.zoom(event.up);
+    return true;
+}
+
+bool Controls::take(const platform::KeyPressed& event) {
+    keyboard_.press(platform::js_key_code(event.key));
+    return true;
+}
+
+bool Controls::take(const platform::KeyReleased& event) {
+    keyboard_.release(platform::js_key_code(event.key));
+    return true;
+}
+
+void Controls::fill(render::FrameInputs& inputs) const {
+    inputs.mouse = mouse_.uniform();
+    inputs.keyboard = keyboard_.texels();
+    inputs.camera = camera_.matrix();
+}
+
+void Controls::frame_drawn() {
+    mouse_.frame_drawn();
+    keyboard_.frame_drawn();
+}
+
+} // namespace tidemark::cli

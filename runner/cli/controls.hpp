@@ -1,0 +1,48 @@
+// What people do to a scene, as its uniforms show it: mouse, keyboard and orbit camera, whether the events
+// come from a window or from a recording.
+#pragma once
+
+#include "platform/input.hpp"
+#include "render/frame_inputs.hpp"
+#include "render/keyboard.hpp"
+#include "render/mouse.hpp"
+#include "render/orbit_camera.hpp"
+
+namespace tidemark::cli {
+
+class Controls {
+public:
+    explicit Controls(const render::OrbitCamera& camera) : initial_camera_(camera), camera_(camera) {}
+
+    /// `height` in pixels of what is drawn. True when a uniform may have changed.
+    bool handle(const platform::InputEvent& event, double height);
+    void reset_camera() { camera_ = initial_camera_; }
+
+    /// Sets iMouse, the keyboard and iCamera.
+    void fill(render::FrameInputs& inputs) const;
+    /// To be called when a frame has been drawn: what was new in it is then no longer new.
+    void frame_drawn();
+
+private:
+    bool take(const platform::PointerMoved& event);
+    bool take(const platform::ButtonPressed& event);
+    bool take(const platform::ButtonReleased& event);
+    bool take(const platform::WheelTurned& event);
+    bool take(const platform::KeyPressed& event);
+    bool take(const platform::KeyReleased& event);
+    template <class Other>
+    bool take(const Other&) {
+        return false; // the window's own affairs
+    }
+
+    render::OrbitCamera initial_camera_;
+    render::OrbitCamera camera_;
+    render::Mouse mouse_;
+    render::Keyboard keyboard_;
+    platform::PointerPosition pointer_{};
+    double height_ = 1;
+    bool turning_ = false;
+    bool panning_ = false;
+};
+
+} // namespace tidemark::cli

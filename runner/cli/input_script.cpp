@@ -1,0 +1,234 @@
+#include "cli/input_script.hpp"
+
+#include "base/file.hpp"
+#include "cli/requests.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace tidemark::cli {
+namespace {
+
+using platform::Button;
+
+constexpr std::pair<std::string_view, Button> k_buttons[] = {
+    {"left", Button::left}, {"middle", Button::middle}, {"right", Button::right}};
+
+constexpr std::string_view k_blanks = " \t\r";
+
+/// Every whole number up to here is a float.
+constexpr double k_farthest = 1 << 24;
+
+/// Cuts the first word off.
+std::string_view take_word(std::string_view& line) {
+    line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(k_blanks));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+template <class T>
+bool take_number(std::string_view& line, T& number, T least, T most) {
+    const std::string_view word = take_word(line);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc{} && end == word.data() + word.size() && number >= least && number <= most;
+}
+
+bool take_position(std::string_view& line, platform::PointerPosition& at) {
+    return take_number(line, at.x, -k_farthest, k_farthest) &&
+           take_number(line, at.y, -k_farthest, k_farthest);
+}
+
+bool take_button(std::string_view& line, Button& button) {
+    const std::string_view word = take_word(line);
+    const auto* found = std::find_if(std::begin(k_buttons), std::end(k_buttons),
+                                     [&](const auto& known) { return known.first == word; });
+    if (found == std::end(k_buttons))
+        return false;
+    button = found->second;
+    return true;
+}
+
+bool take_key(std::string_view& line, platform::Key& key) {
+    int code = 0;
+    if (!take_number(line, code, 1, 255))
+        return false;
+    key = platform::Key(code);
+    return true;
+}
+
+/// The kinds of events: how a line says one, and what to give when it does so wrongly.
+struct Kind {
+    std::string_view name;
+    std::string_view form;
+    std::optional<platform::InputEvent> (*take)(std::string_view& line);
+};
+
+template <class Event, class Take>
+std::optional<platform::InputEvent> event_if(Take&& take) {
+    Event event;
+    if (!take(event))
+        return std::nullopt;
+    return event;
+}
+
+constexpr Kind k_kinds[] = {
+    {"press", "press left|middle|right X Y",
+     [](std::string_view& line) {
+         return event_if<platform::ButtonPressed>([&](platform::ButtonPressed& event) {
+             return take_button(line, event.button) && take_position(line, event.at);
+         });
+     }},
+    {"release", "release left|middle|right",
+     [](std::string_view& line) {
+         return event_if<platform::ButtonReleased>(
+             [&](platform::ButtonReleased& event) { return take_button(line, event.button); });
+     }},
+    {"move", "move X Y",
+     [](std::string_view& line) {
+         return event_if<platform::PointerMoved>(
+             [&](platform::PointerMoved& event) { return take_position(line, event.at); });
+     }},
+    {"wheel", "wheel UP",
+     [](std::string_view& line) {
+         return event_if<platform::WheelTurned>([&](platform::WheelTurned& event) {
+             return take_number(line, event.up, -k_farthest, k_farthest);
+         });
+     }},
+    {"keydown", "keydown CODE (1 to 255)",
+     [](std::string_view& line) {
+         return event_if<platform::KeyPressed>(
+             [&](platform::KeyPressed& event) { return take_key(line, event.key); });
+     }},
+    {"keyup", "keyup CODE (1 to 255)",
+     [](std::string_view& line) {
+         return event_if<platform::KeyReleased>(
+             [&](platform::KeyReleased& event) { return take_key(line, event.key); });
+     }},
+};
+
+tl::unexpected<Error> refuse(std::string message) {
+    return fail(ErrorCode::load, std::move(message)); // the place is the caller's to say
+}
+
+Result<TimedEvent> parse_line(std::string_view line) {
+    TimedEvent timed;
+    std::string_view rest = line;
+    if (!take_number(rest, timed.frame, 0, k_last_frame))
+        return refuse("a line begins with the number of a frame, as in `12 move 100 50`");
+    const std::string_view name = take_word(rest);
+    const auto* kind = std::find_if(std::begin(k_kinds), std::end(k_kinds),
+                                    [&](const Kind& known) { return known.name == name; });
+    if (kind == std::end(k_kinds))
+        return refuse(
+            fmt::format("unknown event '{}': give press, release, move, wheel, keydown or keyup", name));
+    const auto event = kind->take(rest);
+    if (!event || !take_word(rest).empty())
+        return refuse(fmt::format("give it as `{} {}`", timed.frame, kind->form));
+    timed.event = *event;
+    return timed;
+}
+
+std::string_view name_of(Button button) {
+    return std::find_if(std::begin(k_buttons), std::end(k_buttons),
+                        [&](const auto& known) { return known.second == button; })
+        ->first;
+}
+
+/// Writes an event as its line has it; nothing for the window's own.
+struct Wording {
+    std::string operator()(const platform::ButtonPressed& event) const {
+        return fmt::format("press {} {} {}", name_of(event.button), event.at.x, event.at.y);
+    }
+    std::string operator()(const platform::ButtonReleased& event) const {
+        return fmt::format("release {}", name_of(event.button));
+    }
+    std::string operator()(const platform::PointerMoved& event) const {
+        return fmt::format("move {} {}", event.at.x, event.at.y);
+    }
+    std::string operator()(const platform::WheelTurned& event) const {
+        return fmt::format("wheel {}", event.up);
+    }
+    std::string operator()(const platform::KeyPressed& event) const {
+        return event.repeat ? "" : fmt::format("keydown {}", platform::js_key_code(event.key));
+    }
+    std::string operator()(const platform::KeyReleased& event) const {
+        return fmt::format("keyup {}", platform::js_key_code(event.key));
+    }
+    template <class Other>
+    std::string operator()(const Other&) const {
+        return {};
+    }
+};
+
+} // namespace
+
+Result<InputScript> parse_input_script(std::string_view text, const std::string& file) {
+    InputScript script;
+    int number = 0;
+    while (!text.empty()) {
+        ++number;
+        const size_t end = text.find('\n');
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix(end == text.npos ? text.size() : end + 1);
+        line = line.substr(0, line.find('#'));
+        if (line.find_first_not_of(k_blanks) == line.npos)
+            continue;
+        auto event = parse_line(line);
+        if (!event)
+            return fail(error_at({file, number}, event.error().message));
+        if (!script.empty() && event->frame < script.back().frame)
+            return fail(error_at({file, number},
+                                 fmt::format("frame {} comes after frame {}: frames do not go backwards",
+                                             event->frame, script.back().frame)));
+        script.push_back(*event);
+    }
+    return script;
+}
+
+Result<InputScript> load_input_script(const std::filesystem::path& file) {
+    auto text = read_text_file(file);
+    if (!text)
+        return fail(std::move(text.error()));
+    return parse_input_script(*text, file.string());
+}
+
+std::string to_string(const InputScript& script) {
+    std::string text;
+    for (const TimedEvent& timed : script)
+        if (const std::string words = std::visit(Wording{}, timed.event); !words.empty())
+            text += fmt::format("{} {}\n", timed.frame, words);
+    return text;
+}
+
+void record(InputScript& script, int frame, const platform::InputEvent& event) {
+    while (!script.empty() && script.back().frame > frame)
+        script.pop_back();
+    if (!std::visit(Wording{}, event).empty())
+        script.push_back({frame, event});
+}
+
+void Replay::fill(render::FrameInputs& inputs, double height) {
+    if (inputs.frame < frame_) {
+        controls_ = Controls(camera_);
+        next_ = 0;
+        frame_ = 0;
+    }
+    for (; next_ < script_.size() && script_[next_].frame <= inputs.frame; ++next_) {
+        if (script_[next_].frame > frame_)
+            controls_.frame_drawn();
+        frame_ = script_[next_].frame;
+        controls_.handle(script_[next_].event, height);
+    }
+    if (inputs.frame > frame_)
+        controls_.frame_drawn();
+    frame_ = inputs.frame;
+    controls_.fill(inputs);
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,60 @@
+// Mouse and keyboard events by frame: read from a text, replayed frame by frame, recorded into a text.
+#pragma once
+
+#include "base/result.hpp"
+#include "cli/controls.hpp"
+#include "platform/input.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::cli {
+
+/// Happens before `frame` is drawn.
+struct TimedEvent {
+    int frame = 0;
+    platform::InputEvent event;
+
+    bool operator==(const TimedEvent&) const = default;
+};
+
+/// In the order of their frames.
+using InputScript = std::vector<TimedEvent>;
+
+/// One event a line; pixels from the bottom left, JavaScript's key codes; `#` begins a comment:
+///
+///     FRAME press left|middle|right X Y       FRAME move X Y       FRAME keydown CODE
+///     FRAME release left|middle|right         FRAME wheel UP       FRAME keyup CODE
+///
+/// Errors (ErrorCode::load) have their place in `file`.
+Result<InputScript> parse_input_script(std::string_view text, const std::string& file);
+Result<InputScript> load_input_script(const std::filesystem::path& file);
+
+/// The text that parses to that script.
+std::string to_string(const InputScript& script);
+
+/// Notes an event. What was noted of later frames is dropped: time went backwards. Events that a script
+/// cannot hold (of the window itself) are left out.
+void record(InputScript& script, int frame, const platform::InputEvent& event);
+
+/// A script under way. The frames that are asked for may be any, in any order.
+class Replay {
+public:
+    Replay(InputScript script, const render::OrbitCamera& camera)
+        : script_(std::move(script)), camera_(camera), controls_(camera) {}
+
+    /// Sets what the events up to inputs.frame make of the mouse, the keyboard and the camera. `height` in
+    /// pixels of what is drawn.
+    void fill(render::FrameInputs& inputs, double height);
+
+private:
+    InputScript script_;
+    render::OrbitCamera camera_;
+    Controls controls_;
+    size_t next_ = 0; ///< event
+    int frame_ = 0;   ///< that the controls are ready for
+};
+
+} // namespace tidemark::cli

@@ -1,0 +1,42 @@
+#include "render/bound_channel.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace tidemark::render {
+namespace {
+
+std::vector<std::string> sampler_names(int unit) {
+    if (unit == k_keyboard_unit)
+        return {"iKeyboard"};
+    return {fmt::format("iChannel{}", unit), fmt::format("iCh{}.sampler", unit)};
+}
+
+} // namespace
+
+Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
+                                  ChannelTextures& textures) {
+    BoundChannel bound{unit, make_sampler(channel.sampling), {}};
+    if (const auto* output = std::get_if<scene::PassOutput>(&channel.input)) {
+        bound.source = *output;
+    } else {
+        const auto texture = textures.require(channel);
+        if (!texture)
+            return fail(texture.error());
+        bound.source = *texture;
+    }
+    const double number[] = {double(unit)};
+    for (const std::string& name : sampler_names(unit))
+        if (const gl::Uniform* sampler = program.reflection().find(name))
+            gl::set_uniform(program, *sampler, number);
+    return bound;
+}
+
+void bind(const BoundChannel& channel, const gl::Texture& texture) {
+    glBindTextureUnit(GLuint(channel.unit), texture.id());
+    glBindSampler(GLuint(channel.unit), channel.sampler.id());
+}
+
+} // namespace tidemark::render

@@ -1,0 +1,118 @@
+"""`capture -o x.mp4|.webm|.gif`: the frames as a video, whole or not at all."""
+import array
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+from support.program import PROGRAM, SKIPPED, ProgramTest, environment, main
+
+# A ramp over the picture, and the number of the frame in blue.
+SCENE = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, float(iFrame) / 20.0, 0.3); }\n"
+SIZE = ("--size", "64x36")
+
+
+class Video(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.glsl", SCENE)
+
+    def facts(self, name: str) -> dict:
+        done = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", name],
+                              cwd=self.folder, stdout=subprocess.PIPE, check=True)
+        return {stream["codec_type"]: stream for stream in json.loads(done.stdout)["streams"]}
+
+    def decoded(self, name: str, *what: str) -> bytes:
+        return subprocess.run(["ffmpeg", "-v", "error", "-i", name, *what, "-"], cwd=self.folder,
+                              stdout=subprocess.PIPE, check=True).stdout
+
+    def expect_frames(self, name: str, width: int, height: int, first: int, count: int, tolerance: int) -> None:
+        frames = self.decoded(name, "-fps_mode", "passthrough", "-pix_fmt", "rgb24", "-f", "rawvideo")
+        self.assertEqual(len(frames), width * height * 3 * count)
+        for number in range(count):
+            for x, y in ((2, 2), (width - 3, 2), (2, height - 3), (width // 2, height // 2)):
+                at = ((number * height + y) * width + x) * 3
+                wanted = ((x + 0.5) / width, 1 - (y + 0.5) / height, (first + number) / 20)
+                for got, want in zip(frames[at:at + 3], wanted):
+                    self.assertLessEqual(abs(got - 255 * want), tolerance, (name, number, x, y))
+
+    def test_shows_the_frames_at_their_rate(self):
+        for name, codec, tolerance in (("a.mp4", "h264", 6), ("a.webm", "vp9", 8), ("a.gif", "gif", 20)):
+            done = self.succeed("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "3-12", "-o", name)
+            self.assertTrue(done.stderr.endswith(f"wrote {name}: 10 frames\n"))
+            video = self.facts(name)["video"]
+            self.assertEqual((video["codec_name"], video["width"], video["height"], video["r_frame_rate"],
+                              video["nb_read_frames"]), (codec, 64, 36, "25/1", "10"))
+            self.expect_frames(name, 64, 36, 3, 10, tolerance)
+        self.assertEqual(self.files(), {"a.glsl", "a.mp4", "a.webm", "a.gif"})
+
+    def test_odd_sizes(self):
+        for name in ("odd.mp4", "odd.webm", "odd.gif"):
+            self.succeed("capture", "a.glsl", "--size", "33x17", "--fps", "10", "--frames", "0-2", "-o", name)
+            video = self.facts(name)["video"]
+            self.assertEqual((video["width"], video["height"]), (33, 17))
+
+    def test_same_frames_make_the_same_file(self):
+        for extension in (".mp4", ".webm", ".gif"):
+            for name in ("one", "two"):
+                self.succeed("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "0-5", "-o", name + extension)
+            one, two = ((self.folder / (name + extension)).read_bytes() for name in ("one", "two"))
+            self.assertEqual(one, two)
+
+    def test_sound_pass_goes_with_it_from_the_first_frame_on(self):
+        self.write("s/image.glsl", SCENE)
+        # A tone in the second second only.
+        self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) {"
+                                   "return t < 1.0 ? vec2(0.0) : vec2(0.5 * sin(6.283185307 * 441.0 * t)); }")
+        for name in ("s.mp4", "s.webm"):
+            self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", "5-14", "-o", name)
+            samples = array.array("h", self.decoded(name, "-ac", "1", "-ar", "44100", "-f", "s16le"))
+            self.assertLess(abs(len(samples) - 44100), 3000)
+            quiet, loud = samples[4410:20000], samples[25000:40000]
+            self.assertLess(max(quiet), 400)
+            self.assertGreater(max(loud), 14000)
+            rising = sum(a < 0 <= b for a, b in zip(loud, loud[1:]))
+            self.assertLessEqual(abs(rising - 150), 1)  # 15,000 samples of 441 Hz
+        self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", "0-4x2", "-o", "skips.mp4")
+        self.assertEqual(set(self.facts("skips.mp4")), {"video"})
+
+    def test_broken_sound_pass_leaves_a_silent_video(self):
+        self.write("s/image.glsl", SCENE)
+        self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return nothing; }")
+        done = self.succeed("capture", "s", *SIZE, "-o", "s.mp4")
+        self.assertRegex(done.stderr, r"\Athe video is silent: tidemark: error: 's' does not compile\n"
+                                      r"s/sound\.glsl:1: error: ")
+        self.assertEqual(set(self.facts("s.mp4")), {"video"})
+
+    def test_errors(self):
+        def refused(words: str, code: int = 2, env=None, *options: str) -> None:
+            self.expect_failure(["capture", "a.glsl", *SIZE, *options], code, "tidemark: error: " + words, env=env)
+
+        refused("cannot write 'a.mp4': there is no program 'ffmpeg' in PATH, which videos need; install the package "
+                "ffmpeg", 4, environment(PATH=str(self.folder)), "-o", "a.mp4")
+        refused("--fps 60: a GIF shows 50 frames a second at most", 2, None, "-o", "a.gif")
+        refused("--depth: videos and raw frames on standard output always have 8 bits", 2, None, "-o", "a.mp4",
+                "--depth", "16")
+        refused("-o : give the name of a file, or - for standard output", 2, None, "-o", "")
+        self.expect_failure_like(["capture", "a.glsl", "-o", "no/a.webm"], 4,
+                                 "tidemark: error: cannot write 'no/a.webm': ffmpeg says: .*No such file or directory")
+
+    def test_interrupted_leaves_nothing(self):
+        program = subprocess.Popen([PROGRAM, "capture", "a.glsl", *SIZE, "--frames", "0-1000000", "-o", "a.mp4"],
+                                   cwd=self.folder, stderr=subprocess.PIPE, env=environment())
+        while len(self.files()) < 2:  # ffmpeg has begun its file
+            time.sleep(0.02)
+        program.send_signal(signal.SIGINT)
+        words = program.communicate(timeout=60)[1].decode()
+        self.assertEqual(program.returncode, 130)
+        self.assertRegex(words, r"interrupted after \d+ of 1000001 frames: no video was written\n\Z")
+        self.assertEqual(self.files(), {"a.glsl"})
+
+
+if __name__ == "__main__":
+    if not shutil.which("ffmpeg") or not shutil.which("ffprobe"):
+        print("skipped: ffmpeg is not installed")
+        sys.exit(SKIPPED)
+    main()

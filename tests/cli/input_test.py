@@ -1,0 +1,53 @@
+"""`capture --input`: recorded events by frame."""
+from support import png, probe
+from support.program import ProgramTest, main
+
+SIZE = ("--size", "64x8")
+MOUSE = probe.vector("iMouse", "xyzw")
+TAKE = "# a drag\n2 press left 10 20\n3 move 12 5.5\n5 release left\n"
+
+
+class Input(ProgramTest):
+    def told(self, *options: str) -> list[float]:
+        done = self.succeed("capture", "a.glsl", *SIZE, "--input", "take.txt", "-o", "-", *options)
+        return list(probe.read(png.from_raw(64, 8, done.stdout[-64 * 8 * 3:]), MOUSE).values())
+
+    def setUp(self):
+        super().setUp()
+        self.write("a.glsl", probe.shader(MOUSE))
+        self.write("take.txt", TAKE)
+
+    def test_each_frame_sees_what_was_done_before_it(self):
+        for frame, wanted in ((1, [0, 0, 0, 0]), (2, [10, 20, 10, 20]), (3, [12, 5, 10, -20]),
+                              (4, [12, 5, 10, -20]), (5, [12, 5, -10, -20])):
+            self.assertEqual(self.told("--frame", str(frame)), wanted)
+            self.assertEqual(self.told("--frames", f"0-{frame}"), wanted)
+
+    def test_time_counts_in_frames(self):
+        self.assertEqual(self.told("--time", "0.35", "--fps", "10"), [12, 5, 10, -20])
+
+    def test_feedback_sees_every_event_on_the_way(self):
+        self.write("s/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) {"
+                                      "c = texelFetch(iChannel0, ivec2(p), 0) + step(0.5, iMouse.w); }")
+        self.write("s/image.glsl", probe.shader({"clicks": "texelFetch(iChannel0, ivec2(0), 0).x"}))
+        self.write("s/scene.json", """{"renderpass": [
+            {"type": "image", "name": "Image", "inputs": [{"ctype": "buffer", "id": "257", "channel": 0}],
+             "outputs": [{"id": "37", "channel": 0}]},
+            {"type": "buffer", "name": "Buffer A", "inputs": [{"ctype": "buffer", "id": "257", "channel": 0}],
+             "outputs": [{"id": "257", "channel": 0}]}]}""")
+        self.write("clicks.txt", "".join(f"{frame} press left 1 1\n{frame} release left\n" for frame in (1, 4, 6)))
+        done = self.succeed("capture", "s", *SIZE, "--input", "clicks.txt", "-o", "-", "--frame", "9")
+        told = probe.read(png.from_raw(64, 8, done.stdout), {"clicks": ""})
+        self.assertEqual(told["clicks"], 3)
+
+    def test_errors(self):
+        self.write("bad.txt", "0 move 1 2\n1 mvoe 1 2\n")
+        self.expect_failure(["capture", "a.glsl", "--input", "bad.txt"], 3,
+                            "bad.txt:2: error: unknown event 'mvoe': give press, release, move, wheel, keydown or "
+                            "keyup")
+        self.expect_failure(["capture", "a.glsl", "--input", "none.txt"], 3,
+                            "tidemark: error: cannot read 'none.txt': no such file")
+
+
+if __name__ == "__main__":
+    main()

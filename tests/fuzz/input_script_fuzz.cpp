@@ -1,0 +1,23 @@
+// Recorded mouse and keyboard events (--input).
+#include "cli/input_script.hpp"
+#include "fuzz.hpp"
+
+using namespace tidemark;
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    const auto script = cli::parse_input_script(text_of(data, size), "take.txt");
+    if (!script) {
+        REQUIRE(script.error().diagnostics.size() == 1 && script.error().diagnostics[0].where.line > 0);
+        return 0;
+    }
+    const auto again = cli::parse_input_script(cli::to_string(*script), "again.txt");
+    REQUIRE(again && *again == *script);
+    cli::Replay replay(*script, {});
+    for (const int frame : {0, 7, 3, cli::k_last_frame}) {
+        render::FrameInputs inputs;
+        inputs.frame = frame;
+        replay.fill(inputs, 100);
+        REQUIRE(inputs.mouse == inputs.mouse); // no NaN
+    }
+    return 0;
+}

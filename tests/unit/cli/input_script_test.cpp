@@ -1,0 +1,112 @@
+#include "cli/input_script.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tidemark::cli {
+namespace {
+
+using platform::Button;
+using platform::Key;
+
+const InputScript k_script{
+    {0, platform::ButtonPressed{Button::left, {10, 20.5}}},
+    {2, platform::PointerMoved{{-3, 1e-3}}},
+    {2, platform::ButtonReleased{Button::left}},
+    {5, platform::KeyPressed{Key::a}},
+    {5, platform::WheelTurned{0, -1}},
+    {9, platform::KeyReleased{Key::a}},
+    {9, platform::ButtonPressed{Button::middle, {0, 0}}},
+    {9, platform::ButtonReleased{Button::middle}},
+};
+
+constexpr const char* k_text =
+    "0 press left 10 20.5\n2 move -3 0.001\n2 release left\n5 keydown 65\n5 wheel -1\n"
+    "9 keyup 65\n9 press middle 0 0\n9 release middle\n";
+
+/// What is wrong with a text.
+std::string refusal(std::string_view text) {
+    const auto script = parse_input_script(text, "take.txt");
+    return script ? "" : to_string(script.error());
+}
+
+TEST(InputScript, is_written_and_read) {
+    EXPECT_EQ(to_string(k_script), k_text);
+    EXPECT_EQ(parse_input_script(k_text, "take.txt"), k_script);
+}
+
+TEST(InputScript, takes_comments_blanks_and_other_line_ends) {
+    const auto script = parse_input_script("# a take\r\n\n \t0\tpress  left 10 20.5 # here\r\n", "take.txt");
+    ASSERT_TRUE(script) << to_string(script.error());
+    EXPECT_EQ(*script, InputScript{k_script[0]});
+    EXPECT_EQ(parse_input_script("", "take.txt"), InputScript{});
+}
+
+TEST(InputScript, says_what_is_wrong_and_where) {
+    const std::string number = "a line begins with the number of a frame, as in `12 move 100 50`";
+    EXPECT_EQ(refusal("press left 1 2"), "take.txt:1: error: " + number);
+    EXPECT_EQ(refusal("\n# x\n-1 move 1 2"), "take.txt:3: error: " + number);
+    EXPECT_EQ(refusal("100000001 move 1 2"), "take.txt:1: error: " + number);
+    EXPECT_EQ(refusal("1 moves 1 2"), "take.txt:1: error: unknown event 'moves': give press, release, move, "
+                                      "wheel, keydown or keyup");
+    EXPECT_EQ(refusal("1"),
+              "take.txt:1: error: unknown event '': give press, release, move, wheel, keydown or "
+              "keyup");
+    EXPECT_EQ(refusal("1 move 1"), "take.txt:1: error: give it as `1 move X Y`");
+    EXPECT_EQ(refusal("1 move 1 nan"), "take.txt:1: error: give it as `1 move X Y`");
+    EXPECT_EQ(refusal("1 move 1 2 3"), "take.txt:1: error: give it as `1 move X Y`");
+    EXPECT_EQ(refusal("1 press west 1 2"), "take.txt:1: error: give it as `1 press left|middle|right X Y`");
+    EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown CODE (1 to 255)`");
+    EXPECT_EQ(refusal("1 keyup 256"), "take.txt:1: error: give it as `1 keyup CODE (1 to 255)`");
+    EXPECT_EQ(refusal("7 wheel 1\n6 wheel 1"),
+              "take.txt:2: error: frame 6 comes after frame 7: frames do not go backwards");
+}
+
+TEST(Record, drops_what_comes_after_a_time_that_is_gone_back_to) {
+    InputScript script;
+    record(script, 3, platform::WheelTurned{0, 1});
+    record(script, 8, platform::WheelTurned{0, 2});
+    record(script, 8, platform::CloseRequested{});
+    record(script, 8, platform::KeyPressed{Key::a, true}); // a key that repeats
+    record(script, 4, platform::WheelTurned{0, 3});
+    EXPECT_EQ(to_string(script), "3 wheel 1\n4 wheel 3\n");
+}
+
+render::FrameInputs at(Replay& replay, int frame) {
+    render::FrameInputs inputs;
+    inputs.frame = frame;
+    replay.fill(inputs, 100);
+    return inputs;
+}
+
+TEST(Replay, shows_each_frame_what_a_person_would_have_done) {
+    Replay replay(k_script, {});
+    EXPECT_EQ(at(replay, 0).mouse, glm::vec4(10, 20, 10, 20)); // pressed in this frame
+    EXPECT_EQ(at(replay, 1).mouse, glm::vec4(10, 20, 10, -20));
+    EXPECT_EQ(at(replay, 2).mouse, glm::vec4(-3, 0, -10, -20));
+    EXPECT_EQ(at(replay, 4).keyboard[65], 0);
+    EXPECT_EQ(at(replay, 5).keyboard[65], 255);
+    EXPECT_EQ(at(replay, 5).keyboard[256 + 65], 255); // the same frame again is the same
+    EXPECT_EQ(at(replay, 6).keyboard[256 + 65], 0);
+    EXPECT_EQ(at(replay, 9).keyboard[65], 0);
+    EXPECT_EQ(at(replay, 9).keyboard[3 * 256 + 65], 255);
+    EXPECT_NE(at(replay, 9).camera, at(replay, 4).camera); // the wheel
+}
+
+TEST(Replay, a_frame_asked_for_alone_equals_the_same_frame_of_a_sequence) {
+    Replay stepped(k_script, {});
+    for (int frame = 0; frame < 12; ++frame) {
+        const render::FrameInputs one = at(stepped, frame);
+        Replay alone(k_script, {});
+        Replay backwards(k_script, {});
+        at(backwards, 20);
+        for (Replay* replay : {&alone, &backwards}) {
+            const render::FrameInputs other = at(*replay, frame);
+            EXPECT_EQ(other.mouse, one.mouse) << frame;
+            EXPECT_EQ(other.keyboard, one.keyboard) << frame;
+            EXPECT_EQ(other.camera, one.camera) << frame;
+        }
+    }
+}
+
+} // namespace
+} // namespace tidemark::cli
