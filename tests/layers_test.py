@@ -14,9 +14,11 @@ ALLOWED = {
     "gl": ["base"],
     "image": ["base"],
     "sound": ["base"],
+    "terrain": ["base", "image"],
     "platform": ["base"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render",
+            "terrain"],
     "main.cpp": ["cli"],
 }
 
