@@ -102,12 +102,13 @@ Result<void> study(const terrain::KnownCase& known, terrain::Stencil stencil) {
             return error_cell(of(sample), before ? std::optional(of(*before)) : std::nullopt);
         };
         const double nodes = double(side) * side;
-        auto printed = put(fmt::format(
-            "{:5} | {} {} | {} {} | {:8.1f} {:8.0f} {:8.2f} {:8.2f}\n", side,
-            cell(Region::smooth, &terrain::ErrorNorms::largest), cell(Region::smooth, &terrain::ErrorNorms::rms),
-            cell(Region::rest, &terrain::ErrorNorms::largest), cell(Region::rest, &terrain::ErrorNorms::rms),
-            1e3 * sample.seconds, 1e9 * sample.seconds / nodes, double(sample.work.updates) / nodes,
-            double(sample.work.heap_operations) / nodes));
+        auto printed = put(fmt::format("{:5} | {} {} | {} {} | {:8.1f} {:8.0f} {:8.2f} {:8.2f}\n", side,
+                                       cell(Region::smooth, &terrain::ErrorNorms::largest),
+                                       cell(Region::smooth, &terrain::ErrorNorms::rms),
+                                       cell(Region::rest, &terrain::ErrorNorms::largest),
+                                       cell(Region::rest, &terrain::ErrorNorms::rms), 1e3 * sample.seconds,
+                                       1e9 * sample.seconds / nodes, double(sample.work.updates) / nodes,
+                                       double(sample.work.heap_operations) / nodes));
         if (!printed)
             return printed;
         before = sample;
@@ -116,11 +117,12 @@ Result<void> study(const terrain::KnownCase& known, terrain::Stencil stencil) {
 }
 
 Result<int> study_all() {
-    if (auto printed = put("Shortest ways from a circle of radius 1 against the exact ones: error, and the power "
-                           "of the spacing it falls with.\n"
-                           "smooth: the way keeps 0.1 from land and from the middle. rest of open water: the "
-                           "middle; of the others: behind\nland and beside it. updates, heap: local solutions "
-                           "and heap operations a node.\n");
+    if (auto printed =
+            put("Shortest ways from a circle of radius 1 against the exact ones: error, and the power "
+                "of the spacing it falls with.\n"
+                "smooth: the way keeps 0.1 from land and from the middle. rest of open water: the "
+                "middle; of the others: behind\nland and beside it. updates, heap: local solutions "
+                "and heap operations a node.\n");
         !printed)
         return fail(std::move(printed.error()));
     for (const terrain::KnownCase& known : terrain::known_cases())
@@ -149,10 +151,11 @@ void add_bake_island(CLI::App& bake_command, Action& chosen) {
                             ->check(CLI::Range(terrain::k_least_side, terrain::k_largest_side))
                             ->type_name("N")
                             ->capture_default_str();
-    CLI::Option* seed = island->add_option("--seed", options->seed, "Another island of the same kind")
-                            ->capture_default_str();
+    CLI::Option* seed =
+        island->add_option("--seed", options->seed, "Another island of the same kind")->capture_default_str();
     CLI::Option* heights =
-        island->add_option("--heights", options->heights, "Your own square height map instead (first channel)")
+        island
+            ->add_option("--heights", options->heights, "Your own square height map instead (first channel)")
             ->type_name("FILE")
             ->excludes(side)
             ->excludes(seed);
@@ -173,9 +176,8 @@ void add_bake_island(CLI::App& bake_command, Action& chosen) {
         ->type_name("M")
         ->capture_default_str();
     island->add_flag("--study", options->study, "Print error against run time on maps with known answers");
-    island->callback([options, &chosen] {
-        chosen = [options] { return options->study ? study_all() : bake(*options); };
-    });
+    island->callback(
+        [options, &chosen] { chosen = [options] { return options->study ? study_all() : bake(*options); }; });
 }
 
 } // namespace tidemark::cli

@@ -83,7 +83,7 @@ Rgba wave(double phase) {
     const double climb = rise(0.02, 0.70, phase);
     const double fall = 1.0 - rise(0.70, 0.86, phase);
     const double height = (0.3 * climb + 0.7 * climb * climb * climb) * fall;
-    const double front = rise(0.66, 0.74, phase) * (1.0 - rise(0.82, 0.86, phase));
+    const double front = rise(0.69, 0.75, phase) * (1.0 - rise(0.80, 0.85, phase));
     const double behind = rise(0.24, 0.72, phase);
     const double tail = behind * behind * (1.0 - rise(0.72, 0.78, phase));
     const double rollback = rise(0.02, 0.14, phase) * (1.0 - rise(0.22, 0.58, phase));

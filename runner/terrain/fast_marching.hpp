@@ -23,8 +23,8 @@ struct Distances {
 /// `known` gives u at the nodes where it is given and NaN elsewhere; known nodes on land are not taken.
 ///
 /// Open water, second order: the error is O(h²) where u is smooth and O(h) at most where ways meet or fan out
-/// (a corner that waves bend round, the shadow's edge, the middle of a closing circle), where u has no bounded
-/// third derivative. Beside land each cell of ShoreCells is solved by the Hopf-Lax formula on its
+/// (a corner that waves bend round, the shadow's edge, the middle of a closing circle), where u has no
+/// bounded third derivative. Beside land each cell of ShoreCells is solved by the Hopf-Lax formula on its
 /// polygon: u(v) = min over its far edges of (u linear along the edge + the way to v), which is monotone and
 /// O(h) and adds nothing to a way along the shore (R. Kimmel and J. A. Sethian, "Computing geodesic paths on
 /// manifolds", 1998). A polygon may be obtuse at a crossing, so that a value can come after that of its heir:

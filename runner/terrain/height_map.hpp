@@ -15,7 +15,8 @@ struct Point {
 };
 
 inline double length(Point p) {
-    return std::sqrt(p.x * p.x + p.y * p.y); // std::hypot's last bit is the library's, a root's is the standard's
+    return std::sqrt(p.x * p.x +
+                     p.y * p.y); // std::hypot's last bit is the library's, a root's is the standard's
 }
 
 inline double distance(Point a, Point b) {

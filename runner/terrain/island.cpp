@@ -9,8 +9,9 @@
 namespace tidemark::terrain {
 namespace {
 
-constexpr double k_land_reach = 24.0;
-constexpr int k_rocks = 22;
+constexpr double k_land_reach = 27.0;
+constexpr double k_rock_reach = 20.0;
+constexpr int k_rocks = 18;
 
 /// 0..1 from a lattice point: one odd multiplication each way and the high bits folded down between.
 double lattice(int64_t x, int64_t y, uint32_t seed) {
@@ -58,12 +59,15 @@ struct Disc {
 
 /// Metres inwards from an outline that a few discs and noise make; below 0 at sea.
 double inland(Point p, uint32_t seed) {
-    static constexpr std::array<Disc, 5> k_discs{{
-        {{1.5, 1.0}, 6.4}, {{-6.2, 4.6}, 3.6}, {{6.8, -4.6}, 3.1}, {{6.4, 6.6}, 2.6}, {{-12.2, -8.4}, 1.7}}};
-    const Point bent{p.x + 1.7 * fractal(p, 6.0, 3, seed + 11), p.y + 1.7 * fractal(p, 6.0, 3, seed + 23)};
+    static constexpr std::array<Disc, 5> k_discs{{{{2.0, 1.0}, 8.2},
+                                                  {{-8.8, 5.6}, 4.6},
+                                                  {{9.0, -6.6}, 4.0},
+                                                  {{8.2, 9.2}, 3.2},
+                                                  {{-13.6, -10.0}, 2.6}}};
+    const Point bent{p.x + 2.4 * fractal(p, 7.0, 3, seed + 11), p.y + 2.4 * fractal(p, 6.0, 3, seed + 23)};
     double inward = -1e3;
     for (const Disc& disc : k_discs)
-        inward = smooth_max(inward, disc.radius - distance(bent, disc.middle), 3.0);
+        inward = smooth_max(inward, disc.radius - distance(bent, disc.middle), 2.5);
     return inward;
 }
 
@@ -71,9 +75,9 @@ double inland(Point p, uint32_t seed) {
 double ground(Point p, uint32_t seed) {
     const double inward = inland(p, seed);
     const double beach = 0.2 * inward * (inward < 0.0 ? rise(8.0, 0.0, -inward) * 0.9 + 0.1 : 1.0);
-    const double hills = 3.1 * rise(1.3, 6.0, inward) * (1.0 + 0.55 * fractal(p, 4.0, 4, seed + 37));
+    const double hills = 3.0 * rise(0.9, 8.0, inward) * (1.0 + 0.55 * fractal(p, 5.0, 4, seed + 37));
     const double cliffs = 0.9 * rise(0.25, 0.75, fractal(p, 7.0, 2, seed + 41)) * rise(0.9, 1.7, inward);
-    const double floor = -5.2 * rise(0.5, 15.0, -inward) * (1.0 + 0.25 * fractal(p, 8.0, 3, seed + 53));
+    const double floor = -5.2 * rise(0.5, 15.0, -inward) * (1.0 + 0.5 * fractal(p, 7.0, 3, seed + 53));
     return beach + hills + cliffs + floor;
 }
 
@@ -90,12 +94,12 @@ std::vector<Rock> scatter_rocks(uint32_t seed) {
     };
     std::vector<Rock> rocks;
     while (rocks.size() < k_rocks) {
-        const Point at{between(-20.0, 20.0), between(-20.0, 20.0)};
-        const double size = between(0.0, 1.0), top = between(0.7, 1.4);
+        const Point at{between(-k_rock_reach, k_rock_reach), between(-k_rock_reach, k_rock_reach)};
+        const double size = between(0.0, 1.0), top = between(1.1, 1.8);
         const double from_land = -inland(at, seed);
-        if (length(at) > k_land_reach - 4.0 || from_land < 1.2 || from_land > 8.0)
+        if (length(at) > k_rock_reach || from_land < 1.2 || from_land > 8.0)
             continue;
-        const double radius = 0.45 + 1.1 * size * size;
+        const double radius = 0.4 + 1.2 * size * size * size;
         const bool apart = std::none_of(rocks.begin(), rocks.end(), [&](const Rock& rock) {
             return distance(rock.middle, at) < 1.3 * (rock.radius + radius);
         });
@@ -125,7 +129,7 @@ HeightMap make_island(int side, uint32_t seed) {
         const Point p = map.position(node);
         const double height = with_rocks(ground(p, seed), p, rocks, seed);
         // Whatever the seed, the open sea begins at k_land_reach.
-        map.heights[size_t(node)] = height - (height + 5.0) * rise(k_land_reach - 4.0, k_land_reach, length(p));
+        map.heights[size_t(node)] = height - (height + 5.0) * rise(k_rock_reach, k_land_reach, length(p));
     }
     return map;
 }

@@ -156,8 +156,7 @@ MarchSample study_march(const KnownCase& known, int side, Stencil stencil) {
     std::array<NormSum, 3> sums; // by Region
     for (int node = 0; node < side * side; ++node)
         if (const Point p = map.position(node); map.is_water(node) && length(p) < 1.0)
-            sums[size_t(known.region(p))].add(
-                std::abs(sample.work.of_node[size_t(node)] - known.exact(p)));
+            sums[size_t(known.region(p))].add(std::abs(sample.work.of_node[size_t(node)] - known.exact(p)));
     sample.errors = {sums[0].norms(), sums[1].norms()};
     sample.work.of_node.clear();
     return sample;

@@ -24,7 +24,8 @@ struct KnownCase {
     Region (*region)(Point);
 };
 
-/// Open water; a disc to go round (tangent, arc, tangent); a ring with a gap (a corner that waves bend round).
+/// Open water; a disc to go round (tangent, arc, tangent); a ring with a gap (a corner that waves bend
+/// round).
 std::span<const KnownCase> known_cases();
 
 /// The case's map with `side` nodes a side, 15/16 of its half the circle's radius.

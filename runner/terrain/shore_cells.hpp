@@ -1,6 +1,6 @@
-// The grid cells that the shoreline cuts, as convex polygons of water whose corners are nodes and crossings of
-// the shore with grid lines. With them a way along the shore has the shore's own length instead of that of a
-// staircase.
+// The grid cells that the shoreline cuts, as convex polygons of water whose corners are nodes and crossings
+// of the shore with grid lines. With them a way along the shore has the shore's own length instead of that of
+// a staircase.
 #pragma once
 
 #include "terrain/height_map.hpp"

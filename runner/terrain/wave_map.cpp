@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace tidemark::terrain {
 namespace {
@@ -22,29 +23,63 @@ std::string place_of(const HeightMap& map, int node) {
 Result<void> check_water(const HeightMap& map) {
     const double least = *std::min_element(map.heights.begin(), map.heights.end());
     if (least >= 0.0)
-        return refuse(fmt::format("there is no water: the lowest height is {:g} m above the sea; raise --sea",
-                                  least));
+        return refuse(
+            fmt::format("there is no water: the lowest height is {:g} m above the sea; raise --sea", least));
     const double radius = circle_radius(map);
     for (int node = 0; node < map.side * map.side; ++node) {
         // From the last node that the march takes as known to the first outside.
         const double inside = radius - length(map.position(node));
         if (std::abs(inside) <= 3.5 * map.spacing() && !map.is_water(node))
-            return refuse(fmt::format("the circle where the waves start, {:g} m round the middle, meets land at "
-                                      "{}: leave open water there, or raise --sea",
-                                      radius, place_of(map, node)));
+            return refuse(
+                fmt::format("the circle where the waves start, {:g} m round the middle, meets land at "
+                            "{}: leave open water there, or raise --sea",
+                            radius, place_of(map, node)));
     }
     return {};
 }
 
-/// Over water; then over what no water leads to.
-std::vector<double> path_distances(const HeightMap& map) {
-    std::vector<double> over_water = fast_march(map, known_from_circle(map, circle_radius(map))).of_node;
-    for (double& metres : over_water)
-        if (std::isinf(metres))
-            metres = std::numeric_limits<double>::quiet_NaN();
+/// Gives every node without a value (an infinite one) that of the nearest shore plus the way from there: in
+/// the order of that way, a value is the mean of those it came by (D. Adalsteinsson and J. A. Sethian, "The
+/// fast construction of extension velocities in level set methods", 1999). Over land the march of the waves
+/// itself would come from the weather side and meet those of the lee shore in a step.
+void extend_inland(const HeightMap& map, std::vector<double>& path) {
     HeightMap passable(map.side, map.extent);
     std::fill(passable.heights.begin(), passable.heights.end(), -1.0);
-    return fast_march(passable, over_water).of_node;
+    std::vector<double> at_shore(path.size());
+    std::vector<int> inland;
+    for (size_t node = 0; node < path.size(); ++node)
+        if (std::isinf(path[node])) {
+            at_shore[node] = std::numeric_limits<double>::quiet_NaN();
+            inland.push_back(int(node));
+        }
+    const std::vector<double> away = fast_march(passable, at_shore).of_node;
+    std::sort(inland.begin(), inland.end(), [&](int a, int b) { return away[size_t(a)] < away[size_t(b)]; });
+
+    std::vector<double> shore_path = path;
+    for (const int node : inland) {
+        double sum = 0.0, weight = 0.0;
+        for (const int beside :
+             {node - 1, node + 1, node - map.side, node + map.side}) { // none is at the edge
+            const double nearer = away[size_t(node)] - away[size_t(beside)];
+            if (nearer > 0.0) {
+                sum += nearer * shore_path[size_t(beside)];
+                weight += nearer;
+            }
+        }
+        shore_path[size_t(node)] = sum / weight;
+        path[size_t(node)] = shore_path[size_t(node)] + away[size_t(node)];
+    }
+}
+
+/// Finite everywhere: outside the circle straight, inside over water, elsewhere from the nearest shore.
+std::vector<double> path_distances(const HeightMap& map) {
+    const std::vector<double> known = known_from_circle(map, circle_radius(map));
+    std::vector<double> path = fast_march(map, known).of_node;
+    for (size_t node = 0; node < path.size(); ++node) // land that lies outside the circle
+        if (std::isinf(path[node]) && !std::isnan(known[node]))
+            path[node] = known[node];
+    extend_inland(map, path);
+    return path;
 }
 
 } // namespace

@@ -26,14 +26,14 @@ inline constexpr double k_detour_to = 0.45;
 
 /// RGBA, f32, all finite, one texel a node:
 /// * R, path distance: metres of the shortest way over water from the circle; below 0 outside of it. On land
-///   and lakes it goes on from the shore over land, so that a look-up beside the shore finds no hole.
+///   and lakes it goes on from the nearest shore, so that a look-up at the waterline finds no jump.
 /// * G, wave mask: 1 where the path is as long as the straight way, 0 where it makes a detour of
 ///   k_detour_to or more.
 /// * B, depth: metres from the sea's level down to the floor, 0 on land.
 /// * A, height: metres above the sea's level, below 0 under water.
 ///
-/// Heights must be finite. Fails (ErrorCode::load; the message names no file) where there is no water, or land
-/// on the circle.
+/// Heights must be finite. Fails (ErrorCode::load; the message names no file) where there is no water, or
+/// land on the circle.
 Result<image::Image> bake_wave_map(const HeightMap& map);
 
 /// Heights in metres from a picture's first channel v: `metres` * (v - `sea`). Fails (ErrorCode::load) where
