@@ -77,7 +77,7 @@ const float map_top = 6.0;     // nothing stands higher
 #iUniform float sun_elevation = 42.0 in { 10.0, 85.0 }
 // land and sky
 #iUniform color3 sand_color = color3(0.93, 0.82, 0.58)
-#iUniform color3 grass_color = color3(0.47, 0.68, 0.24)
+#iUniform color3 grass_color = color3(0.50, 0.66, 0.29)
 #iUniform color3 bush_color = color3(0.20, 0.47, 0.20)
 #iUniform color3 rock_color = color3(0.50, 0.47, 0.46)
 #iUniform color3 sky_color = color3(0.45, 0.70, 0.92)
@@ -333,8 +333,9 @@ vec3 ground_color(vec2 at, float height, float steepness, inout vec3 normal) {
     normal = normalize(mix(normal, round_normal, 0.75 * crown) +
                        stony * 0.35 * vec3(-fine.y, 0.0, -fine.z));
     vec3 color = mix(sand, grass, green);
-    color = mix(color, bush_color * (0.85 + 0.35 * fine.x), crown);
-    color *= 1.0 - 0.35 * grows * (1.0 - crown) * smoothstep(0.75, 0.5, bush.x);
+    float tone = noise(1.7 * (1.35 * at + bush.yz)).x; // one a bush
+    color = mix(color, bush_color * (0.7 + 0.6 * tone) + vec3(0.08, 0.03, 0.0) * tone, crown);
+    color *= 1.0 - 0.5 * grows * (1.0 - crown) * smoothstep(0.75, 0.5, bush.x);
     return mix(color, rock, stony);
 }
 
@@ -408,12 +409,23 @@ vec3 water_normal(vec2 at, float turns, float footprint) {
     return normalize(vec3(-rise.x, 1.0, -rise.y));
 }
 
-// Where on the floor the ray ends that enters the water at `position`; never on what stands out of it.
+// Where on the floor the ray ends that enters the water at `position`: a few steps down, then between the last
+// two.
 vec2 refracted(vec3 position, vec3 direction, vec3 normal, float depth) {
 #if REFRACTION
     vec3 inside = refract(direction, normal, 0.75);
-    vec2 there = position.xz + refraction * depth * inside.xz / max(-inside.y, 0.35);
-    return baked(there).w < 0.0 ? there : position.xz;
+    vec3 way = 1.3 * depth * vec3(refraction * inside.xz / max(-inside.y, 0.35), -1.0).xzy / 6.0;
+    vec3 at = position;
+    float above = depth;
+    for (int i = 0; i < 6; ++i) {
+        float next = at.y + way.y - baked(at.xz + way.xz).w;
+        if (next <= 0.0) {
+            return at.xz + way.xz * above / (above - next + 1e-6);
+        }
+        at += way;
+        above = next;
+    }
+    return at.xz;
 #else
     return position.xz;
 #endif

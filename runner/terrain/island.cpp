@@ -97,7 +97,7 @@ std::vector<Rock> scatter_rocks(uint32_t seed) {
         const Point at{between(-k_rock_reach, k_rock_reach), between(-k_rock_reach, k_rock_reach)};
         const double size = between(0.0, 1.0), top = between(1.1, 1.8);
         const double from_land = -inland(at, seed);
-        if (length(at) > k_rock_reach || from_land < 1.2 || from_land > 8.0)
+        if (length(at) > k_rock_reach || from_land < 1.2 || from_land > 6.0)
             continue;
         const double radius = 0.4 + 1.2 * size * size * size;
         const bool apart = std::none_of(rocks.begin(), rocks.end(), [&](const Rock& rock) {
