@@ -87,10 +87,12 @@ const float map_top = 6.0;     // nothing stands higher
 #iChannel1 "../textures/wave_ramps.png"
 
 const float k_circle = 0.46875 * map_extent; // where the waves start
+const float k_flat = 2.5 * k_circle;         // where they come from: beyond there are none
 const float k_land = 0.43 * map_extent;       // there is none beyond
 const float k_open_depth = 5.0;
 const float k_texels = 512.0;                // of the map, for its smooth look-ups: any size will do
-const float k_steepest = 3.0;                // rise a metre that the march reckons with
+const float k_slope = 1.0;                   // rise a metre that the march reckons with
+const float k_touch = 0.0004;                // height of a hit, part of its distance
 
 // ---- Noise ----------------------------------------------------------------------------------------------
 
@@ -199,7 +201,7 @@ vec4 wave_ramps(float phase) {
 float wave_mask(vec4 field, vec2 at) {
     float growth = mix(1.0, offshore_height, smoothstep(shallow_water, deep_water, field.z));
     float spent = mix(1.0, swash, smoothstep(-0.9, 0.15, field.w));
-    float far = 1.0 - smoothstep(k_circle, 2.5 * k_circle, length(at));
+    float far = 1.0 - smoothstep(k_circle, k_flat, length(at));
     return clamp(field.y, 0.0, 1.0) * growth * spent * far;
 }
 
@@ -216,8 +218,10 @@ struct Ray {
 struct Hit {
     float distance; // -1: the sky
     float field;    // last value: height above what is higher of water and land
+#ifdef TIDEMARK_HIT
     int samples;
     int flags; // 1: steps ran out, 2: a sample lay below, 4: so did the first
+#endif
 };
 
 // Where the ray is below `top`, as far as it lies within `radius` of the map's middle: x to y, empty if x > y.
@@ -235,40 +239,67 @@ vec2 within(Ray ray, float top, float radius) {
     return vec2(max(fall, (-b - root) / a), (-b + root) / a);
 }
 
-float field_at(vec3 position, float turns) {
+// Height above what is higher of water and land.
+float field_at(Ray ray, float t, float turns, inout Hit hit) {
+    vec3 position = ray.origin + t * ray.direction;
     vec4 field = baked(position.xz);
-    return position.y - max(field.w, water_height(field, position.xz, turns));
+    hit.distance = t;
+    hit.field = position.y - max(field.w, water_height(field, position.xz, turns));
+#ifdef TIDEMARK_HIT
+    hit.samples += 1;
+    hit.flags |= hit.field < 0.0 ? (hit.samples == 1 ? 6 : 2) : 0;
+#endif
+    return hit.field;
 }
 
-// The field is a height above ground and its slope at most k_steepest: a step of field / (fall + k_steepest *
-// advance) stays above. Water is nowhere below y = 0, so a ray that falls has an end.
+// A step of field / (fall + slope * advance) stays above ground that is nowhere steeper than `slope`. The flanks
+// of rocks and the fronts of waves are: a ray may enter them by a step, and is then led back to where it did by
+// the Illinois rule (M. Dowell, P. Jarratt, 1971). Passed by is only what the ray is inside of for less than a
+// step. Water is nowhere below y = 0: a ray that falls has an end.
 Hit march(Ray ray, float turns) {
-    Hit hit = Hit(-1.0, 0.0, 0, 0);
+    Hit hit;
+    hit.distance = -1.0;
+    hit.field = 0.0;
+#ifdef TIDEMARK_HIT
+    hit.samples = 0;
+    hit.flags = 0;
+#endif
     float fall = -ray.direction.y;
     if (fall < 1e-4) {
         return hit;
     }
     float end = ray.origin.y / fall;
-    float t = max((ray.origin.y - wave_height) / fall, 0.0);
+    vec2 over_waves = within(ray, wave_height, k_flat);
+    float t = over_waves.x < over_waves.y ? max(over_waves.x, 0.0) : end;
     vec2 over_land = within(ray, map_top, k_land);
     if (over_land.x < over_land.y) {
         t = min(t, max(over_land.x, 0.0));
     }
-    float pace = 1.0 / (fall + k_steepest * length(ray.direction.xz));
-    hit.flags = 1;
-    for (int i = 0; i < MAX_STEPS; ++i) {
-        hit.field = field_at(ray.origin + t * ray.direction, turns);
-        hit.samples += 1;
-        if (hit.field < 0.0) {
-            hit.flags |= i == 0 ? 6 : 2;
-        }
-        if (hit.field < 0.0004 * t || t >= end) {
-            hit.flags &= ~1;
-            break;
-        }
-        t = min(t + pace * hit.field, end);
+    float pace = 1.0 / (fall + k_slope * length(ray.direction.xz));
+    float field = field_at(ray, t, turns, hit);
+    vec2 above = vec2(t, field);
+    int step = 1;
+    for (; step < MAX_STEPS && field > k_touch * t && t < end; ++step) {
+        above = vec2(t, field);
+        t += max(pace * field, 8.0 * k_touch * t);
+        t = t < min(over_waves.y, end) ? t : end;
+        field = field_at(ray, t, turns, hit);
     }
-    hit.distance = t;
+#ifdef TIDEMARK_HIT
+    hit.flags |= field > k_touch * t && t < end ? 1 : 0;
+#endif
+    vec2 below = vec2(t, field);
+    for (int i = 0; i < 6 && below.y < 0.0 && above.y > 0.0 && abs(hit.field) > k_touch * hit.distance; ++i) {
+        t = (above.x * below.y - below.x * above.y) / (below.y - above.y);
+        field = field_at(ray, t, turns, hit);
+        if (field > 0.0) {
+            above = vec2(t, field);
+            below.y *= 0.5;
+        } else {
+            below = vec2(t, field);
+            above.y *= 0.5;
+        }
+    }
     return hit;
 }
 
@@ -510,7 +541,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
         float air = 1.0 - exp(-pow(hit.distance / 260.0, 2.0));
         color = mix(color, horizon_color, air);
     }
-    fragColor = vec4(clamp(color, 0.0, 1.0), 1.0);
+    fragColor = vec4(color, 1.0);
 }
 
 #ifdef TIDEMARK_HIT

@@ -24,7 +24,7 @@ Result<void> check_water(const HeightMap& map) {
     const double least = *std::min_element(map.heights.begin(), map.heights.end());
     if (least >= 0.0)
         return refuse(
-            fmt::format("there is no water: the lowest height is {:g} m above the sea; raise --sea", least));
+            fmt::format("there is no water: the lowest height is {:.3g} m above the sea; raise --sea", least));
     const double radius = circle_radius(map);
     for (int node = 0; node < map.side * map.side; ++node) {
         // From the last node that the march takes as known to the first outside.
@@ -52,7 +52,8 @@ void extend_inland(const HeightMap& map, std::vector<double>& path) {
             at_shore[node] = std::numeric_limits<double>::quiet_NaN();
             inland.push_back(int(node));
         }
-    const std::vector<double> away = fast_march(passable, at_shore).of_node;
+    // 0 over all water is no distance that a difference of the second order could be taken from.
+    const std::vector<double> away = fast_march(passable, at_shore, Stencil::first_order).of_node;
     std::sort(inland.begin(), inland.end(), [&](int a, int b) { return away[size_t(a)] < away[size_t(b)]; });
 
     std::vector<double> shore_path = path;
