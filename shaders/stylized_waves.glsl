@@ -40,7 +40,7 @@ const float map_top = 6.0;     // nothing stands higher
 #iUniform float camera_distance = 40.0 in { 15.0, 90.0 }
 #iUniform vec2 camera_target = vec2(0.0, -1.0) in { -20.0, 20.0 }
 #iUniform float focal_length = 1.7 in { 0.6, 4.0 }
-#iUniform float map_height = 52.0 in { 10.0, 120.0 }
+#iUniform float map_height = 44.0 in { 10.0, 120.0 }
 // waves: metres from crest to crest; seconds from one to the next, below 0 for waves that run with the path;
 // metres of the highest; part of that on deep water; depths where growth begins and ends; part that is left
 // where the water ends; how many lengths the fronts are bent by; metres they fall behind in shallow water, which
@@ -88,7 +88,7 @@ const float map_top = 6.0;     // nothing stands higher
 
 const float k_circle = 0.46875 * map_extent; // where the waves start
 const float k_flat = 2.5 * k_circle;         // where they come from: beyond there are none
-const float k_land = 0.43 * map_extent;       // there is none beyond
+const float k_land = 0.46 * map_extent;       // there is none beyond
 const float k_open_depth = 5.0;
 const float k_texels = 512.0;                // of the map, for its smooth look-ups: any size will do
 const float k_slope = 1.0;                   // rise a metre that the march reckons with
@@ -488,9 +488,11 @@ vec3 shade_water(vec3 position, vec3 direction, vec4 field, float turns, float f
     mirrored.y = abs(mirrored.y);
     color = mix(color, sky(mirrored), 0.02 + 0.55 * pow(1.0 - facing, 5.0));
 #if SPECULAR
+    // Ripples that are finer than a pixel spread the highlight and take from its brightness.
     vec3 between = normalize(light - direction);
-    color += specular * lit * vec3(1.0, 0.95, 0.85) *
-             pow(max(dot(normal, between), 0.0), specular_exponent / (1.0 + 20.0 * footprint));
+    float spread = 1.0 + 8.0 * min(footprint, 1.0);
+    color += specular / spread * lit * vec3(1.0, 0.95, 0.85) *
+             pow(max(dot(normal, between), 0.0), max(specular_exponent / spread, 4.0));
 #endif
     float foam = foam_cover(field, position.xz, turns, depth);
     vec3 froth = foam_color * (0.62 + 0.38 * lit * clamp(0.15 + 1.15 * dot(normal, light), 0.0, 1.0));

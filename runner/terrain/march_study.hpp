@@ -10,7 +10,8 @@
 namespace tidemark::terrain {
 
 /// Where a way keeps a tenth of the circle's radius from all land and from the middle, u is smooth all round
-/// and the second order is proved; elsewhere (behind land, beside land and the edge of its shadow) the first.
+/// and the error of the second order; elsewhere (behind land, beside land and the edge of its shadow) of the
+/// first.
 /// The middle, where the circle closes on itself and the first order is all there is, is the rest of open
 /// water; the other cases leave it out.
 enum class Region { smooth, rest, left_out };
