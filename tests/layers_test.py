@@ -14,10 +14,11 @@ ALLOWED = {
     "gl": ["base"],
     "image": ["base"],
     "sound": ["base"],
+    "terrain": ["base", "image"],
     "platform": ["base"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
     "lab": ["base", "text", "scene", "glsl", "gl", "image", "render"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "platform", "render", "lab"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "terrain", "platform", "render", "lab"],
     "main.cpp": ["cli"],
 }
 

@@ -1,3 +1,4 @@
+#include "cli/bake_island.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "image/noise.hpp"
@@ -22,7 +23,9 @@ struct BakeOptions {
 Result<int> write(const fs::path& path, const image::Image& image) {
     if (auto known = image::check_picture_name(path); !known)
         return fail(std::move(known.error()));
-    const image::PictureFormat format{image::natural_depth(path), {{"Software", "tidemark bake"}}};
+    const auto depth =
+        image.type == image::SampleType::f32 ? image::SampleDepth::u16 : image::natural_depth(path);
+    const image::PictureFormat format{depth, {{"Software", "tidemark bake"}}};
     if (auto written = image::write_picture(path, image, format); !written)
         return fail(std::move(written.error()));
     say(fmt::format("wrote {}", path.string()));
@@ -56,11 +59,13 @@ void add_bake(CLI::App& app, Action& chosen) {
     auto ramps = std::make_shared<BakeOptions>();
     ramps->output = ".";
     CLI::App* ramps_command =
-        command->add_subcommand("ramps", "The colour ramps of shaders/pseudo3d_water.glsl");
+        command->add_subcommand("ramps", "The ramps of shaders/pseudo3d_water.glsl and stylized_waves.glsl");
     ramps_command->add_option("-o,--output", ramps->output, "Folder")
         ->type_name("FOLDER")
         ->capture_default_str();
     ramps_command->callback([ramps, &chosen] { chosen = [ramps] { return bake_ramps(*ramps); }; });
+
+    add_bake_island(*command, chosen);
 }
 
 } // namespace tidemark::cli

@@ -78,6 +78,28 @@ Rgba foam(double lightness, double distance) {
     return blend(near, far, distance);
 }
 
+/// Height, front, tail, rollback.
+Rgba wave(double phase) {
+    const double climb = rise(0.02, 0.70, phase);
+    const double fall = 1.0 - rise(0.70, 0.86, phase);
+    const double height = (0.3 * climb + 0.7 * climb * climb * climb) * fall;
+    const double front = rise(0.69, 0.75, phase) * (1.0 - rise(0.80, 0.85, phase));
+    const double behind = rise(0.24, 0.72, phase);
+    const double tail = behind * behind * (1.0 - rise(0.72, 0.78, phase));
+    const double rollback = rise(0.02, 0.14, phase) * (1.0 - rise(0.22, 0.58, phase));
+    return {height, front, tail, rollback};
+}
+
+Image draw_wave() {
+    constexpr int size = 256;
+    Image image({size, 1}, 4, SampleType::f32);
+    size_t next = 0;
+    for (int x = 0; x < size; ++x)
+        for (const double sample : wave((x + 0.5) / size))
+            image.f32()[next++] = float(sample);
+    return image;
+}
+
 template <class Color>
 Image draw(Color color) {
     Image image({k_size, k_size}, 4, SampleType::u8);
@@ -96,7 +118,7 @@ Image draw(Color color) {
 } // namespace
 
 std::vector<NamedImage> make_ramps() {
-    return {{"water_ramp", draw(water)}, {"foam_ramp", draw(foam)}};
+    return {{"water_ramp", draw(water)}, {"foam_ramp", draw(foam)}, {"wave_ramps", draw_wave()}};
 }
 
 } // namespace tidemark::image

@@ -24,14 +24,15 @@ protected:
     std::vector<NamedImage> ramps = make_ramps();
     const Image& water = ramps.at(0).image;
     const Image& foam = ramps.at(1).image;
+    const Image& wave = ramps.at(2).image;
     const int last = water.extent.width - 1;
 };
 
-TEST_F(Ramps, are_two_small_squares_with_alpha) {
-    ASSERT_EQ(ramps.size(), 2U);
+TEST_F(Ramps, of_colours_are_small_squares_with_alpha) {
+    ASSERT_EQ(ramps.size(), 3U);
     EXPECT_EQ(ramps[0].name, "water_ramp");
     EXPECT_EQ(ramps[1].name, "foam_ramp");
-    for (const NamedImage& ramp : ramps) {
+    for (const NamedImage& ramp : {ramps[0], ramps[1]}) {
         EXPECT_EQ(ramp.image.extent, (Extent{64, 64})) << ramp.name;
         EXPECT_EQ(ramp.image.channels, 4) << ramp.name;
         EXPECT_EQ(ramp.image.type, SampleType::u8) << ramp.name;
@@ -97,6 +98,53 @@ TEST_F(Ramps, foam_is_white_where_it_is_clear_too) {
             EXPECT_GT(std::min({t.r, t.g, t.b}), 215) << x << ' ' << y;
         }
     }
+}
+
+class WaveRamps : public Ramps {
+protected:
+    static constexpr int k_size = 256;
+    enum Ramp { height, front, tail, rollback };
+
+    float at(int x, int ramp) const { return wave.f32()[size_t(4 * ((x + k_size) % k_size) + ramp)]; }
+    int highest(int ramp) const {
+        int found = 0;
+        for (int x = 1; x < k_size; ++x)
+            found = at(x, ramp) > at(found, ramp) ? x : found;
+        return found;
+    }
+};
+
+TEST_F(WaveRamps, are_one_row_of_the_same_bytes_on_every_machine) {
+    EXPECT_EQ(ramps[2].name, "wave_ramps");
+    EXPECT_EQ(wave.extent, (Extent{k_size, 1}));
+    EXPECT_EQ(sha256(wave.bytes), "8d9a00ca0e938e80241de3c4c4da7987bef4995857bca12d53d8ffb7f31de02e");
+}
+
+TEST_F(WaveRamps, go_on_from_the_right_edge_at_the_left) {
+    for (int x = 0; x < k_size; ++x)
+        for (int ramp = 0; ramp < 4; ++ramp) {
+            EXPECT_TRUE(at(x, ramp) >= 0.0F && at(x, ramp) <= 1.0F) << x << ' ' << ramp;
+            EXPECT_NEAR(at(x, ramp), at(x + 1, ramp), 0.12F) << x << ' ' << ramp;
+        }
+    for (int ramp = 0; ramp < 4; ++ramp)
+        EXPECT_EQ(at(-1, ramp), 0.0F) << ramp;
+}
+
+TEST_F(WaveRamps, wave_is_steeper_ahead_of_its_crest_than_behind) {
+    const int crest = highest(height);
+    EXPECT_GT(at(crest, height), 0.99F);
+    for (int x = 0; x < crest; ++x)
+        EXPECT_LE(at(x, height), at(x + 1, height)) << x;
+    for (int x = crest; x < k_size - 1; ++x)
+        EXPECT_GE(at(x, height), at(x + 1, height)) << x;
+    EXPECT_GT(at(crest - 48, height), 0.2F);
+    EXPECT_LT(at(crest + 48, height), 0.01F);
+}
+
+TEST_F(WaveRamps, foam_stands_in_the_order_front_tail_rollback) {
+    EXPECT_GT(highest(front), highest(height));
+    EXPECT_LT(highest(tail), highest(front));
+    EXPECT_LT(highest(rollback), highest(tail));
 }
 
 } // namespace
