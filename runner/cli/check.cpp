@@ -1,3 +1,4 @@
+#include "cli/check_probes.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/options.hpp"
@@ -14,9 +15,9 @@ namespace tidemark::cli {
 namespace {
 
 struct CheckOptions {
-    SceneRequest scene;
+    ProbesRequest probes;
     bool portable = false;
-    bool json = false;
+    bool list = false;
 };
 
 nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
@@ -26,7 +27,7 @@ nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
 
 /// One line for each place that ShaderToy's compiler will refuse; exit 1 when there is one.
 Result<int> check_portable(const CheckOptions& options) {
-    const auto scene = load(options.scene);
+    const auto scene = load(options.probes.scene);
     if (!scene)
         return fail(scene.error());
     const std::vector<Diagnostic> found = glsl::portability_lint(*scene);
@@ -41,19 +42,45 @@ Result<int> check_portable(const CheckOptions& options) {
         json["findings"].push_back(to_json(diagnostic));
     }
     const int code = found.empty() ? 0 : exit_code(ErrorCode::check_failed);
-    return put(options.json ? json.dump(2) + "\n" : text).map([code] { return code; });
+    return put(options.probes.json ? json.dump(2) + "\n" : text).map([code] { return code; });
 }
 
 } // namespace
 
 void add_check(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = app.add_subcommand("check", "Tells what in a scene will not work elsewhere");
-    add_scene_options(*command, options->scene);
-    command->add_flag("--portable", options->portable, "What will not compile on ShaderToy's own site")
-        ->required();
-    command->add_flag("--json", options->json, "One JSON object on standard output");
-    command->callback([options, &chosen] { chosen = [options] { return check_portable(*options); }; });
+    CLI::App* command =
+        app.add_subcommand("check", "Tells whether a scene's numbers can be trusted, and where not");
+    ProbesRequest& probes = options->probes;
+    add_scene_options(*command, probes.scene);
+    command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]")
+        ->type_name("NAME")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("-o,--output", probes.output, "Folder for a picture of each failure")
+        ->type_name("FOLDER");
+    command->add_option("--budget", probes.budget, "Seconds after which no other probe is begun")
+        ->type_name("S")
+        ->capture_default_str();
+    command->add_option("--device", probes.device, "Where to draw: a name from `tidemark inspect --devices`")
+        ->type_name("NAME")
+        ->capture_default_str();
+    auto* list = command->add_flag("--list", options->list, "What each probe looks at, and nothing else");
+    command->get_option("SCENE")->required(false);
+    command
+        ->add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
+        ->excludes(list);
+    command->add_flag("--json", probes.json, "One JSON object on standard output");
+    command->callback([options, &chosen] {
+        if (!options->list && options->probes.scene.path.empty())
+            throw CLI::RequiredError("SCENE");
+        chosen = [options] {
+            return options->list       ? list_probes()
+                   : options->portable ? check_portable(*options)
+                                       : check_probes(options->probes);
+        };
+    });
 }
 
 } // namespace tidemark::cli

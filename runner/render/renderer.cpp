@@ -245,9 +245,10 @@ void Renderer::draw_face(const CompiledPass& pass, const gl::RenderTarget& into)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-Image Renderer::read_back() const {
-    Image image(target().extent(), 4, samples_);
-    gl::read_pixels(target(), GL_RGBA, samples_ == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT, image.bytes);
+Image Renderer::read_back(size_t pass) const {
+    const gl::RenderTarget& target = targets_[pass].latest();
+    Image image(target.extent(), 4, samples_);
+    gl::read_pixels(target, GL_RGBA, samples_ == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT, image.bytes);
     return image;
 }
 

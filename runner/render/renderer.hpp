@@ -49,9 +49,15 @@ public:
     void reset();
 
     /// The pixels of the shown pass. A buffer that is shown in bytes is clamped; of a cube, face +x.
-    image::Image read_back() const;
+    image::Image read_back() const { return read_back(shown_); }
     /// The faces of a shown cubemap pass, +x -x +y -y +z -z.
     std::array<image::Image, 6> read_back_cube() const;
+
+    /// The pixels of a pass in the plan, a cubemap's +x.
+    image::Image read_back(size_t pass) const;
+
+    /// Other values for the scene's knobs, in their order, from the next frame on.
+    void turn(std::vector<scene::Knob> knobs) { scene_.knobs = std::move(knobs); }
 
     /// Targets of another size, buffers keeping the overlap; fails (ErrorCode::usage) beyond the driver's
     /// limit and leaves the old ones.

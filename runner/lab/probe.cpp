@@ -1,0 +1,44 @@
+#include "lab/probe.hpp"
+
+#include "lab/probes.hpp"
+
+namespace tidemark::lab {
+
+std::string_view to_string(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::pass: return "pass";
+    case Verdict::warn: return "warn";
+    case Verdict::fail: return "fail";
+    case Verdict::not_applicable: return "n/a";
+    }
+    return {};
+}
+
+std::span<const Probe> all_probes() {
+    static constexpr Probe probes[] = {
+        {"times",
+         "NaN or infinity in any pass, at 0, 1e-6 and 1 s, around 62.83 s, to 1e6 s, at 2^24 and -5 s",
+         ask_times},
+        {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, held down", ask_mouse},
+        {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},
+        {"inputs", "NaN or infinity with each input unbound, or noise in its place", ask_inputs},
+        {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
+        {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
+         ask_repeats},
+        {"camera", "turns of the picture under a one-pixel step of the mouse", ask_camera},
+        {"jumps",
+         "a frame that is less like the one before it than its neighbours are, at every period in the text",
+         ask_jumps},
+        {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
+         ask_hashes},
+        {"horizon", "until when float and double show the same, to 1/255 in 99 % of the pixels", ask_horizon},
+        {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
+         ask_witnesses},
+        {"budget", "rays that run out of steps (mainHit)", ask_budget},
+        {"stiffness", "the same, and distances that are no number, with each knob at both ends (mainHit)",
+         ask_stiffness},
+    };
+    return probes;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,116 @@
+#include "lab/probe_bench.hpp"
+
+#include "glsl/hit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+namespace {
+
+bool is_knob(const scene::Scene& scene, const Setting& setting) {
+    return std::ranges::find(scene.knobs, setting.name, &scene::Knob::name) != scene.knobs.end();
+}
+
+} // namespace
+
+ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises)
+    : scene_(scene), hit_scene_(glsl::hit_scene(scene)), promises_(std::move(promises)) {}
+
+/// What stands in the text is compiled; knobs are turned.
+Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry entry,
+                                               glsl::Precision precision) {
+    std::string key = fmt::format("{} {}", int(entry), int(precision));
+    scene::Scene scene = entry == Entry::hit ? *hit_scene_ : scene_;
+    for (const std::string& channel : situation.channels) {
+        key += " " + channel;
+        if (auto set = scene::override_channel(scene, channel); !set)
+            return fail(std::move(set.error()));
+    }
+    for (const Setting& setting : situation.settings) {
+        if (!is_knob(scene_, setting))
+            key += fmt::format(" {}={}", setting.name, setting.value);
+        if (auto set = apply(scene, setting); !set)
+            return fail(std::move(set.error()));
+    }
+    std::vector<scene::Knob> knobs = scene.knobs;
+    auto found = renderers_.find(key);
+    if (found == renderers_.end()) {
+        auto made = render::Renderer::create(std::move(scene),
+                                             {situation.extent, image::SampleType::f32, {}, precision});
+        if (!made)
+            return fail(std::move(made.error()));
+        found = renderers_.emplace(std::move(key), *std::move(made)).first;
+    }
+    render::Renderer& renderer = found->second;
+    renderer.turn(std::move(knobs));
+    if (renderer.extent() != situation.extent)
+        if (auto resized = renderer.resize(situation.extent); !resized)
+            return fail(std::move(resized.error()));
+    return &renderer;
+}
+
+Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry entry,
+                                            glsl::Precision precision) {
+    auto made = renderer(situation, entry, precision);
+    if (!made)
+        return made;
+    const render::FrameInputs inputs = inputs_of(situation);
+    if ((*made)->plan().feedback) {
+        (*made)->reset();
+        for (int before = std::min(inputs.frame, k_run_up); before > 0; --before) {
+            render::FrameInputs earlier = inputs;
+            earlier.frame -= before;
+            earlier.time -= before * inputs.time_delta;
+            (*made)->draw(earlier);
+        }
+    }
+    (*made)->draw(inputs);
+    return made;
+}
+
+Result<image::Image> ProbeBench::picture(const Situation& situation, glsl::Precision precision) {
+    auto renderer = drawn(situation, Entry::picture, precision);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    return image::without_alpha((*renderer)->read_back());
+}
+
+Result<image::Image> ProbeBench::fresh_picture(const Situation& situation) {
+    renderers_.clear();
+    return picture(situation);
+}
+
+Result<std::vector<PassPicture>> ProbeBench::passes(const Situation& situation) {
+    auto renderer = drawn(situation, Entry::picture, glsl::Precision::single);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    std::vector<PassPicture> pictures;
+    for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
+        const scene::Pass& pass = scene_.passes[planned.pass];
+        if (pass.kind != scene::PassKind::cubemap)
+            pictures.push_back({pass.name, (*renderer)->read_back(planned.pass)});
+    }
+    return pictures;
+}
+
+Result<Hits> ProbeBench::hits(const Situation& situation) {
+    auto renderer = drawn(situation, Entry::hit, glsl::Precision::single);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    return hits_of((*renderer)->read_back());
+}
+
+Result<std::vector<glsl::KeptHash>> ProbeBench::hashes() {
+    auto made = renderer({}, Entry::picture, glsl::Precision::promoted);
+    if (!made)
+        return fail(std::move(made.error()));
+    std::vector<glsl::KeptHash> all;
+    for (const render::PlannedPass& planned : (*made)->plan().passes)
+        for (const glsl::KeptHash& hash : (*made)->kept_hashes(planned.pass))
+            all.push_back(hash);
+    return all;
+}
+
+} // namespace tidemark::lab

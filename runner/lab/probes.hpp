@@ -1,0 +1,29 @@
+// The probes themselves, by subject. What each asks stands in lab/probe.cpp, where people read it too.
+#pragma once
+
+#include "lab/probe.hpp"
+
+namespace tidemark::lab {
+
+// probes_finite.cpp
+Result<Answer> ask_times(ProbeBench& bench);
+Result<Answer> ask_mouse(ProbeBench& bench);
+Result<Answer> ask_sizes(ProbeBench& bench);
+Result<Answer> ask_inputs(ProbeBench& bench);
+Result<Answer> ask_knobs(ProbeBench& bench);
+
+// probes_time.cpp
+Result<Answer> ask_horizon(ProbeBench& bench);
+Result<Answer> ask_jumps(ProbeBench& bench);
+Result<Answer> ask_hashes(ProbeBench& bench);
+
+// probes_motion.cpp
+Result<Answer> ask_repeats(ProbeBench& bench);
+Result<Answer> ask_camera(ProbeBench& bench);
+
+// probes_hit.cpp
+Result<Answer> ask_witnesses(ProbeBench& bench);
+Result<Answer> ask_budget(ProbeBench& bench);
+Result<Answer> ask_stiffness(ProbeBench& bench);
+
+} // namespace tidemark::lab

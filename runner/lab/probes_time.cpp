@@ -1,0 +1,158 @@
+// What becomes of a scene as its clock runs: rounding, cuts, and random numbers that hang on roundings.
+#include "image/metrics.hpp"
+#include "lab/probes.hpp"
+#include "text/tokens.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr double k_frame = 1.0 / 60;
+/// Frames that are closer than this do not jump, whatever their neighbours do.
+constexpr double k_close_psnr = 45; // dB
+
+/// Of the largest difference of a sample of each pixel, that which 99 % of the pixels stay below.
+double p99_difference(const image::Image& left, const image::Image& right) {
+    std::vector<float> largest(left.extent.pixels());
+    const auto channels = size_t(left.channels);
+    for (size_t i = 0; i < left.samples(); ++i) {
+        const float difference = std::abs(left.f32()[i] - right.f32()[i]);
+        // What is a number in one only is as different as can be.
+        const bool same =
+            left.f32()[i] == right.f32()[i] || (std::isnan(left.f32()[i]) && std::isnan(right.f32()[i]));
+        float& most = largest[i / channels];
+        most = std::max(most, same ? 0.0f : std::isnan(difference) ? 1.0f : difference);
+    }
+    const auto at = largest.begin() + std::ptrdiff_t(double(largest.size() - 1) * 0.99);
+    std::ranges::nth_element(largest, at);
+    return double(*at);
+}
+
+/// Numbers in the text and among the knobs that time may be taken modulo of.
+std::vector<double> possible_periods(const scene::Scene& scene) {
+    std::set<double> periods;
+    const auto note = [&](double number) {
+        if (number >= 1 && number <= 1e5)
+            periods.insert(number);
+    };
+    const auto read = [&](const text::MappedText& text) {
+        for (const text::Token& token : text::tokenize(text.text())) {
+            double number = 0;
+            if (token.kind == text::TokenKind::number &&
+                std::from_chars(token.text.data(), token.text.data() + token.text.size(), number).ec ==
+                    std::errc{})
+                note(number);
+        }
+    };
+    read(scene.common);
+    for (const scene::Pass& pass : scene.passes)
+        read(pass.text);
+    for (const scene::Knob& knob : scene.knobs)
+        note(knob.value[0]);
+    return {periods.begin(), periods.end()};
+}
+
+/// How much less alike the two frames around `moment` are than their neighbours, dB; and how alike.
+struct Jump {
+    double drop = 0;
+    double psnr = 0;
+};
+Result<Jump> jump_at(ProbeBench& bench, double moment) {
+    std::vector<image::Image> frames;
+    for (const double offset : {-1.5, -0.5, 0.5, 1.5}) {
+        auto frame = bench.picture({.time = moment + offset * k_frame});
+        if (!frame)
+            return fail(std::move(frame.error()));
+        frames.push_back(*std::move(frame));
+    }
+    double psnr[3];
+    for (size_t i = 0; i < 3; ++i) {
+        const auto difference = image::compare(frames[i], frames[i + 1]);
+        if (!difference)
+            return fail(difference.error());
+        psnr[i] = difference->psnr;
+    }
+    return Jump{std::min({psnr[0], psnr[2], 2 * k_close_psnr}) - psnr[1], psnr[1]};
+}
+
+} // namespace
+
+Result<Answer> ask_horizon(ProbeBench& bench) {
+    double good = 0;
+    for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+        const Situation situation{.time = time};
+        const auto as_is = bench.picture(situation);
+        if (!as_is)
+            return fail(as_is.error());
+        auto truth = bench.picture(situation, glsl::Precision::promoted);
+        if (!truth)
+            return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(truth.error())};
+        const double difference = p99_difference(*as_is, *truth);
+        if (difference <= 1.0 / 255) {
+            good = time;
+            continue;
+        }
+        const bool kept = good >= bench.promises().time_horizon;
+        const std::string found =
+            good == 0
+                ? fmt::format(
+                      "float and double differ from the first second on: by {:.3g} in 1 % of the pixels "
+                      "at 1 s, which is not the clock's doing",
+                      difference)
+                : fmt::format("good to {:g} s; at {:g} s, where iTime moves in steps of {:.2g} s, 1 % of "
+                              "the pixels are off by {:.3g} or more",
+                              good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
+                              difference);
+        return Answer{kept        ? Verdict::pass
+                      : good == 0 ? Verdict::warn
+                                  : Verdict::fail,
+                      found, situation, *as_is};
+    }
+    return Answer{Verdict::pass, "float and double show the same up to 1e6 s"};
+}
+
+Result<Answer> ask_jumps(ProbeBench& bench) {
+    const std::vector<double> periods = possible_periods(bench.scene());
+    Answer answer;
+    double worst = bench.promises().smoothest_jump;
+    for (const double period : periods) {
+        const auto jump = jump_at(bench, period);
+        if (!jump)
+            return fail(jump.error());
+        if (!(jump->drop > worst) || jump->psnr > k_close_psnr)
+            continue;
+        worst = jump->drop;
+        answer = {
+            Verdict::fail,
+            fmt::format("the frames around {:g} s have {:.1f} dB between them, {:.1f} dB less than their "
+                        "neighbours",
+                        period, jump->psnr, jump->drop),
+            Situation{.time = period + k_frame / 2}};
+    }
+    if (answer.verdict == Verdict::pass)
+        answer.sentence =
+            fmt::format("no cut at {} numbers that time may be taken modulo of", periods.size());
+    return answer;
+}
+
+Result<Answer> ask_hashes(ProbeBench& bench) {
+    const auto hashes = bench.hashes();
+    if (!hashes)
+        return Answer{Verdict::not_applicable, "not to be read: " + to_string(hashes.error())};
+    std::string found;
+    for (const glsl::KeptHash& hash : *hashes)
+        if (hash.kind == glsl::HashKind::sine)
+            found += fmt::format("{}{}:{}{}", found.empty() ? "" : ", ", hash.where.file, hash.where.line,
+                                 hash.function.empty() ? "" : " " + hash.function);
+    if (found.empty())
+        return Answer{Verdict::pass, "no random numbers from large sines"};
+    return Answer{Verdict::warn, "fract of a large sine, another number on every GPU: " + found};
+}
+
+} // namespace tidemark::lab

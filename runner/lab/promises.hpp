@@ -1,0 +1,24 @@
+// What a scene promises of its numbers, in a file beside it (`waves.check.json` beside `waves.glsl`), so that
+// `tidemark check` guards it. Without the file, these defaults are asked for.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace tidemark::lab {
+
+struct Promises {
+    double time_horizon = 1e4;         ///< seconds up to which float and double show the same
+    double most_exhausted_percent = 1; ///< rays that may run out of steps
+    double most_witness_percent = 0;   ///< rays that may take a sample below the surface
+    double smoothest_jump = 3;         ///< dB that a frame may be less like its neighbour than others are
+    std::map<std::string, std::string> skip; ///< probe: why it is not asked
+};
+
+/// Reads such a file; `file` is named in the errors (ErrorCode::load), with the name of the value.
+Result<Promises> parse_promises(std::string_view text, const std::string& file);
+
+} // namespace tidemark::lab

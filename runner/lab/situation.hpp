@@ -1,0 +1,33 @@
+// One state in which a scene is looked at: a moment, a size, a mouse and what is set otherwise, with the
+// options that bring it back.
+#pragma once
+
+#include "base/extent.hpp"
+#include "lab/setting.hpp"
+#include "render/frame_inputs.hpp"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::lab {
+
+struct Situation {
+    Extent extent{64, 36};
+    double time = 1;                 ///< iTime, seconds
+    std::optional<glm::ivec2> mouse; ///< the pixel that was clicked; none: never touched
+    bool down = false;               ///< in the frame of the click
+    std::vector<Setting> settings;
+    std::vector<std::string> channels; ///< `0=none`, as --channel has them
+    std::string pass;                  ///< empty: Image
+};
+
+/// iFrame is the one at 60 frames a second; before the start it is 0.
+render::FrameInputs inputs_of(const Situation& situation);
+
+/// `--size 64x36 --time 62.83 --mouse 3,4`: what `tidemark capture` wants after the scene.
+std::string capture_options(const Situation& situation);
+
+} // namespace tidemark::lab

@@ -1,0 +1,102 @@
+"""`tidemark check SCENE`: what probes find in scenes with one fault each, and in sound ones."""
+import json
+
+from support.program import ROOT, ProgramTest, main
+
+SOUND = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.5 + 0.5 * sin(iTime), 1.0); }\n"
+
+FAULTS = {
+    "times": "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(1.0 - iTime)); }\n",
+    "mouse": "void mainImage(out vec4 c, in vec2 p) { c = vec4(log(1.0 + iMouse.x)); }\n",
+    "sizes": "void mainImage(out vec4 c, in vec2 p) { c = vec4((p.y - 0.5) / (iResolution.y - 1.0)); }\n",
+    "inputs": "void mainImage(out vec4 c, in vec2 p) {\n"
+              "    vec4 t = textureLod(iChannel0, vec2(0.5), 8.0);\n    c = t / t.r;\n}\n",
+    "knobs": "#iUniform float depth = 1.0 in { 0.0, 2.0 }\n"
+             "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0 / depth); }\n",
+    "camera": "void mainImage(out vec4 c, in vec2 p) {\n"
+              "    float side = iMouse.y > 90.0 ? -1.0 : 1.0;\n"
+              "    c = vec4(0.5 + 0.5 * side * sin(0.1 * p.y + 0.01 * iMouse.y));\n}\n",
+    "jumps": "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x)); }\n",
+    "horizon": "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5 + 0.5 * sin(4000.0 * iTime + p.x)); }\n",
+    "witnesses": "float field(vec3 p) { return p.y - 2.0 * sin(8.0 * p.x); }\n"
+                 "void mainHit(out vec4 hit, in vec2 fragCoord) {\n"
+                 "    vec3 at = vec3(fragCoord.x / 10.0, 3.0, 0.0);\n"
+                 "    float t = 0.0, f = field(at), flags = 0.0;\n"
+                 "    for (int i = 0; i < 40 && abs(f) > 1e-3; ++i) {\n"
+                 "        t += f;\n        f = field(at + t * normalize(vec3(1.0, -1.0, 0.0)));\n"
+                 "        if (f < 0.0) flags = 2.0;\n    }\n"
+                 "    hit = vec4(t, 40.0, f, flags);\n}\n"
+                 "void mainImage(out vec4 c, in vec2 p) { mainHit(c, p); }\n",
+    "budget": "void mainHit(out vec4 hit, in vec2 fragCoord) { hit = vec4(1.0, 8.0, 0.5, 1.0); }\n"
+              "void mainImage(out vec4 c, in vec2 p) { mainHit(c, p); }\n",
+}
+
+
+class Check(ProgramTest):
+    def verdicts(self, scene, *options: str) -> dict[str, dict]:
+        result = self.run_program("check", str(scene), "--json", *options)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        entries = {entry["probe"]: entry for entry in json.loads(result.stdout)["probes"]}
+        failed = any(entry["verdict"] == "fail" for entry in entries.values())
+        self.assertEqual(result.returncode, 1 if failed else 0)
+        return entries
+
+    def test_a_sound_scene_passes_everything_that_applies(self):
+        for probe, entry in self.verdicts(self.write("sound.glsl", SOUND)).items():
+            self.assertIn(entry["verdict"], ("pass", "n/a"), probe + ": " + entry["found"])
+
+    def test_each_fault_is_found_by_its_probe(self):
+        for probe, text in FAULTS.items():
+            with self.subTest(probe):
+                entry = self.verdicts(self.write(f"{probe}.glsl", text), "--probe", probe)[probe]
+                self.assertEqual(entry["verdict"], "fail", entry["found"])
+
+    def test_a_failure_can_be_reproduced_and_is_shown(self):
+        scene, folder = self.write("faulty.glsl", FAULTS["times"]), self.folder / "pictures"
+        entry = self.verdicts(scene, "--probe", "times", "-o", str(folder))["times"]
+        self.assertTrue((folder / "times.png").exists())
+        self.assertEqual(entry["picture"], str(folder / "times.png"))
+        command = entry["reproduction"].split()
+        self.assertEqual(command[:3], ["tidemark", "capture", str(scene)])
+        self.succeed(*command[1:-1], str(self.folder / "again.exr"))
+
+    def test_a_large_sine_is_named_with_its_line(self):
+        scene = self.write("hash.glsl", "float hash(vec2 p) {\n"
+                                        "    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);\n}\n"
+                                        "void mainImage(out vec4 c, in vec2 p) { c = vec4(hash(floor(p / 8.0))); }\n")
+        entry = self.verdicts(scene, "--probe", "hashes")["hashes"]
+        self.assertEqual(entry["verdict"], "warn")
+        self.assertIn("hash.glsl:1 hash", entry["found"])
+
+    def test_promises_are_held_and_probes_left_out(self):
+        scene = self.write("late.glsl", FAULTS["horizon"])
+        self.write("late.check.json", '{"time_horizon": 1, "skip": {"camera": "it has none"}}')
+        entries = self.verdicts(scene)
+        self.assertEqual(entries["horizon"]["verdict"], "pass")
+        self.assertEqual(entries["camera"]["found"], "left out by the scene: it has none")
+
+    def test_a_wrong_promise_is_an_error(self):
+        scene = self.write("late.glsl", SOUND)
+        file = self.write("late.check.json", '{"time_horizont": 1}')
+        result = self.run_program("check", str(scene))
+        self.assertEqual(result.returncode, 3)
+        self.assertIn(f"{file}: 'time_horizont' is nothing that a scene can promise", result.stderr)
+
+    def test_the_documents_own_marching_has_its_known_faults(self):
+        entries = self.verdicts(ROOT / "shaders" / "water_surface.glsl", "--define", "DOCUMENT=1")
+        for probe in ("jumps", "camera", "witnesses", "horizon"):
+            self.assertEqual(entries[probe]["verdict"], "fail", entries[probe]["found"])
+        self.assertIn("62.83 s", entries["jumps"]["found"])
+        self.assertEqual(entries["hashes"]["verdict"], "warn")
+
+    def test_an_unknown_probe_names_those_there_are(self):
+        result = self.run_program("check", str(self.write("sound.glsl", SOUND)), "--probe", "luck")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--probe luck: there are times, mouse", result.stderr)
+
+    def test_list_needs_no_scene(self):
+        self.assertIn(b"witnesses", self.succeed("check", "--list").stdout)
+
+
+if __name__ == "__main__":
+    main()
