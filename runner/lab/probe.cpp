@@ -27,7 +27,7 @@ std::span<const Probe> all_probes() {
          ask_repeats},
         {"camera", "turns of the picture under a one-pixel step of the mouse", ask_camera},
         {"jumps",
-         "a frame that is less like the one before it than its neighbours are, at every period in the text",
+         "cuts: an instant that is less like the next than before and after, at every number in the text",
          ask_jumps},
         {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
          ask_hashes},

@@ -11,8 +11,8 @@ namespace {
 
 /// Narrow and high: small steps of the mouse in few pixels.
 constexpr Extent k_narrow{16, 180};
-/// A step that makes the picture so much less like the last one than steps usually do is a turn.
-constexpr double k_turn = 6; // dB
+/// A step that changes the picture so much more than the steps before and after it is a turn.
+constexpr double k_turn = 4; // dB
 
 } // namespace
 
@@ -50,22 +50,25 @@ Result<Answer> ask_camera(ProbeBench& bench) {
         steps.push_back(image::compare(rows[i], rows[i + 1])->psnr);
     if (std::ranges::all_of(steps, [](double psnr) { return std::isinf(psnr); }))
         return Answer{Verdict::not_applicable, "the mouse's height changes nothing"};
-    std::vector<double> sorted = steps;
-    std::ranges::sort(sorted);
-    const double usual = sorted[sorted.size() / 2];
-    const auto worst = std::ranges::min_element(steps);
-    if (!(usual - *worst > k_turn))
+    size_t at = 1;
+    double most = 0;
+    for (size_t i = 1; i + 1 < steps.size(); ++i)
+        if (const double drop = std::min(steps[i - 1], steps[i + 1]) - steps[i]; drop > most) {
+            most = drop;
+            at = i;
+        }
+    if (!(most > k_turn))
         return Answer{Verdict::pass,
-                      fmt::format("one pixel of the mouse changes the picture evenly: {:.1f} dB, at "
-                                  "least {:.1f}",
-                                  usual, *worst)};
-    const int y = int(worst - steps.begin()) + 1;
+                      fmt::format("one pixel of the mouse changes the picture evenly, to {:.1f} dB", most),
+                      {},
+                      {}};
+    const int y = int(at) + 1;
     return Answer{
         Verdict::fail,
-        fmt::format("the mouse from y = {} to {} of {} turns the picture: {:.1f} dB where a step usually "
-                    "has {:.1f}",
-                    y, y + 1, k_narrow.height, *worst, usual),
-        Situation{.extent = k_narrow, .mouse = glm::ivec2(k_narrow.width / 2, y + 1)}};
+        fmt::format("the mouse from y = {} to {} of {} turns the picture: {:.1f} dB, {:.1f} less than "
+                    "the steps beside it",
+                    y, y + 1, k_narrow.height, steps[at], most),
+        Situation{.extent = k_narrow, .mouse = glm::ivec2(k_narrow.width / 2, y + 1)}, rows[at + 1]};
 }
 
 } // namespace tidemark::lab

@@ -13,7 +13,12 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr double k_frame = 1.0 / 60;
+/// Between two pictures that show whether motion goes on or is cut: a hundredth of a frame at 60 a second, or
+/// as many steps of iTime in binary32 as motion needs to show.
+double instant(double time) {
+    return std::max(1.0 / 6000, 8 * (double(std::nextafter(float(time), 1e9f)) - double(float(time))));
+}
+
 /// Frames that are closer than this do not jump, whatever their neighbours do.
 constexpr double k_close_psnr = 45; // dB
 
@@ -58,7 +63,8 @@ std::vector<double> possible_periods(const scene::Scene& scene) {
     return {periods.begin(), periods.end()};
 }
 
-/// How much less alike the two frames around `moment` are than their neighbours, dB; and how alike.
+/// How much less alike the pictures an instant before and after `moment` are than their neighbours, dB; and
+/// how alike.
 struct Jump {
     double drop = 0;
     double psnr = 0;
@@ -66,7 +72,7 @@ struct Jump {
 Result<Jump> jump_at(ProbeBench& bench, double moment) {
     std::vector<image::Image> frames;
     for (const double offset : {-1.5, -0.5, 0.5, 1.5}) {
-        auto frame = bench.picture({.time = moment + offset * k_frame});
+        auto frame = bench.picture({.time = moment + offset * instant(moment)});
         if (!frame)
             return fail(std::move(frame.error()));
         frames.push_back(*std::move(frame));
@@ -128,12 +134,11 @@ Result<Answer> ask_jumps(ProbeBench& bench) {
         if (!(jump->drop > worst) || jump->psnr > k_close_psnr)
             continue;
         worst = jump->drop;
-        answer = {
-            Verdict::fail,
-            fmt::format("the frames around {:g} s have {:.1f} dB between them, {:.1f} dB less than their "
-                        "neighbours",
-                        period, jump->psnr, jump->drop),
-            Situation{.time = period + k_frame / 2}};
+        answer = {Verdict::fail,
+                  fmt::format("at {:g} s the picture is cut: {:.1f} dB from one instant to the next, {:.1f} "
+                              "less than before and after",
+                              period, jump->psnr, jump->drop),
+                  Situation{.time = period + instant(period) / 2}};
     }
     if (answer.verdict == Verdict::pass)
         answer.sentence =
