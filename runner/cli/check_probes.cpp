@@ -60,7 +60,15 @@ Result<lab::Promises> promises_of(const fs::path& scene) {
 }
 
 std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
-    return fmt::format("tidemark capture {} {} -o {}.exr", request.scene.path.string(),
+    std::string options;
+    const auto add = [&options](const char* name, const std::vector<std::string>& values) {
+        for (const std::string& value : values)
+            options += fmt::format("{} '{}' ", name, value);
+    };
+    add("--set", request.scene.sets);
+    add("--define", request.scene.defines);
+    add("--channel", request.scene.channels);
+    return fmt::format("tidemark capture {} {}{} -o {}.exr", request.scene.path.string(), options,
                        lab::capture_options(situation), request.scene.path.stem().string());
 }
 

@@ -12,7 +12,7 @@ namespace tidemark::lab {
 
 struct Promises {
     double time_horizon = 1e4;         ///< seconds up to which float and double show the same
-    double most_exhausted_percent = 1; ///< rays that may run out of steps
+    double most_exhausted_percent = 0.1; ///< rays that may run out of steps
     double most_witness_percent = 0;   ///< rays that may take a sample below the surface
     double smoothest_jump = 10; ///< dB that an instant may be less like the next than before and after
     std::map<std::string, std::string> skip; ///< probe: why it is not asked
