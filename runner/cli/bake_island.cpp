@@ -159,10 +159,9 @@ void add_bake_island(CLI::App& bake_command, Action& chosen) {
             ->type_name("FILE")
             ->excludes(side)
             ->excludes(seed);
-    const CLI::Range positive(1e-3, 1e6);
     island->add_option("--extent", options->extent, "Metres along a side of that map")
         ->needs(heights)
-        ->check(positive)
+        ->check(CLI::Range(1.0, terrain::k_largest_metres))
         ->type_name("M")
         ->capture_default_str();
     island->add_option("--sea", options->sea, "Its value at the sea's level")
@@ -172,7 +171,7 @@ void add_bake_island(CLI::App& bake_command, Action& chosen) {
         ->capture_default_str();
     island->add_option("--metres", options->metres, "Metres of height a value of 1")
         ->needs(heights)
-        ->check(positive)
+        ->check(CLI::Range(1e-6, 1e6))
         ->type_name("M")
         ->capture_default_str();
     island->add_flag("--study", options->study, "Print error against run time on maps with known answers");

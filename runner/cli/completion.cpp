@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 namespace tidemark::cli {
 namespace {
 
@@ -21,16 +19,19 @@ std::vector<std::string> option_names(const CLI::App& command) {
     return names;
 }
 
-/// What may follow the command: its options, its own sub-commands and theirs.
-std::vector<std::string> words_after(const CLI::App& command) {
+/// A branch of the script for the command and before it one for each of its own sub-commands, whose options
+/// are known once it is written.
+std::string branches_of(const CLI::App& command) {
+    constexpr auto branch = "        {}) words='{}' ;;\n";
+    const std::string& name = command.get_name();
     std::vector<std::string> words = option_names(command);
+    std::string branches;
     for (const CLI::App* inner : command.get_subcommands({})) {
         words.push_back(inner->get_name());
-        for (const std::string& name : option_names(*inner))
-            if (std::find(words.begin(), words.end(), name) == words.end())
-                words.push_back(name);
+        branches += fmt::format(branch, fmt::format("'{} {}'", name, inner->get_name()),
+                                fmt::join(option_names(*inner), " "));
     }
-    return words;
+    return branches + fmt::format(branch, fmt::format("{0}|'{0} '*", name), fmt::join(words, " "));
 }
 
 /// A bash function over the very options that the program parses. Whatever is no option is a file.
@@ -39,14 +40,15 @@ std::string bash_script(const CLI::App& app) {
     std::string cases;
     for (const CLI::App* command : app.get_subcommands({})) {
         commands.push_back(command->get_name());
-        cases += fmt::format("        {}) words='{}' ;;\n", command->get_name(),
-                             fmt::join(words_after(*command), " "));
+        cases += branches_of(*command);
     }
     return fmt::format(R"(# Completion of tidemark for bash: source <(tidemark completion)
 _tidemark() {{
     local words='{} {}' current="${{COMP_WORDS[COMP_CWORD]}}"
     if [ "$COMP_CWORD" -gt 1 ]; then
-        case "${{COMP_WORDS[1]}}" in
+        local before="${{COMP_WORDS[1]}}"
+        [ "$COMP_CWORD" -gt 2 ] && before="$before ${{COMP_WORDS[2]}}"
+        case "$before" in
 {}        *) words='' ;;
         esac
     fi

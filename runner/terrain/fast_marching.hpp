@@ -22,15 +22,15 @@ struct Distances {
 
 /// `known` gives u at the nodes where it is given and NaN elsewhere; known nodes on land are not taken.
 ///
-/// Where u is smooth all along a way the differences are of the second order, and so is the error: O(h²). Where
-/// ways fan out or meet (a corner that waves bend round, the edge of a shadow, the middle of a closing circle)
-/// u has no bounded third derivative: O(h log 1/h) is proved of the first order's scheme there (H. Zhao, "A
-/// fast sweeping method for eikonal equations", 2005) and about the first order is measured
-/// (march_study.hpp). Beside land each polygon of ShoreCells is solved by the Hopf-Lax formula: u(v) = min over
-/// its far edges of (u, linear along the edge, + the way to v), as on triangles (R. Kimmel and J. A. Sethian,
-/// "Computing geodesic paths on manifolds", 1998). It is monotone, O(h), and adds nothing to a way along the
-/// shore. A polygon may be obtuse at a crossing, so that a value can come after that of its heir: it then
-/// corrects the heir, until nothing is left to correct.
+/// Where u is smooth all along a way the differences are of the second order, and so is the error: O(h²).
+/// Where ways fan out or meet (a corner that waves bend round, the edge of a shadow, the middle of a closing
+/// circle) u has no bounded third derivative: O(h log 1/h) is proved of the first order's scheme there (H.
+/// Zhao, "A fast sweeping method for eikonal equations", 2005) and about the first order is measured
+/// (march_study.hpp). Beside land each polygon of ShoreCells is solved by the Hopf-Lax formula: u(v) = min
+/// over its far edges of (u, linear along the edge, + the way to v), as on triangles (R. Kimmel and J. A.
+/// Sethian, "Computing geodesic paths on manifolds", 1998). It is monotone, O(h), and adds nothing to a way
+/// along the shore. A polygon may be obtuse at a crossing, so that a value can come after that of its heir:
+/// it then corrects the heir, until nothing is left to correct.
 Distances fast_march(const HeightMap& map, std::span<const double> known,
                      Stencil stencil = Stencil::second_order);
 

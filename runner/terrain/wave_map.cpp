@@ -23,8 +23,8 @@ std::string place_of(const HeightMap& map, int node) {
 Result<void> check_water(const HeightMap& map) {
     const double least = *std::min_element(map.heights.begin(), map.heights.end());
     if (least >= 0.0)
-        return refuse(
-            fmt::format("there is no water: the lowest height is {:.3g} m above the sea; raise --sea", least));
+        return refuse(fmt::format(
+            "there is no water: the lowest height is {:.3g} m above the sea; raise --sea", least));
     const double radius = circle_radius(map);
     for (int node = 0; node < map.side * map.side; ++node) {
         // From the last node that the march takes as known to the first outside.
@@ -116,9 +116,12 @@ Result<HeightMap> heights_from(const image::Image& picture, double extent, doubl
         const double value = picture.type == image::SampleType::u8 ? picture.u8()[sample] / 255.0
                                                                    : double(picture.f32()[sample]);
         map.heights[node] = metres * (value - sea);
-        if (!std::isfinite(map.heights[node]))
+        if (!std::isfinite(value))
             return refuse(fmt::format("the height at {} is {}", place_of(map, int(node)),
                                       std::isnan(value) ? "not a number" : "infinite"));
+        if (std::abs(map.heights[node]) > k_largest_metres)
+            return refuse(fmt::format("the height at {} is {:.3g} m, beyond {:g}; see --metres",
+                                      place_of(map, int(node)), map.heights[node], k_largest_metres));
     }
     return map;
 }

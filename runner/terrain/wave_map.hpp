@@ -14,6 +14,7 @@ namespace tidemark::terrain {
 /// nodes fit between the circle and the edge.
 inline constexpr int k_least_side = 64;
 inline constexpr int k_largest_side = 4096;
+inline constexpr double k_largest_metres = 10000.0; ///< of extent and height: half floats end at 65504
 inline constexpr double k_circle_part = 15.0 / 16.0;
 
 inline double circle_radius(const HeightMap& map) {
@@ -37,7 +38,7 @@ inline constexpr double k_detour_to = 0.45;
 Result<image::Image> bake_wave_map(const HeightMap& map);
 
 /// Heights in metres from a picture's first channel v: `metres` * (v - `sea`). Fails (ErrorCode::load) where
-/// the picture is not square, too small, too large, or a value is not finite.
+/// the picture is not square, too small, too large, or a height is not finite or beyond k_largest_metres.
 Result<HeightMap> heights_from(const image::Image& picture, double extent, double sea, double metres);
 
 } // namespace tidemark::terrain

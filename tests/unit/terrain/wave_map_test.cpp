@@ -1,11 +1,15 @@
 #include "base/hash.hpp"
+#include "image/picture_file.hpp"
 #include "terrain/island.hpp"
 #include "terrain/wave_map.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace tidemark::terrain {
@@ -147,6 +151,8 @@ TEST(HeightsFrom, refuses_other_shapes_and_values) {
     EXPECT_EQ(why(picture), "the height at column 3, row 3 is not a number");
     picture.f32()[64 * 60 + 3] = -std::numeric_limits<float>::infinity();
     EXPECT_EQ(why(picture), "the height at column 3, row 3 is infinite");
+    picture.f32()[64 * 60 + 3] = -2e4F;
+    EXPECT_EQ(why(picture), "the height at column 3, row 3 is -2e+04 m, beyond 10000; see --metres");
 }
 
 TEST(Island, is_one_terrain_at_every_size) {
@@ -177,6 +183,21 @@ TEST(Island, has_land_rocks_and_an_open_sea) {
 TEST(Island, has_the_same_bits_on_every_machine) {
     const auto baked = bake_wave_map(make_island(64));
     EXPECT_EQ(sha256(baked->bytes), "f57f5d8084fc6788eff5058be71edd108ed60fae6aca389b16c4255471a8c536");
+}
+
+// What `bake island` writes, through the codec both ways: the file may be compressed differently elsewhere.
+TEST(Island, is_the_file_in_textures) {
+    namespace fs = std::filesystem;
+    const fs::path file = fs::temp_directory_path() / fmt::format("tidemark-island-{}.exr", ::getpid());
+    const Image baked = bake_wave_map(make_island(512)).value();
+    ASSERT_TRUE(image::write_picture(file, baked, {image::SampleDepth::half, {}}));
+    const auto written = image::read_picture(file);
+    fs::remove(file);
+    const auto kept = image::read_picture(fs::path(TIDEMARK_SOURCE_DIR) / "textures/island.exr");
+    ASSERT_TRUE(written && kept);
+    EXPECT_TRUE(*written == *kept);
+    for (size_t i = 0; i < baked.samples(); ++i) // half floats: 11 bits
+        ASSERT_NEAR(kept->f32()[i], baked.f32()[i], std::abs(baked.f32()[i]) / 2048.0F + 1e-7F) << i;
 }
 
 } // namespace
