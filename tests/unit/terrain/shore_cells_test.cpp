@@ -71,7 +71,8 @@ TEST(ShoreCells, polygons_are_convex_and_turn_left) {
 TEST(ShoreCells, crossings_lie_on_the_shore_but_for_the_square_of_the_spacing) {
     for (const int side : {64, 256}) {
         const HeightMap map = disc_map(side);
-        for (const Point crossing : ShoreCells(map).crossings())
+        const ShoreCells shore(map);
+        for (const Point crossing : shore.crossings())
             EXPECT_NEAR(distance(crossing, {0.03, -0.07}), 0.61, 0.5 * map.spacing() * map.spacing());
     }
 }
