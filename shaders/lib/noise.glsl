@@ -39,6 +39,22 @@ float value_noise(vec2 position, ivec2 beyond) {
     return k_hash_unit * (edge.x + s.y * (edge.y - edge.x));
 }
 
+// In the plane: the noise and, in yz, its gradient.
+vec3 value_noise_gradient(vec2 position, ivec2 beyond) {
+    vec2 cell = floor(position);
+    vec2 part = position - cell;
+    vec2 s = part * part * (3.0 - 2.0 * part);
+    vec2 ds = 6.0 * part * (1.0 - part);
+    Points corners = Points(Point(0), k_lattice_weight.x, k_lattice_weight.y,
+                            k_lattice_weight.x + k_lattice_weight.y);
+    vec4 square = scatter(corners + lattice_point(vec3(cell, 0.0), ivec3(beyond, 0)));
+    vec2 along_x = square.yw - square.xz;
+    vec2 edge = square.xz + s.x * along_x;
+    float along_y = edge.y - edge.x;
+    return k_hash_unit * vec3(edge.x + s.y * along_y,
+                              ds * vec2(along_x.x + s.y * (along_x.y - along_x.x), along_y));
+}
+
 // The noise and, in yzw, its gradient.
 vec4 value_noise_gradient(vec3 position, ivec3 beyond) {
     vec3 cell = floor(position);
