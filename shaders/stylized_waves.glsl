@@ -146,6 +146,13 @@ vec4 baked_smooth(vec2 at) {
     return open_sea(at, low.y * south + high.y * north);
 }
 
+// The i-th of 0..3 ways along the axes, for differences: in a loop, so that a compiler need not hold four copies of
+// what is looked up.
+vec2 arm(int i) {
+    float side = i < 2 ? 1.0 : -1.0;
+    return (i & 1) == 0 ? vec2(side, 0.0) : vec2(0.0, side);
+}
+
 // ---- Waves ----------------------------------------------------------------------------------------------
 
 float turns; // of the waves since the start, 0..1
@@ -256,8 +263,11 @@ struct Ground {
 };
 
 Ground ground_at(vec2 at, float e) {
-    vec2 rise = vec2(baked_smooth(at + vec2(e, 0.0)).w - baked_smooth(at - vec2(e, 0.0)).w,
-                     baked_smooth(at + vec2(0.0, e)).w - baked_smooth(at - vec2(0.0, e)).w) / (2.0 * e);
+    vec2 rise = vec2(0.0);
+    for (int i = 0; i < 4; ++i) {
+        rise += arm(i) * baked_smooth(at + e * arm(i)).w;
+    }
+    rise /= 2.0 * e;
     return Ground(normalize(vec3(-rise.x, 1.0, -rise.y)), length(rise));
 }
 
@@ -352,10 +362,8 @@ vec3 water_normal(vec2 at, float footprint) {
     float e = 0.12 + footprint;
     vec2 rise = vec2(0.0);
     for (int i = 0; i < 4; ++i) {
-        vec2 axis = (i & 1) == 0 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-        float side = i < 2 ? 1.0 : -1.0;
-        vec2 there = at + side * e * axis;
-        rise += side * axis * water_height(baked_smooth(there), there);
+        vec2 there = at + e * arm(i);
+        rise += arm(i) * water_height(baked_smooth(there), there);
     }
     rise /= 2.0 * e;
     vec2 grain = drifting(1.9 * at, vec2(0.83, 0.6)).yz +
