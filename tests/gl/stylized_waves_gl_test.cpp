@@ -11,7 +11,6 @@ namespace tidemark::render {
 namespace {
 
 using image::Image;
-using image::SampleType;
 using scene::Knob;
 using scene::KnobValue;
 using scene::Scene;
