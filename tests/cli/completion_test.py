@@ -24,7 +24,8 @@ class Completion(ProgramTest):
 
     def test_commands(self):
         self.assertEqual(self.completed("cap"), {"capture"})
-        self.assertEqual(self.completed(""), {"view", "capture", "inspect", "check", "import", "export", "bake",
+        self.assertEqual(self.completed(""), {"view", "capture", "inspect", "check", "compare", "study", "import",
+                                              "export", "bake",
                                               "completion", "--help", "-h",
                                               "--version", "completion.bash"})
 
