@@ -106,7 +106,7 @@ const float k_circle = 0.46875 * map_extent; // where the waves start
 const float k_flat = 2.5 * k_circle;         // and before that: none beyond
 const float k_land = 0.46 * map_extent;      // there is none beyond
 const float k_below = 0.1;                   // the march looks this far below the plane of the sea, to cross it
-const float k_slope = 1.5;                   // rise a metre that the march reckons with; see march_field
+const float k_slope = 2.5;                   // rise a metre that the march reckons with; see march_field
 
 // ---- The baked fields -----------------------------------------------------------------------------------
 
