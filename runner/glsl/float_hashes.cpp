@@ -37,6 +37,8 @@ public:
     explicit RegionFinder(const Reading& reading) : reading_(reading), tokens_(reading.tokens) {}
 
     std::vector<FloatRegion> run() {
+        if (reading_.defines("fract"))
+            return {}; // it may be anything
         for (const Function& function : reading_.functions)
             if (auto region = whole_function(function))
                 found_.push_back(*std::move(region));
@@ -191,8 +193,7 @@ private:
     /// A hash that stands alone in an expression, or in a macro.
     std::optional<FloatRegion> expression(size_t i) {
         const bool place = reading_.places[i] == Place::code || reading_.places[i] == Place::macro_body;
-        if (!place || !reading_.active(i) || !tokens_[i].is("fract") || !is_call(i, tokens_.size()) ||
-            reading_.defines("fract"))
+        if (!place || !reading_.active(i) || !tokens_[i].is("fract") || !is_call(i, tokens_.size()))
             return std::nullopt;
         const size_t close = reading_.closing(i + 1, std::min(tokens_.size(), i + k_longest_hash));
         if (close >= std::min(tokens_.size(), i + k_longest_hash))
