@@ -71,6 +71,14 @@ TEST(Promote, a_hash_that_changes_the_callers_variables_stays_a_double_function)
                                   "double g() { s = fract(sin(tidemark_single(s)) * 43758.5); return s; }\n");
 }
 
+TEST(Promote, the_large_number_of_a_hash_may_have_a_name) {
+    for (const char* number : {"#define M 43758.54\n", "const float M = 43758.54;\n"})
+        EXPECT_EQ(
+            promoted(number + std::string("float f(float x) { return fract(sin(x) * M); }\n")).hashes.size(),
+            1u);
+    EXPECT_TRUE(promoted("#define M 2.\nfloat f(float x) { return fract(sin(x) * M); }\n").hashes.empty());
+}
+
 TEST(Promote, what_is_no_hash_is_not_kept) {
     for (const char* text :
          {"float f(float x) { return fract(sin(x) * 2.0); }\n",
