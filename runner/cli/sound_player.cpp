@@ -92,13 +92,14 @@ SoundPlayer::~SoundPlayer() {
     thread_.join();
 }
 
-void SoundPlayer::play(platform::WindowContext context, const scene::Scene& scene) {
+void SoundPlayer::play(platform::WindowContext context, const scene::Scene& scene,
+                       glsl::Precision precision) {
     const scene::Pass& pass = *scene.find(scene::PassKind::sound);
     const std::lock_guard lock(mutex_);
     if (playing_ == text_to_play(scene, pass))
         return;
     playing_ = text_to_play(scene, pass);
-    order_.emplace(Order{std::move(context), scene});
+    order_.emplace(Order{std::move(context), scene, precision});
     if (!thread_.joinable())
         thread_ = std::thread([this] { run(); });
     changed_.notify_all();
@@ -128,7 +129,7 @@ Result<SoundPlayer::Voice> SoundPlayer::begin(Order order) {
         return fail(std::move(device.error()));
     if (auto current = order.context.make_current(); !current)
         return fail(std::move(current.error()));
-    auto renderer = render::SoundRenderer::create(order.scene, render::local_date());
+    auto renderer = render::SoundRenderer::create(order.scene, render::local_date(), order.precision);
     if (!renderer)
         return fail(std::move(renderer.error()));
     (void)renderer->draw_rows(0, k_rows); // the driver finishes compiling with the first draw

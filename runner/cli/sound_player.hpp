@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "glsl/dialect.hpp"
 #include "platform/window_context.hpp"
 #include "scene/scene.hpp"
 
@@ -23,7 +24,7 @@ public:
     ~SoundPlayer();
 
     /// From now on the Sound pass of `scene`, unless it is the one that plays already.
-    void play(platform::WindowContext context, const scene::Scene& scene);
+    void play(platform::WindowContext context, const scene::Scene& scene, glsl::Precision precision);
     /// There is nothing to hear.
     void stop();
     /// What iTime is at the moment, and whether it runs.
@@ -36,6 +37,7 @@ private:
     struct Order {
         platform::WindowContext context;
         scene::Scene scene;
+        glsl::Precision precision;
     };
     struct Clock {
         double time = 0; ///< iTime

@@ -279,7 +279,7 @@ void Viewer::play_sound() {
     if (!scene.find(scene::PassKind::sound))
         return sound_->stop();
     if (auto context = window_.create_context())
-        sound_->play(*std::move(context), scene);
+        sound_->play(*std::move(context), scene, precision_of(settings_.scene));
     else
         say(to_string(context.error()));
 }

@@ -168,13 +168,13 @@ std::vector<DoubleFunction> double_trigonometry() {
         {"sin_cos", none, 0, {"angle"}, k_sin_cos},
         {"sin", unary, 0.8, {"sin_cos"}, k_sin}, // |x| <= 1e12
         {"cos", unary, 0.8, {"sin_cos"}, k_cos}, // |x| <= 1e12
-        {"tan", unary, 1.8, {"sin_cos"}, k_tan}, // |x| <= 1e12
+        {"tan", unary, 2.1, {"sin_cos"}, k_tan}, // |x| <= 1e12
         {"high", none, 0, {}, k_high},
         {"arc", none, 0, {"high"}, k_arc},
-        {"asin", unary, 0.8, {"arc"}, k_asin},
+        {"asin", unary, 0.9, {"arc"}, k_asin},
         {"acos", unary, 0.9, {"arc"}, k_acos},
         {"positive_atan", none, 0, {}, k_positive_atan},
-        {"atan", unary, 1.2, {"positive_atan"}, k_atan}, // of two; 0.8 of one
+        {"atan", unary, 1.5, {"positive_atan"}, k_atan}, // of two; 0.8 of one
     };
 }
 

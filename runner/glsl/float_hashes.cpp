@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 #include <set>
+#include <unordered_map>
 
 namespace tidemark::glsl {
 namespace {
@@ -22,21 +23,30 @@ constexpr double k_large_in_fract = 90;
 constexpr double k_large_anywhere = 1000;
 constexpr double k_large_of_fract = 50; ///< of a fract in a fract
 
-double value_of(const Token& token) {
+double literal(const Token& token) {
     if (token.kind != TokenKind::number || token.text.starts_with("0x") || token.text.starts_with("0X"))
         return 0;
     return std::strtod(std::string(token.text).c_str(), nullptr);
 }
 
 bool is_sine(const Token& token) {
-    return token.is("sin") || token.is("cos");
+    return token.is("sin") || token.is("cos") || token.is("tan");
 }
 
 class RegionFinder {
 public:
-    explicit RegionFinder(const Reading& reading) : reading_(reading), tokens_(reading.tokens) {}
+    explicit RegionFinder(const Reading& reading) : reading_(reading), tokens_(reading.tokens) {
+        for (const auto& [name, macro] : reading_.macros)
+            if (!macro->parameters && macro->end == macro->body + 1)
+                numbers_[name] = literal(tokens_[macro->body]);
+        for (size_t i = 0; i + 5 < tokens_.size(); ++i)
+            if (tokens_[i].is("const") && tokens_[i + 3].is("=") && tokens_[i + 5].is(";"))
+                numbers_[tokens_[i + 2].text] = literal(tokens_[i + 4]);
+    }
 
     std::vector<FloatRegion> run() {
+        if (reading_.defines("fract"))
+            return {}; // it may be anything
         for (const Function& function : reading_.functions)
             if (auto region = whole_function(function))
                 found_.push_back(*std::move(region));
@@ -58,6 +68,14 @@ public:
     }
 
 private:
+    /// Of a literal, and of a macro or constant that is nothing else; else 0.
+    double value_of(const Token& token) const {
+        if (token.kind != TokenKind::identifier)
+            return literal(token);
+        const auto known = numbers_.find(token.text);
+        return known == numbers_.end() ? 0 : known->second;
+    }
+
     bool counts(size_t i) const { return reading_.places[i] == Place::code && reading_.active(i); }
     bool is_call(size_t i, size_t end) const { return i + 1 < end && tokens_[i + 1].is("("); }
     bool is_member(size_t i) const { return i > 0 && tokens_[i - 1].is("."); }
@@ -191,8 +209,7 @@ private:
     /// A hash that stands alone in an expression, or in a macro.
     std::optional<FloatRegion> expression(size_t i) {
         const bool place = reading_.places[i] == Place::code || reading_.places[i] == Place::macro_body;
-        if (!place || !reading_.active(i) || !tokens_[i].is("fract") || !is_call(i, tokens_.size()) ||
-            reading_.defines("fract"))
+        if (!place || !reading_.active(i) || !tokens_[i].is("fract") || !is_call(i, tokens_.size()))
             return std::nullopt;
         const size_t close = reading_.closing(i + 1, std::min(tokens_.size(), i + k_longest_hash));
         if (close >= std::min(tokens_.size(), i + k_longest_hash))
@@ -295,6 +312,7 @@ private:
 
     const Reading& reading_;
     const std::vector<Token>& tokens_;
+    std::unordered_map<std::string_view, double> numbers_; ///< names of literals
     std::vector<FloatRegion> found_;
 };
 

@@ -132,9 +132,12 @@ private:
     std::string owner_of(size_t token) const {
         if (const Function* function = function_around(reading_.functions, token))
             return std::string(function->name);
-        for (const MacroLine& macro : reading_.preprocessed.macros)
-            if (token >= macro.body && token < macro.end)
-                return std::string(macro.name);
+        const std::vector<MacroLine>& macros = reading_.preprocessed.macros;
+        const auto next =
+            std::upper_bound(macros.begin(), macros.end(), token,
+                             [](size_t wanted, const MacroLine& each) { return wanted < each.hash; });
+        if (reading_.places[token] == Place::macro_body && next != macros.begin())
+            return std::string(std::prev(next)->name);
         return {};
     }
 

@@ -3,10 +3,30 @@
 #include <algorithm>
 
 namespace tidemark::glsl {
+namespace {
+
+/// For each token that opens something the one that closes it, whatever kinds they are; else the count.
+std::vector<size_t> find_closing(const std::vector<text::Token>& tokens) {
+    std::vector<size_t> closing(tokens.size(), tokens.size());
+    std::vector<size_t> open;
+    for (size_t i = 0; i < tokens.size(); ++i) {
+        const text::Token& token = tokens[i];
+        if (token.is("(") || token.is("[") || token.is("{")) {
+            open.push_back(i);
+        } else if (!open.empty() && (token.is(")") || token.is("]") || token.is("}"))) {
+            closing[open.back()] = i;
+            open.pop_back();
+        }
+    }
+    return closing;
+}
+
+} // namespace
 
 Reading::Reading(std::string_view text)
     : tokens(text::tokenize(text)), preprocessed(preprocess(tokens, {})),
-      functions(find_functions(tokens, preprocessed)), places(tokens.size(), Place::code) {
+      functions(find_functions(tokens, preprocessed)), places(tokens.size(), Place::code),
+      closing_(find_closing(tokens)) {
     for (size_t i = 0; i < tokens.size(); ++i)
         if (tokens[i].first_on_line && tokens[i].is("#"))
             std::fill(places.begin() + long(i), places.begin() + long(text::end_of_directive(tokens, i)),
@@ -26,17 +46,7 @@ bool Reading::defines(std::string_view name) const {
 }
 
 size_t Reading::closing(size_t open, size_t end) const {
-    int depth = 0;
-    for (size_t i = open; i < end; ++i) {
-        const text::Token& token = tokens[i];
-        if (token.is("(") || token.is("[") || token.is("{"))
-            ++depth;
-        else if (token.is(")") || token.is("]") || token.is("}"))
-            --depth;
-        if (depth == 0)
-            return i;
-    }
-    return end;
+    return std::min(closing_[open], end);
 }
 
 bool Reading::is_pair(size_t i, std::string_view two) const {

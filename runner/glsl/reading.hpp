@@ -42,6 +42,9 @@ struct Reading {
     size_t closing(size_t open, size_t end) const;
     /// Whether the tokens at `i` are the operator `two`, of two characters.
     bool is_pair(size_t i, std::string_view two) const;
+
+private:
+    std::vector<size_t> closing_;
 };
 
 } // namespace tidemark::glsl

@@ -164,7 +164,7 @@ class Json(CaptureTest):
     def test_object_is_complete_and_true(self):
         done = self.capture("--frames", "0-4x2", "--fps", "30", "-o", "f%03d.png", "--json")
         report = json.loads(done.stdout)
-        self.assertEqual(list(report), ["tidemark", "scene", "size", "driver", "renderer", "pass",
+        self.assertEqual(list(report), ["tidemark", "scene", "size", "driver", "renderer", "pass", "precision",
                                         "prepare_milliseconds", "left_out", "frames"])
         self.assertEqual(report["scene"], "wave.glsl")
         self.assertEqual(report["size"], [7, 5])

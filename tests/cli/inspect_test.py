@@ -23,7 +23,7 @@ class Scene(ProgramTest):
         self.assertEqual(done.stderr, "")
         facts = json.loads(done.stdout)
         self.assertEqual(list(facts), ["tidemark", "scene", "driver", "renderer", "files", "uniforms", "passes",
-                                       "knobs", "left_out"])
+                                       "knobs", "precision", "left_out"])
         self.assertEqual(facts["scene"], "sea.glsl")
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(sorted(facts["uniforms"]), ["height", "iChannel1", "iTime"])

@@ -1,6 +1,7 @@
 // Scenes in double precision: the picture is that of floats where floats suffice, and better where they do
 // not.
 #include "gl_test.hpp"
+#include "glsl/hit.hpp"
 #include "image/metrics.hpp"
 #include "render/sound_renderer.hpp"
 
@@ -167,6 +168,17 @@ TEST_F(PrecisionTest, passes_hand_floats_to_each_other) {
     ASSERT_TRUE(made) << to_string(made.error());
     const double lost = double(float(1.0 / 3.0)) - 1.0 / 3.0;
     EXPECT_NEAR(floats_at(frame(*made), 1, 1)[0], lost * 1e6, 1e-9);
+}
+
+TEST_F(PrecisionTest, hits_are_told_from_doubles) {
+    const auto hits = glsl::hit_scene(scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(0); }\n"
+                                               "#ifdef TIDEMARK_HIT\n"
+                                               "void mainHit(out vec4 hit, in vec2 p) {"
+                                               " hit = vec4((1e9 + p.x) - 1e9, 3, 0, 1); }\n#endif\n"));
+    ASSERT_TRUE(hits);
+    auto made = Renderer::create(*hits, {{4, 1}, SampleType::f32, {}, Precision::promoted});
+    ASSERT_TRUE(made) << to_string(made.error());
+    EXPECT_EQ(floats_at(frame(*made), 2, 0), (Floats4{2.5f, 3, 0, 1}));
 }
 
 TEST_F(PrecisionTest, what_has_no_double_form_is_named_at_its_place) {

@@ -46,6 +46,18 @@ class Picture(LiveTest):
         self.succeed("capture", "wave.glsl", "--size", "200x100", "--frame", "3", "--fps", "10", "-o", "headless.png")
         self.assertEqual(png.read(self.folder / "headless.png").sha256(), png.read(path).sha256())
 
+    def test_a_scene_in_double_precision(self):
+        self.write("wave.glsl", PATTERN.replace("iTime * 0.3", "1e9 + p.x * 0.37"))
+        view = self.view("wave.glsl", "--size", "64x32", "--precision", "double")
+        view.restart_paused()
+        saved = png.read(view.save()).sha256()
+        pictures = []
+        for precision in ("single", "double"):
+            self.succeed("capture", "wave.glsl", "--size", "64x32", "--precision", precision, "-o", "headless.png")
+            pictures.append(png.read(self.folder / "headless.png").sha256())
+        self.assertNotEqual(pictures[0], pictures[1])
+        self.assertEqual(saved, pictures[1])
+
     def test_default_size(self):
         self.write("size.glsl", probe.shader(SIZE))
         self.assertEqual(list(self.view("size.glsl").told(SIZE).values()), [640, 360, 1])
