@@ -56,7 +56,7 @@
 #iUniform float wave_lacunarity = 1.75 in { 1.1, 2.5 }
 #iUniform float wave_scale = 0.15 in { 0.01, 0.5 }
 #iUniform float wave_speed = 3.0 in { -10.0, 10.0 }
-#iUniform float drift_period = 0.0 in { 0.0, 100000.0 }
+#iUniform float drift_period = 0.0 in { 0.0, 1000.0 }
 #iUniform float turn_angle = 0.001 in { 0.0, 0.5 }
 #iUniform float turn_rate = 0.15 in { 0.0, 2.0 }
 #iUniform float bob_height = 0.6 in { 0.0, 3.0 }
