@@ -42,8 +42,8 @@
 #iUniform float wave_speed = 1.2 in { 0.0, 5.0 }
 // camera: place, yaw and pitch before the mouse is used (parts of the ranges), their ranges, focal length; how
 // far the water goes
-#iUniform vec3 camera_position = vec3(0.0, 3.0, 0.0) in { -50.0, 50.0 }
-#iUniform vec2 default_turn = vec2(0.36, 0.44) in { 0.0, 1.0 }
+#iUniform vec3 camera_position = vec3(0.0, 2.4, 0.0) in { -50.0, 50.0 }
+#iUniform vec2 default_turn = vec2(0.4, 0.44) in { 0.0, 1.0 }
 #iUniform float yaw_range = 6.2832 in { 0.0, 12.5664 }
 #iUniform float pitch_range = 2.8 in { 0.0, 3.1 }
 #iUniform float focal_length = 1.1 in { 0.3, 5.0 }
@@ -174,16 +174,21 @@ float look(vec2 frag_coord) {
 
 // ---- Shading --------------------------------------------------------------------------------------------
 
-// Unit normal from tangent and binormal of the moved water. Waves that are shorter than `footprint`, the
-// length of water under a pixel along `away`, are flattened by the Fourier transform of a Gaussian of that size.
-vec3 wave_normal(vec2 rest, vec2 away, float footprint) {
-    vec4 angle = angles(rest);
+// What is left of each wave's slope under a pixel that covers the length `footprint` of water along `away`: the
+// Fourier transform of a Gaussian of that size.
+vec4 waves_left(vec2 away, float footprint) {
     vec4 across = train_k * footprint * (train_x * away.x + train_z * away.y);
-    vec4 seen = train_s * exp(-0.5 * across * across);
-    vec4 rise = seen * cos(angle);
-    vec4 squeeze = seen * sin(angle);
-    vec3 tangent = vec3(1.0 - dot(train_x * train_x, squeeze), dot(train_x, rise), -dot(train_x * train_z, squeeze));
-    vec3 binormal = vec3(-dot(train_x * train_z, squeeze), dot(train_z, rise), 1.0 - dot(train_z * train_z, squeeze));
+    return exp(-0.5 * across * across);
+}
+
+// Unit normal from tangent and binormal of the moved water.
+vec3 wave_normal(vec2 rest, vec4 left) {
+    vec4 angle = angles(rest);
+    vec4 rise = left * train_s * cos(angle);
+    vec4 squeeze = left * train_s * sin(angle);
+    float shear = -dot(train_x * train_z, squeeze);
+    vec3 tangent = vec3(1.0 - dot(train_x * train_x, squeeze), dot(train_x, rise), shear);
+    vec3 binormal = vec3(shear, dot(train_z, rise), 1.0 - dot(train_z * train_z, squeeze));
     return normalize(cross(binormal, tangent));
 }
 
@@ -242,7 +247,8 @@ vec3 surface(float t, vec3 position) {
     float footprint = pixel / max(-ray_direction.y, 0.02);
     vec2 away = normalize(ray_direction.xz + vec2(1e-9, 0.0));
     vec2 rest = unmoved(position.xz);
-    vec3 base = wave_normal(rest, away, footprint);
+    vec4 left = waves_left(away, footprint);
+    vec3 base = wave_normal(rest, left);
 
     // The picture's normal and the one of the map's own frame, halved: as normalize(noiseNormal + o.Normal) is.
     float detail = pixel * pow(footprint / pixel, 0.65);
@@ -270,8 +276,10 @@ vec3 surface(float t, vec3 position) {
     float mirror = fresnel(normal, ray_direction, fresnel_exponent) * smoothness;
     color = mix(color, sky_mirrored(sky(), ray_direction, normal), mirror);
 #endif
-    float exponent = smooth_exponent(smoothness);
-    color += smoothness * sun_color * (0.012 * exponent + 0.1) * 0.25 * blinn_phong(normal, sun, -ray_direction, exponent);
+    // Slopes too small to see still spread the sun's light: their variance adds to that of a highlight, 2 / exponent.
+    float unseen = 0.5 * dot(train_s * train_s, 1.0 - left * left) + 0.004 * noise_strength * level_of(noise_tiling * detail);
+    float exponent = 2.0 / (2.0 / smooth_exponent(smoothness) + unseen);
+    color += smoothness * sun_color * (0.006 * exponent + 0.05) * blinn_phong(normal, sun, -ray_direction, exponent);
     return color;
 }
 

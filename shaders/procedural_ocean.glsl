@@ -60,8 +60,8 @@
 #iUniform float step_scale = 0.75 in { 0.05, 1.0 }
 #iUniform float far_distance = 400.0 in { 10.0, 1000.0 }
 // camera: place, yaw and pitch before the mouse is used (parts of the ranges), their ranges, focal length
-#iUniform vec3 camera_position = vec3(0.0, 3.5, 0.0) in { -50.0, 50.0 }
-#iUniform vec2 default_turn = vec2(0.5, 0.44) in { 0.0, 1.0 }
+#iUniform vec3 camera_position = vec3(0.0, 4.0, 0.0) in { -50.0, 50.0 }
+#iUniform vec2 default_turn = vec2(0.56, 0.42) in { 0.0, 1.0 }
 #iUniform float yaw_range = 6.2832 in { 0.0, 12.5664 }
 #iUniform float pitch_range = 2.8 in { 0.0, 3.1 }
 #iUniform float focal_length = 1.2 in { 0.3, 5.0 }
