@@ -201,7 +201,7 @@ float level_of(float footprint) {
 
 // The tilt that the noise picture gives the surface, as the document's normal map would: three scales of it.
 vec2 ripple_tilt(vec2 place, float footprint) {
-    vec2 drift = vec2(fract_of_product(0.1 * noise_uv_speed.x, iTime), fract_of_product(0.1 * noise_uv_speed.y, iTime));
+    vec2 drift = vec2(fract_of_product(noise_uv_speed.x, iTime), fract_of_product(noise_uv_speed.y, iTime));
     vec2 tilt = vec2(0.0);
     float scale = noise_tiling;
     for (int i = 0; i < 3; ++i) {
@@ -220,7 +220,7 @@ vec2 ripple_tilt(vec2 place, float footprint) {
 #if FOAM
 // The foam picture, 0..1: a web, and rafts where it is dense.
 float foam_picture(vec2 place, float footprint) {
-    vec2 drift = vec2(fract_of_product(0.1 * foam_uv_speed.x, iTime), fract_of_product(0.1 * foam_uv_speed.y, iTime));
+    vec2 drift = vec2(fract_of_product(foam_uv_speed.x, iTime), fract_of_product(foam_uv_speed.y, iTime));
     vec2 uv = foam_tiling * place + drift;
     float level = level_of(foam_tiling * footprint);
     float dense = 0.6 * textureLod(iChannel1, 0.5 * uv, level - 1.0).r + 0.25 * textureLod(iChannel1, 1.7 * uv, level + 0.8).r +
