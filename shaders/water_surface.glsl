@@ -27,15 +27,14 @@
 #define INTEGER_HASH 0
 #define ANALYTIC_NORMAL 0
 #define MAX_STEPS 128
-#define STEP_SCALE 0.5
 #define DRIFT_PERIOD 62.83
 #else
 #define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's
 #define INTEGER_HASH 1       // 1: the same sea on every GPU; 0: the document's fract(sin(n) * 43785.5)
 #define ANALYTIC_NORMAL 1    // 1: from the noise's own slope; 0: from differences over SLOPE_DISTANCE
 #define MAX_STEPS 512        // field samples along a ray
-#define STEP_SCALE step_scale
-#define DRIFT_PERIOD drift_period
+// The sine hash knows few cells before its sines lose their bits.
+#define DRIFT_PERIOD (INTEGER_HASH == 1 || drift_period > 0.0 ? drift_period : 62.83)
 #endif
 #define OCTAVES 7           // 1..12; the document's iterationCount. Each is 1.75 x finer and 0.51 x lower
 #define HIT_DISTANCE 0.0001 // MARCH_SPHERE: value of the field that counts as touching
@@ -63,7 +62,7 @@
 #iUniform float bob_rate = 1.0 in { 0.0, 5.0 }
 #iUniform float bob_frequency = 0.3 in { 0.0, 2.0 }
 // solver: part of the height above the water that a step dares to go (the document's 0.5; at 1.0 crests are
-// overrun; higher waves want less); first and last distance
+// overrun), for waves as steep as the defaults: steeper ones take that much less; first and last distance
 #iUniform float step_scale = 0.7 in { 0.05, 1.0 }
 #iUniform float near_distance = 0.1 in { 0.0, 10.0 }
 #iUniform float far_distance = 43.0 in { 1.0, 400.0 }
@@ -103,6 +102,7 @@ float sea_bob_phase;       // 0..2 pi
 mat2 sea_finer;            // x and y from one octave to the next: turned and scaled
 float sea_drift[OCTAVES];  // in cells of the octave: the fraction,
 int sea_cells[OCTAVES];    // and the whole, which moves the lattice
+float sea_step;            // part of the height above the water that a step goes
 
 void make_sea() {
     sea_bob_phase = phase(bob_rate, iTime);
@@ -114,10 +114,17 @@ void make_sea() {
 
     sea_seconds = DRIFT_PERIOD > 0.0 ? mod(iTime, DRIFT_PERIOD) : iTime;
     float rate = wave_scale * wave_speed;
+    float slope = 1.0 + bob_height * bob_frequency; // bound of the height's, octave by octave
+    float steepness = 1.5 * 3.14 * wave_height * wave_scale;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         sea_drift[octave] = split_product(rate, sea_seconds, sea_cells[octave]);
         rate *= wave_lacunarity;
+        steepness *= wave_gain;
+        slope += steepness;
+        steepness *= wave_lacunarity;
     }
+    // 6.7 is that bound at the defaults.
+    sea_step = DOCUMENT == 1 ? 0.5 : step_scale * 6.7 / max(slope, 6.7);
 }
 
 // From one octave's lattice to the next.
@@ -182,10 +189,10 @@ vec3 ray_origin;
 vec3 ray_direction;
 
 // The height above the water, all but: its slope may reach 6.70 at the defaults (3.75 was seen), so that it
-// is a distance, proved, when multiplied by 0.149. At STEP_SCALE, which is larger, a step can sink in a little.
+// is a distance, proved, when multiplied by 0.149. At sea_step, which is larger, a step can sink in a little.
 float march_field(float t) {
     vec3 position = ray_origin + t * ray_direction;
-    return STEP_SCALE * (position.y + crests(position) + bob(position.x));
+    return sea_step * (position.y + crests(position) + bob(position.x));
 }
 
 #if SOLVER == MARCH_CERTIFIED
@@ -207,7 +214,7 @@ vec2 march_clearance(float t) {
         point = finer(point);
         stretch *= wave_lacunarity;
     }
-    return vec2(STEP_SCALE * sum, clearance);
+    return vec2(sea_step * sum, clearance);
 }
 #endif
 

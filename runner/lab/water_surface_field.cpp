@@ -44,7 +44,10 @@ Sea sea_of(KnobReader& knobs, const ReferenceInputs& inputs) {
 
     const double gain = knobs.number("wave_gain"), lacunarity = knobs.number("wave_lacunarity");
     const double turn = knobs.number("turn_angle") * std::sin(knobs.number("turn_rate") * inputs.time);
-    const double seconds = drift_seconds(inputs.time, knobs.number("drift_period"));
+    // The scene lets a sea of sines start again even where its knob says never.
+    const double period = knobs.number("drift_period");
+    const bool sines = std::holds_alternative<SineLattice>(inputs.lattice);
+    const double seconds = drift_seconds(inputs.time, sines && period <= 0 ? 62.83F : period);
     double height = double(3.14F) * knobs.number("wave_height");
     double frequency = knobs.number("wave_scale");
     // Cells a second are binary32 by definition: over a long time a last bit is whole cells.
