@@ -12,7 +12,7 @@
 //     random numbers, noise     lib/hash, lib/noise         hash21, noise2
 //     an octave                 ridges                      seaOctave
 //     height                    height                      sampleWaveHeight
-//     vertex and fragment       MARCH_OCTAVES, OCTAVES      VERTEX_ITER, FRAGMENT_ITER
+//     vertex and fragment       OCTAVES, FINE_OCTAVES       VERTEX_ITER, FRAGMENT_ITER
 //     normal                    rise_at                     sampleWaveNormal
 //     foam, colour              surface                     (fragment stage)
 //
@@ -25,8 +25,8 @@
 #define MAX_STEPS 512        // field samples along a ray
 #define HIT_DISTANCE 0.001   // MARCH_SPHERE: value of the field that counts as touching
 #define FIXED_STEP 0.5       // MARCH_FIXED: distance of its samples; wants MAX_STEPS to reach far_distance
-#define OCTAVES 5            // 1..8, of the light: each 3.8 x finer and 0.22 x lower
-#define MARCH_OCTAVES 3      // 1..OCTAVES, of the shape
+#define OCTAVES 3            // 1..FINE_OCTAVES, of the shape: each 3.8 x finer and 0.22 x lower
+#define FINE_OCTAVES 5       // 1..8, of the light
 #define DIVIDED_NORMAL 1     // 0: differences are not divided by their distance, as in the document
 #define FOAM 1               // each of these 0: without, and none of its code is compiled
 #define REFLECTION 1
@@ -87,9 +87,9 @@
 
 // How far each octave has run, worked out once a pixel: in cells of its noise (the fraction, and the whole, which
 // moves the lattice), and in radians of its ridges.
-float sea_drift[OCTAVES];
-int sea_cells[OCTAVES];
-float sea_phase[OCTAVES];
+float sea_drift[FINE_OCTAVES];
+int sea_cells[FINE_OCTAVES];
+float sea_phase[FINE_OCTAVES];
 float sea_slope; // bound of the coarse water's: see ridges() and octave_height()
 
 void make_sea() {
@@ -97,11 +97,11 @@ void make_sea() {
     float steepness = 2.0 * wave_height * wave_frequency * 5.2427;
     float choppiness = wave_choppiness;
     sea_slope = 0.0;
-    for (int octave = 0; octave < OCTAVES; ++octave) {
+    for (int octave = 0; octave < FINE_OCTAVES; ++octave) {
         sea_drift[octave] = split_product(rate, iTime, sea_cells[octave]);
         sea_phase[octave] = phase(rate, iTime);
         rate *= 1.9;
-        sea_slope += octave < MARCH_OCTAVES ? steepness * (0.68 + 0.3 * choppiness) : 0.0;
+        sea_slope += octave < OCTAVES ? steepness * (0.68 + 0.3 * choppiness) : 0.0;
         steepness *= 0.22 * 3.8;
         choppiness = mix(choppiness, 1.0, 0.2);
     }
@@ -159,13 +159,13 @@ vec3 ray_direction;
 float march_field(float t) {
     vec3 position = ray_origin + t * ray_direction;
     float dare = step_scale * 4.42 / max(sea_slope, 4.42);
-    return dare * (position.y - height(position.xz, MARCH_OCTAVES));
+    return dare * (position.y - height(position.xz, OCTAVES));
 }
 
 #if SOLVER == MARCH_CERTIFIED
 vec2 march_clearance(float t) {
     vec3 position = ray_origin + t * ray_direction;
-    float above = position.y - height(position.xz, MARCH_OCTAVES);
+    float above = position.y - height(position.xz, OCTAVES);
     return vec2(above, above / (abs(ray_direction.y) + sea_slope * length(ray_direction.xz)));
 }
 #endif
@@ -188,7 +188,7 @@ vec3 rise_at(vec2 place, float epsilon) {
     vec3 h;
     // A loop, so that a compiler need not hold three copies of the octaves.
     for (int i = 0; i < 3; ++i) {
-        h[i] = height(place + epsilon * vec2(i == 0, i == 1), OCTAVES);
+        h[i] = height(place + epsilon * vec2(i == 0, i == 1), FINE_OCTAVES);
     }
     vec2 rise = normal_strength * (h.xy - h.z);
 #if DIVIDED_NORMAL
