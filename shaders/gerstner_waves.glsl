@@ -58,8 +58,8 @@
 #iUniform float noise_tiling = 0.12 in { 0.005, 0.5 }
 #iUniform float foam_tiling = 0.05 in { 0.005, 0.5 }
 #iUniform float noise_strength = 0.7 in { 0.0, 2.0 }
-// foam = clamp(slope * foam_gain - foam_level) * picture, slope = 1 - normal.y of waves foam_reach as high; exponent of the mirror's growth at a glancing look;
-// light that comes up through the crests
+// foam = clamp(slope * foam_gain - foam_level) * picture, slope = 1 - normal.y of waves foam_reach as high;
+// exponent of the mirror's growth at a glancing look; light that comes up through the crests
 #iUniform float foam_gain = 5.0 in { 0.0, 20.0 }
 #iUniform float foam_level = 0.7 in { 0.0, 4.0 }
 #iUniform float foam_reach = 2.6 in { 0.0, 6.0 }
@@ -223,7 +223,8 @@ float foam_picture(vec2 place, float footprint) {
     vec2 drift = vec2(fract_of_product(foam_uv_speed.x, iTime), fract_of_product(foam_uv_speed.y, iTime));
     vec2 uv = foam_tiling * place + drift;
     float level = level_of(foam_tiling * footprint);
-    float dense = 0.6 * textureLod(iChannel1, 0.5 * uv, level - 1.0).r + 0.25 * textureLod(iChannel1, 1.7 * uv, level + 0.8).r +
+    float dense = 0.6 * textureLod(iChannel1, 0.5 * uv, level - 1.0).r +
+                  0.25 * textureLod(iChannel1, 1.7 * uv, level + 0.8).r +
                   0.15 * textureLod(iChannel1, 4.3 * uv, level + 2.1).r;
     float web = 1.0 - smoothstep(0.0, 0.06, abs(dense - 0.47));
     return max(0.8 * web, smoothstep(0.5, 0.62, dense));
@@ -244,14 +245,14 @@ Sky sky() {
 vec3 surface(float t, vec3 position) {
     // A pixel covers a stretch of water that grows with the glancing look.
     float pixel = t * pixel_width(focal_length);
-    float footprint = pixel / max(-ray_direction.y, 0.02);
+    float glancing = 1.0 / max(-ray_direction.y, 0.02);
     vec2 away = normalize(ray_direction.xz + vec2(1e-9, 0.0));
     vec2 rest = unmoved(position.xz);
-    vec4 left = waves_left(away, footprint);
+    vec4 left = waves_left(away, pixel * glancing);
     vec3 base = wave_normal(rest, left);
 
     // The picture's normal and the one of the map's own frame, halved: as normalize(noiseNormal + o.Normal) is.
-    float detail = pixel * pow(footprint / pixel, 0.65);
+    float detail = pixel * pow(glancing, 0.65);
     vec2 tilt = ripple_tilt(rest, detail);
     vec3 normal = normalize(base - 0.5 * vec3(tilt.x, 0.0, tilt.y));
     normal = seen_normal(normal, ray_direction, 0.1);
@@ -276,10 +277,13 @@ vec3 surface(float t, vec3 position) {
     float mirror = fresnel(normal, ray_direction, fresnel_exponent) * smoothness;
     color = mix(color, sky_mirrored(sky(), ray_direction, normal), mirror);
 #endif
-    // Slopes too small to see still spread the sun's light: their variance adds to that of a highlight, 2 / exponent.
-    float unseen = 0.5 * dot(train_s * train_s, 1.0 - left * left) + 0.004 * noise_strength * level_of(noise_tiling * detail);
+    // Slopes too small to see still spread the sun's light: their variance adds to that of a highlight, which is
+    // 2 / exponent.
+    float unseen = 0.5 * dot(train_s * train_s, 1.0 - left * left) +
+                   0.004 * noise_strength * level_of(noise_tiling * detail);
     float exponent = 2.0 / (2.0 / smooth_exponent(smoothness) + unseen);
-    color += smoothness * sun_color * (0.006 * exponent + 0.05) * blinn_phong(normal, sun, -ray_direction, exponent);
+    float highlight = smoothness * (0.006 * exponent + 0.05) * blinn_phong(normal, sun, -ray_direction, exponent);
+    color += highlight * sun_color;
     return color;
 }
 

@@ -215,7 +215,8 @@ vec3 surface(float t, vec3 position) {
     vec3 color = mix(deep_color, shallow_color, shallow) * (ambient + 0.6 * lit * specular_color + 0.35);
 
 #if REFLECTION
-    color = mix(color, sky_mirrored(sky(), ray_direction, normal), min(fresnel(normal, ray_direction, fresnel_power), 1.0));
+    float mirror = min(fresnel(normal, ray_direction, fresnel_power), 1.0);
+    color = mix(color, sky_mirrored(sky(), ray_direction, normal), mirror);
 #endif
     float exponent = smooth_exponent(smoothness);
     color += specular_color * (exponent + 8.0) * 0.012 * blinn_phong(normal, sun, -ray_direction, exponent);

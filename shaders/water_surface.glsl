@@ -151,7 +151,8 @@ float crests(vec3 position) {
     float height = 3.14 * wave_height;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         height *= wave_gain;
-        depth += height * short_sine(abs(value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave])) - 0.5));
+        float noise = value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave]));
+        depth += height * short_sine(abs(noise - 0.5));
         point = finer(point);
     }
     return depth;
@@ -208,7 +209,8 @@ vec2 march_clearance(float t) {
     float height = 3.14 * wave_height;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         height *= wave_gain;
-        sum += height * short_sine(abs(value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave])) - 0.5));
+        float noise = value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave]));
+        sum += height * short_sine(abs(noise - 0.5));
         slope += 1.5 * height * stretch;
         clearance = max(clearance, sum / slope);
         point = finer(point);

@@ -9,8 +9,8 @@ float fresnel(vec3 normal, vec3 look, float exponent) {
     return pow(max(1.0 + dot(normal, look), 0.0), exponent);
 }
 
-// The unit normal, turned towards the eye where its cosine with the way back to the eye is below `least`: facets that
-// look away are hidden by those before them.
+// The unit normal, turned towards the eye where its cosine with the way back to the eye is below `least`: facets
+// that look away are hidden by those before them.
 vec3 seen_normal(vec3 normal, vec3 look, float least) {
     return normalize(normal - look * max(dot(normal, look) + least, 0.0));
 }

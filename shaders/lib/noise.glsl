@@ -33,8 +33,9 @@ float value_noise(vec2 position, ivec2 beyond) {
     vec2 cell = floor(position);
     vec2 part = position - cell;
     vec2 s = part * part * (3.0 - 2.0 * part);
-    vec4 square = scatter(Points(Point(0), k_lattice_weight.x, k_lattice_weight.y,
-                                 k_lattice_weight.x + k_lattice_weight.y) + lattice_point(vec3(cell, 0.0), ivec3(beyond, 0)));
+    Points points = Points(Point(0), k_lattice_weight.x, k_lattice_weight.y,
+                           k_lattice_weight.x + k_lattice_weight.y);
+    vec4 square = scatter(points + lattice_point(vec3(cell, 0.0), ivec3(beyond, 0)));
     vec2 edge = square.xz + s.x * (square.yw - square.xz);
     return k_hash_unit * (edge.x + s.y * (edge.y - edge.x));
 }

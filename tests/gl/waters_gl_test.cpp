@@ -244,6 +244,14 @@ std::vector<fs::path> scene_files() {
     return files;
 }
 
+/// Knob `i` at a part of its range; a colour's is black to white.
+std::vector<scene::Knob> with_knob_at(std::vector<scene::Knob> knobs, size_t i, double part) {
+    const auto range = knobs[i].range.value_or(scene::KnobRange{{0, 0, 0, 0}, {1, 1, 1, 1}});
+    for (size_t k = 0; k < 4; ++k)
+        knobs[i].value[k] = range.low[k] + part * (range.high[k] - range.low[k]);
+    return knobs;
+}
+
 /// A way to look at a scene: its program, an instant and a mouse, and what is seen before a knob is turned.
 struct Look {
     Renderer* drawing;
@@ -282,17 +290,35 @@ TEST_F(Waters, EveryKnobChangesThePictureAndNeverBreaksIt) {
             for (const FrameInputs& inputs : {at(1234.5, 0, 0), at(1234.5, 34, 11)})
                 looks.push_back({&drawing, inputs, frame(drawing, inputs)});
         for (size_t i = 0; i < scene->knobs.size(); ++i) {
-            const auto range = scene->knobs[i].range.value_or(scene::KnobRange{{0, 0, 0, 0}, {1, 1, 1, 1}});
             bool changes = false;
             for (const double part : {0.0, 0.5, 1.0}) {
-                std::vector<scene::Knob> turned = scene->knobs;
-                for (size_t k = 0; k < 4; ++k)
-                    turned[i].value[k] = range.low[k] + part * (range.high[k] - range.low[k]);
+                const std::vector<scene::Knob> turned = with_knob_at(scene->knobs, i, part);
                 SCOPED_TRACE(fmt::format("{}: {} = {}", file.string(), turned[i].name, to_string(turned[i])));
                 changes |= changes_something(looks, turned);
             }
             EXPECT_TRUE(changes) << file << ": turning '" << scene->knobs[i].name << "' changes nothing";
         }
+    }
+}
+
+TEST_F(Waters, ColoursAreNumbersBeforeTheyAreClamped) {
+    const std::pair<const char*, const char*> scenes[] = {
+        {"water_surface", "shade(t, position, ripples_at(position))"},
+        {"gerstner_waves", "surface(t, position)"},
+        {"procedural_ocean", "surface(t, position)"}};
+    for (const auto& [name, color] : scenes) {
+        const scene::Scene scene =
+            asked(name, fmt::format("float t = look(p); vec3 position = ray_origin + t * ray_direction;\n"
+                                    "c.rgb = t < 0.0 ? vec3(0.5) : {};\n",
+                                    color));
+        Renderer drawing = renderer(scene, {48, 27});
+        for (size_t i = 0; i < scene.knobs.size(); ++i)
+            for (const double part : {0.0, 1.0}) {
+                drawing.turn_knobs(with_knob_at(scene.knobs, i, part));
+                const image::Image image = frame(drawing, at(3, 30, 12));
+                EXPECT_EQ(image::census(image).non_finite(), 0U)
+                    << name << ' ' << scene.knobs[i].name << ' ' << part;
+            }
     }
 }
 
