@@ -314,7 +314,7 @@ TEST_F(Waters, ColoursAreNumbersBeforeTheyAreClamped) {
         Renderer drawing = renderer(scene, {48, 27});
         for (size_t i = 0; i < scene.knobs.size(); ++i)
             for (const double part : {0.0, 1.0}) {
-                drawing.turn_knobs(with_knob_at(scene.knobs, i, part));
+                drawing.turn(with_knob_at(scene.knobs, i, part));
                 const image::Image image = frame(drawing, at(3, 30, 12));
                 EXPECT_EQ(image::census(image).non_finite(), 0U)
                     << name << ' ' << scene.knobs[i].name << ' ' << part;
