@@ -218,14 +218,18 @@ vec2 ripple_tilt(vec2 place, float footprint) {
 }
 
 #if FOAM
+// A layer of the foam picture, `scale` times as fine.
+float foam_layer(vec2 place, float scale, float level) {
+    vec2 speed = scale * foam_uv_speed;
+    vec2 drift = vec2(fract_of_product(speed.x, iTime), fract_of_product(speed.y, iTime));
+    return textureLod(iChannel1, scale * foam_tiling * place + drift, level + log2(scale)).r;
+}
+
 // The foam picture, 0..1: a web, and rafts where it is dense.
 float foam_picture(vec2 place, float footprint) {
-    vec2 drift = vec2(fract_of_product(foam_uv_speed.x, iTime), fract_of_product(foam_uv_speed.y, iTime));
-    vec2 uv = foam_tiling * place + drift;
     float level = level_of(foam_tiling * footprint);
-    float dense = 0.6 * textureLod(iChannel1, 0.5 * uv, level - 1.0).r +
-                  0.25 * textureLod(iChannel1, 1.7 * uv, level + 0.8).r +
-                  0.15 * textureLod(iChannel1, 4.3 * uv, level + 2.1).r;
+    float dense = 0.6 * foam_layer(place, 0.5, level) + 0.25 * foam_layer(place, 1.7, level) +
+                  0.15 * foam_layer(place, 4.3, level);
     float web = 1.0 - smoothstep(0.0, 0.06, abs(dense - 0.47));
     return max(0.8 * web, smoothstep(0.5, 0.62, dense));
 }

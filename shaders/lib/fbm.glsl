@@ -3,18 +3,23 @@
 #ifndef LIB_FBM
 #define LIB_FBM
 #include "noise.glsl"
+#include "phase.glsl"
 
-// 0..1, about 1/2. Slope <= 3/2 * sum (gain * lacunarity)^k / sum gain^k: without bound in the number of octaves
-// when gain * lacunarity >= 1. Octaves are shifted so that no two have a lattice point in one place.
-float fbm(vec2 position, int octaves, float gain, float lacunarity) {
+// 0..1, about 1/2, drifting by `speed` a second. Slope <= 3/2 * sum (gain * lacunarity)^k / sum gain^k: without bound in
+// the number of octaves when gain * lacunarity >= 1. Octaves are shifted so that no two have a lattice point in one
+// place, and each drifts by whole cells and a fraction of its own: as fine after a month as at the start.
+float fbm(vec2 position, vec2 speed, int octaves, float gain, float lacunarity) {
     float sum = 0.0;
     float total = 0.0;
     float height = 1.0;
     for (int octave = 0; octave < octaves; ++octave) {
-        sum += height * value_noise(position, ivec2(0));
+        ivec2 cells;
+        vec2 drift = vec2(split_product(speed.x, iTime, cells.x), split_product(speed.y, iTime, cells.y));
+        sum += height * value_noise(position + drift, cells);
         total += height;
         height *= gain;
         position = lacunarity * position + vec2(17.3, 43.7);
+        speed *= lacunarity;
     }
     return sum / total;
 }

@@ -2,7 +2,6 @@
 #ifndef LIB_SKY
 #define LIB_SKY
 #include "fbm.glsl"
-#include "phase.glsl"
 
 #ifndef CLOUDS
 #define CLOUDS 1
@@ -40,22 +39,20 @@ float sun_glow(Sky sky, vec3 look) {
     return 0.72 * pow(near, 1200.0) + 0.18 * pow(near, 60.0) + 0.1 * pow(near, 6.0);
 }
 
-// Cover of a flat sheet of clouds at height 1, 0..1: none at and below the horizon, where it would flicker.
-// `drift` in clouds.
-float cloud_cover(vec3 look, vec2 drift, float cover) {
+// Cover of a flat sheet of clouds at height 1, 0..1: none at and below the horizon, where it would flicker. It drifts
+// by 1/50 of a cloud a second.
+float cloud_cover(vec3 look, float cover) {
     float up = max(look.y, 0.0);
-    vec2 at = 1.6 * look.xz / (up + 0.12) + drift;
-    float thick = fbm(at, 5, 0.5, 2.03);
+    float thick = fbm(1.6 * look.xz / (up + 0.12), vec2(0.02, 0.008), 5, 0.5, 2.03);
     return smoothstep(0.72 - 0.5 * cover, 1.05 - 0.5 * cover, thick) * smoothstep(0.0, 0.25, up);
 }
 
-// All of it. Clouds drift by 0.02 a second and are as fine after a month as at the start; CLOUDS 0 leaves them out.
+// All of it; CLOUDS 0 leaves the clouds out.
 vec3 sky_color(Sky sky, vec3 look) {
     vec3 color = sky_air(sky, look) + sky.sun * sun_glow(sky, look);
 #if CLOUDS
-    float drift = 256.0 * fract_of_product(0.00008, iTime);
     vec3 lit = mix(vec3(0.73, 0.78, 0.84), sky.sun + 0.06, 0.5 + 0.5 * dot(look, sky.to_sun));
-    color = mix(color, lit, cloud_cover(look, vec2(drift, 0.4 * drift), sky.clouds));
+    color = mix(color, lit, cloud_cover(look, sky.clouds));
 #endif
     return color;
 }
