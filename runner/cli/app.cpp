@@ -103,6 +103,16 @@ Error missing(const CLI::App& app, const CLI::RequiredError& error) {
     return say_what(fmt::format("unknown '{}': {}", extra.front(), choice));
 }
 
+/// An option without the value that it wants: CLI11 names the option, and no more of use.
+Error without_value(const CLI::App& app, const CLI::ArgumentMismatch& error) {
+    const std::string words = error.what();
+    const std::string name = words.substr(0, words.find(':'));
+    const CLI::Option* option = called(app).get_option_no_throw(name);
+    return {ErrorCode::usage,
+            option ? fmt::format("{}: give a value, {}", name, option->get_type_name()) : words,
+            {}};
+}
+
 int report(const Error& error) {
     say(to_string(error));
     return exit_code(error.code);
@@ -123,6 +133,8 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
         return report(unexpected(app, extra.empty() ? "" : extra.front()));
     } catch (const CLI::RequiredError& error) {
         return report(missing(app, error));
+    } catch (const CLI::ArgumentMismatch& error) {
+        return report(without_value(app, error));
     } catch (const CLI::ParseError& error) {
         return report({ErrorCode::usage, error.what(), {}});
     }

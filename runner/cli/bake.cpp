@@ -1,6 +1,7 @@
 #include "cli/bake_island.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/number_check.hpp"
 #include "image/noise.hpp"
 #include "image/picture_file.hpp"
 #include "image/ramps.hpp"
@@ -53,7 +54,10 @@ void add_bake(CLI::App& app, Action& chosen) {
     noise->output = "noise.png";
     CLI::App* noise_command = command->add_subcommand("noise", "The 256x256 noise that iChannels read");
     noise_command->add_option("-o,--output", noise->output, "File")->type_name("FILE")->capture_default_str();
-    noise_command->add_option("--seed", noise->seed, "Another noise of the same kind")->capture_default_str();
+    noise_command->add_option("--seed", noise->seed, "Another noise of the same kind")
+        ->check(number<uint32_t>("a whole number from 0"))
+        ->type_name("N")
+        ->capture_default_str();
     noise_command->callback([noise, &chosen] { chosen = [noise] { return bake_noise(*noise); }; });
 
     auto ramps = std::make_shared<BakeOptions>();

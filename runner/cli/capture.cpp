@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/number_check.hpp"
 #include "cli/options.hpp"
 #include "image/video_writer.hpp"
 #include "platform/headless_context.hpp"
@@ -198,9 +199,11 @@ void add_capture(CLI::App& app, Action& chosen) {
     command
         ->add_option("--timeout", options->timeout,
                      "Give up on a frame that takes longer (compiling not counted)")
-        ->type_name("SECONDS");
+        ->type_name("SECONDS")
+        ->check(number<double>("a number of seconds"));
     command->add_option("--duration", options->duration, "Length of a .wav")
         ->type_name("SECONDS")
+        ->check(number<double>("a number of seconds"))
         ->capture_default_str();
     command->add_flag("--json", options->json, "One JSON object about the frames on standard output");
     command->callback([options, &chosen] { chosen = [options] { return capture(*options); }; });

@@ -1,5 +1,7 @@
 #include "cli/omissions.hpp"
 
+#include "scene/host_uniforms.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,9 +10,15 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* k_host_uniforms[] = {
-    "iResolution", "iTime",        "iTimeDelta",         "iFrame", "iFrameRate", "iMouse", "iDate",
-    "iSampleRate", "iChannelTime", "iChannelResolution", "iCamera"};
+/// Those of a pass that makes a picture.
+std::vector<std::string_view> host_uniforms() {
+    std::vector<std::string_view> names;
+    for (const scene::SiteUniform& uniform : scene::k_site_uniforms)
+        if (uniform.image)
+            names.push_back(uniform.name);
+    names.push_back(scene::k_camera_uniform);
+    return names;
+}
 
 void add_list(std::vector<std::string>& left_out, std::string_view what,
               const std::vector<std::string>& names) {
@@ -31,7 +39,7 @@ public:
             facts_.passes.push_back({planned.pass, planned.channels});
         }
         add_list(facts_.left_out, "passes", passes_not_drawn());
-        add_list(facts_.left_out, "uniforms", unused(k_host_uniforms));
+        add_list(facts_.left_out, "uniforms", unused(host_uniforms()));
         std::vector<std::string> knobs;
         for (const scene::Knob& knob : scene_.knobs)
             knobs.push_back(knob.name);

@@ -1,29 +1,13 @@
 #include "cli/options.hpp"
 
+#include "cli/number_check.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace tidemark::cli {
-namespace {
-
-/// CLI11's own words for a text that is no number do not say what to give.
-template <class T>
-CLI::Validator number(std::string what) {
-    return CLI::Validator(
-        [what = std::move(what)](const std::string& text) {
-            T number{};
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-            const bool good = error == std::errc{} && end == text.data() + text.size();
-            return good ? std::string() : fmt::format("give {}, not '{}'", what, text);
-        },
-        std::string());
-}
-
-} // namespace
-
 void add_scene_options(CLI::App& command, SceneRequest& request) {
     command
         .add_option("SCENE", request.path,

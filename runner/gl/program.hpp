@@ -41,6 +41,9 @@ private:
     Reflection reflection_;
 };
 
+/// A scalar or a vector; no matrix, no sampler.
+bool is_number(GLenum type);
+
 /// Gives `uniform` its value whatever its numeric type is. `values` hold `width` numbers for each element (0:
 /// as many as its type has components; columns first); they are converted, surplus ones dropped, missing ones
 /// 0. Elements that `values` do not reach keep what they have. Samplers take their unit.

@@ -73,6 +73,13 @@ void set_vector(GLuint program, const Uniform& uniform, int components, GLsizei 
 
 } // namespace
 
+bool is_number(GLenum type) {
+    const Shape shape = shape_of(type);
+    const bool scalar =
+        type == GL_FLOAT || type == GL_INT || type == GL_UNSIGNED_INT || type == GL_BOOL || type == GL_DOUBLE;
+    return shape.columns == 1 && (shape.components > 1 || scalar);
+}
+
 void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> given,
                  size_t width) {
     const Shape shape = shape_of(uniform.type);

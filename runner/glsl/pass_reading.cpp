@@ -50,7 +50,7 @@ text::MappedText whole_text(const scene::Scene& scene, const scene::Pass& pass) 
 
 PassReading::PassReading(const scene::Scene& scene, const scene::Pass& pass)
     : scene_(scene), pass_(pass), text_(whole_text(scene, pass)), tokens_(text::tokenize(text_.text())),
-      preprocessed_(preprocess(tokens_)), facts_(survey(tokens_, preprocessed_, pass.kind)) {}
+      preprocessed_(preprocess(tokens_)), facts_(survey(tokens_, preprocessed_, pass.kind, scene.knobs)) {}
 
 std::vector<Dialect> PassReading::dialects(Precision precision) const {
     const ChannelKinds channels = channel_kinds(scene_, pass_);

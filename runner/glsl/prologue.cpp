@@ -131,7 +131,8 @@ std::string uniforms(const scene::Scene& scene, const scene::Pass& pass, const S
     if (survey.wants("iChannel"))
         text += "uniform struct { vec3 resolution; float time; } iChannel[4];\n";
     for (const scene::Knob& knob : scene.knobs)
-        declare(scene::info(knob.type).glsl_name, knob.name);
+        if (survey.uses(knob.name))
+            declare(scene::info(knob.type).glsl_name, knob.name);
     return text;
 }
 

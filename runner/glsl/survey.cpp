@@ -48,9 +48,12 @@ std::span<const std::string_view> plain_parameters(scene::PassKind kind) {
 
 class Surveyor {
 public:
-    Surveyor(const std::vector<Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind)
+    Surveyor(const std::vector<Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind,
+             std::span<const scene::Knob> knobs)
         : tokens_(tokens), preprocessed_(preprocessed), kind_(kind), entry_(entry_point(kind)) {
         result_.names = names_of_interest();
+        for (const scene::Knob& knob : knobs)
+            result_.names[knob.name];
         for (const auto& [name, use] : result_.names)
             shapes_[shape(name)] = true;
     }
@@ -358,8 +361,9 @@ std::string_view entry_point(scene::PassKind kind) {
     }
 }
 
-Survey survey(const std::vector<Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind) {
-    return Surveyor(tokens, preprocessed, kind).run();
+Survey survey(const std::vector<Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind,
+              std::span<const scene::Knob> knobs) {
+    return Surveyor(tokens, preprocessed, kind, knobs).run();
 }
 
 } // namespace tidemark::glsl

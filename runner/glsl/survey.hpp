@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 #include "text/tokens.hpp"
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -42,7 +43,7 @@ struct NameUse {
 };
 
 struct Survey {
-    std::unordered_map<std::string_view, NameUse> names; ///< only the names of glsl/words.hpp
+    std::unordered_map<std::string_view, NameUse> names; ///< of knobs, and those that words.hpp has
     std::vector<UniformDeclaration> uniforms;
     std::vector<size_t> entries; ///< the name of each definition of the entry point, as an index of tokens
     bool entry_is_macro = false; ///< golf: `#define mainImage(O,U) …`
@@ -68,6 +69,8 @@ std::string_view entry_point(scene::PassKind kind);
 /// The uniforms that our own `main` reads; an author's declaration of those must stand before it.
 std::span<const std::string_view> uniforms_of_wrapper(scene::PassKind kind);
 
-Survey survey(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind);
+/// `knobs` are names that we could provide, too.
+Survey survey(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind,
+              std::span<const scene::Knob> knobs = {});
 
 } // namespace tidemark::glsl

@@ -1,6 +1,8 @@
-// The names that the front end looks for in a text: words that a desktop driver reserves, names of old APIs,
-// and what ShaderToy's prologue declares.
+// The names that the front end looks for in a text: words that a desktop driver reserves, and names of old
+// APIs. What ShaderToy's prologue declares: scene/host_uniforms.hpp.
 #pragma once
+
+#include "scene/host_uniforms.hpp"
 
 #include <array>
 #include <cstddef>
@@ -8,6 +10,11 @@
 #include <string_view>
 
 namespace tidemark::glsl {
+
+using scene::k_channel_names;
+using scene::k_channel_structs;
+using scene::k_site_uniforms;
+using scene::SiteUniform;
 
 /// A name of an old API and what it is called today.
 struct OldName {
@@ -70,34 +77,6 @@ inline constexpr std::string_view k_reserved_words[] = {"packed",
                                                         "interface",
                                                         "cast",
                                                         "noperspective"};
-
-/// A uniform that ShaderToy's prologue declares.
-struct SiteUniform {
-    std::string_view name;
-    std::string_view type;
-    int length = 0;     ///< of an array; 0 for none
-    bool image = true;  ///< declared where pictures are drawn
-    bool sound = false; ///< declared in the Sound pass
-};
-
-inline constexpr SiteUniform k_site_uniforms[] = {
-    {"iResolution", "vec3"},
-    {"iTime", "float"},
-    {"iTimeDelta", "float"},
-    {"iFrameRate", "float"},
-    {"iFrame", "int"},
-    {"iMouse", "vec4"},
-    {"iDate", "vec4", 0, true, true},
-    {"iSampleRate", "float", 0, true, true},
-    {"iChannelTime", "float", 4, true, true},
-    {"iChannelResolution", "vec3", 4, true, true},
-    {"iTimeOffset", "float", 0, false, true},
-    {"iSampleOffset", "int", 0, false, true},
-};
-
-inline constexpr std::array<std::string_view, 4> k_channel_names{"iChannel0", "iChannel1", "iChannel2",
-                                                                 "iChannel3"};
-inline constexpr std::array<std::string_view, 4> k_channel_structs{"iCh0", "iCh1", "iCh2", "iCh3"};
 
 /// Types that can be built from one zero.
 inline constexpr std::string_view k_plain_types[] = {

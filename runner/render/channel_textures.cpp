@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <memory>
 
 namespace tidemark::render {
@@ -46,10 +47,16 @@ void spread_grey(const gl::Texture& texture, int channels) {
     glTextureParameteriv(texture.id(), GL_TEXTURE_SWIZZLE_RGBA, swizzle);
 }
 
+/// Music and videos play again and again, as on the site.
+double play_time(double time, double duration) {
+    return duration > 0 && time >= 0 ? std::fmod(time, duration) : time;
+}
+
 /// What `load` makes of an input.
 struct Loaded {
     gl::Texture texture;
     Update update{};
+    double duration = 0; ///< of what plays
 };
 
 /// Makes the texture of each kind of input. One object a channel.
@@ -138,10 +145,12 @@ public:
         }
         return Loaded{gl::make_texture({sound::k_signal_width, 2}, GL_R8, 1),
                       [spectrum](const gl::Texture& texture, const FrameInputs& inputs) {
-                          const auto bytes =
-                              spectrum ? spectrum->at(inputs.time) : sound::silent_signal(inputs.time);
+                          const auto bytes = spectrum
+                                                 ? spectrum->at(play_time(inputs.time, spectrum->duration()))
+                                                 : sound::silent_signal(inputs.time);
                           gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE, std::as_bytes(std::span(bytes)));
-                      }};
+                      },
+                      spectrum ? spectrum->duration() : 0};
     }
 
     Result<Loaded> operator()(const scene::Video& video) const {
@@ -160,7 +169,8 @@ public:
                 const Image image = vflip ? *frame : image::flipped(*frame);
                 gl::upload(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.bytes);
                 gl::make_mipmaps(texture);
-            }};
+            },
+            frames->duration()};
     }
 
 private:
@@ -233,7 +243,7 @@ Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& ch
     if (!loaded)
         return fail(std::move(loaded.error()));
     entries_.push_back({channel.input, channel.sampling.vflip, mipmaps, std::move(loaded->texture),
-                        std::move(loaded->update)});
+                        std::move(loaded->update), loaded->duration});
     return Index(entries_.size() - 1);
 }
 
@@ -252,10 +262,10 @@ ChannelFact ChannelTextures::fact(Index index, const FrameInputs& inputs) const 
         {double(texture.extent.width), double(texture.extent.height), double(texture.depth)}, 0, true};
     if (texture.target == GL_TEXTURE_CUBE_MAP) // the site knows no size of a cubemap from files
         fact.resolution = {};
-    if (const auto* music = std::get_if<scene::Music>(&entry.input))
-        fact.time = music->file.empty() ? 10 + inputs.time : inputs.time;
-    if (std::holds_alternative<scene::Video>(entry.input))
-        fact.time = inputs.time;
+    if (const auto* music = std::get_if<scene::Music>(&entry.input); music && music->file.empty())
+        fact.time = 10 + inputs.time;
+    else if (entry.duration > 0)
+        fact.time = play_time(inputs.time, entry.duration);
     return fact;
 }
 

@@ -42,6 +42,7 @@ private:
         bool mipmaps = false;
         gl::Texture texture;
         std::function<void(const gl::Texture&, const FrameInputs&)> update; ///< empty: never changes
+        double duration = 0; ///< of what plays; 0: nothing does
     };
 
     Result<Entry> make_entry(const scene::Channel& channel) const;

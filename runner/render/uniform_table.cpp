@@ -1,7 +1,10 @@
 #include "render/uniform_table.hpp"
 
+#include "scene/host_uniforms.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace tidemark::render {
@@ -54,11 +57,19 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         {"iSampleRate", Source::sample_rate},
         {"iChannelTime", Source::channel_time},
         {"iChannelResolution", Source::channel_resolution},
-        {"iCamera", Source::camera},
+        {scene::k_camera_uniform, Source::camera},
+        // The VS Code extension fills these where a text declares them.
+        {"resolution", Source::resolution},
+        {"time", Source::time},
+        {"mouse", Source::relative_mouse},
+    };
+    const auto is_knob = [&](std::string_view name) {
+        return std::any_of(knobs.begin(), knobs.end(),
+                           [&](const scene::Knob& knob) { return knob.name == name; });
     };
     for (const gl::Uniform& uniform : reflection.uniforms) {
         for (const auto& [name, source] : k_names)
-            if (uniform.name == name)
+            if (uniform.name == name && takes(uniform.type, source) && !is_knob(name))
                 entries_.push_back({uniform, source});
         for (size_t i = 0; i < knobs.size(); ++i)
             if (uniform.name == knobs[i].name)
@@ -67,6 +78,14 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
             if (const auto source = struct_member(uniform.name, i))
                 entries_.push_back({uniform, *source, i});
     }
+}
+
+/// Whatever an author makes of our numbers: a number may be of any type, but a matrix is no vector and none
+/// of them is a texture.
+bool UniformTable::takes(GLenum type, Source source) {
+    if (source == Source::camera)
+        return type == GL_FLOAT_MAT4 || type == GL_DOUBLE_MAT4;
+    return gl::is_number(type);
 }
 
 std::optional<UniformTable::Source> UniformTable::struct_member(std::string_view name, size_t channel) {
@@ -94,6 +113,9 @@ void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs,
         case Source::frame: return {double(inputs.frame)};
         case Source::frame_rate: return {inputs.frame_rate};
         case Source::mouse: return {inputs.mouse.x, inputs.mouse.y, inputs.mouse.z, inputs.mouse.w};
+        case Source::relative_mouse:
+            return {inputs.mouse.x / std::max(1.0, double(resolution.width)),
+                    inputs.mouse.y / std::max(1.0, double(resolution.height))};
         case Source::date:
             return {double(inputs.date.year), double(inputs.date.month), double(inputs.date.day),
                     inputs.date.seconds};

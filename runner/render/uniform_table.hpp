@@ -30,6 +30,7 @@ private:
         frame,
         frame_rate,
         mouse,
+        relative_mouse, ///< 0 to 1 across the picture
         date,
         sample_rate,
         channel_time,
@@ -41,6 +42,7 @@ private:
         knob
     };
     /// What the member of a channel's struct tells; nothing for other uniforms.
+    static bool takes(GLenum type, Source source);
     static std::optional<Source> struct_member(std::string_view name, size_t channel);
 
     struct Entry {

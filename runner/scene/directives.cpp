@@ -1,5 +1,6 @@
 #include "scene/directives.hpp"
 
+#include "scene/host_uniforms.hpp"
 #include "scene/sources.hpp"
 #include "text/tokens.hpp"
 
@@ -297,6 +298,10 @@ Result<void> DirectiveReader::read_knob(const SourceLocation& where) {
 }
 
 Result<void> DirectiveReader::check_name_is_free(const Knob& knob) const {
+    if (is_host_uniform(knob.name))
+        return fail(error_at(
+            knob.where,
+            fmt::format("'{}' is a uniform of the host's own: give the knob another name", knob.name)));
     const auto& knobs = directives_.knobs;
     const auto same =
         std::find_if(knobs.begin(), knobs.end(), [&](const Knob& other) { return other.name == knob.name; });

@@ -52,8 +52,9 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
     auto expanded = text::expand_includes(file, read_text);
     if (!expanded)
         return fail(std::move(expanded.error()));
-    for (const fs::path& path : expanded->files)
-        note_file(scene_, path);
+    for (const auto* paths : {&expanded->files, &expanded->missing}) // a missing one may come
+        for (const fs::path& path : *paths)
+            note_file(scene_, path);
     auto directives = take_directives(expanded->text, conditional_);
     if (!directives)
         return fail(std::move(directives.error()));

@@ -83,7 +83,11 @@ Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_
                                                                     std::string_view option) {
     const size_t equals = setting.find('=');
     if (equals == 0 || equals == std::string_view::npos)
-        return fail(ErrorCode::usage, fmt::format("{} {}: give it as NAME=VALUE", option, setting));
+        return fail(ErrorCode::usage,
+                    fmt::format("{} {}: give it as {}", option, setting,
+                                option == "--channel"
+                                    ? fmt::format("0={}", setting.empty() ? "noise" : setting)
+                                    : "NAME=VALUE"));
     return std::pair(setting.substr(0, equals), setting.substr(equals + 1));
 }
 

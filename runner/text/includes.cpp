@@ -60,7 +60,10 @@ public:
         return paste(path, with_plain_line_ends(*std::move(bytes)));
     }
 
-    ExpandedText take() { return std::move(result_); }
+    ExpandedText take() {
+        result_.missing = std::move(missing_);
+        return std::move(result_);
+    }
 
     /// The error with every file that it may be about.
     Error with_files(Error error) const {

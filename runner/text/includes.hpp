@@ -15,6 +15,8 @@ using ReadText = std::function<Result<std::string>(const std::filesystem::path&)
 struct ExpandedText {
     MappedText text;
     std::vector<std::filesystem::path> files; ///< every file read, the first one first, each once
+    std::vector<std::filesystem::path>
+        missing; ///< named under an `#if`, and not to be read: left to the driver
 };
 
 /// `path` with every `#include "name"` (relative to the file that says it) replaced by that file's text, at

@@ -92,7 +92,12 @@ class Unknown(ProgramTest):
         self.expect_failure(["inspect"], 2, "tidemark: error: inspect: give a SCENE, or --devices")
 
     def test_value_missing(self):
-        self.expect_failure(["capture", "a.glsl", "--size"], 2, "tidemark: error: --size: 1 required WxH missing")
+        for words, wrong in ((["capture", "a.glsl", "--time"], "--time: give a value, T"),
+                             (["bake", "noise", "--seed", "x"], "--seed: give a whole number from 0, not 'x'"),
+                             (["capture", "a.glsl", "--timeout", "soon"],
+                              "--timeout: give a number of seconds, not 'soon'")):
+            self.expect_failure(words, 2, f"tidemark: error: {wrong}")
+        self.expect_failure(["capture", "a.glsl", "--size"], 2, "tidemark: error: --size: give a value, WxH")
 
 
 if __name__ == "__main__":

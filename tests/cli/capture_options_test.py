@@ -247,7 +247,7 @@ class Channels(Told):
         for wrong in ("4=noise", "-1=noise", "x=noise", "00=noise", "0="):
             self.refused(f"--channel {wrong}",
                          f"--channel {wrong}: give it as N=FILE, N=noise or N=none, N from 0 to 3")
-        self.refused("--channel noise", "--channel noise: give it as NAME=VALUE")
+        self.refused("--channel noise", "--channel noise: give it as 0=noise")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 // Recorded mouse and keyboard events (--input).
 #include "cli/input_script.hpp"
+#include "cli/requests.hpp"
 #include "fuzz.hpp"
 
 using namespace tidemark;

@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "gl_test.hpp"
 #include "render/mouse.hpp"
+#include "render/sound_renderer.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -83,6 +84,21 @@ void expect_frame(const Image& image, const Json& frame) {
         ASSERT_NO_FATAL_FAILURE(expect_pixel(image, pixel.at(0), pixel.at(1), pixel.at(2), tolerance));
 }
 
+/// Samples of the Sound pass: [number, left, right] in 16 bits.
+void expect_sound(const scene::Scene& scene, const Json& samples) {
+    auto renderer = SoundRenderer::create(scene, Date{});
+    ASSERT_TRUE(renderer) << to_string(renderer.error());
+    for (const Json& sample : samples) {
+        const int number = sample.at(0);
+        const int row = number - number % SoundRenderer::samples_in(1);
+        const std::vector<int16_t> drawn = renderer->draw_rows(row, 1);
+        EXPECT_EQ(drawn[2 * size_t(number - row)], sample.at(1).get<int>()) << "left of " << number;
+        EXPECT_EQ(drawn[2 * size_t(number - row) + 1], sample.at(2).get<int>()) << "right of " << number;
+        const int block = number - number % SoundRenderer::block_samples();
+        EXPECT_EQ(renderer->draw(block)[2 * size_t(number - block)], sample.at(1).get<int>()) << number;
+    }
+}
+
 class Conformance : public testing::TestWithParam<std::string> {
 protected:
     void expect_pixels_of_the_convention(glsl::Precision precision) const;
@@ -99,6 +115,8 @@ void Conformance::expect_pixels_of_the_convention(glsl::Precision precision) con
     const bool project = fs::exists(folder / "project.json");
     auto scene = scene::load_scene(bare ? folder / "scene.glsl" : project ? folder / "project.json" : folder);
     ASSERT_TRUE(scene) << to_string(scene.error());
+    if (expected.contains("sound"))
+        expect_sound(*scene, expected.at("sound"));
     const Json channels = expected.value("channels", Json::object());
     for (const auto& [channel, what] : channels.items()) {
         const auto set = scene::override_channel(*scene, channel + "=" + what.get<std::string>());
@@ -112,7 +130,9 @@ void Conformance::expect_pixels_of_the_convention(glsl::Precision precision) con
 
     Mouse mouse;
     Keyboard keyboard;
-    for (const Json& frame : expected.at("frames")) {
+    const Json frames = expected.value("frames", Json::array());
+    ASSERT_FALSE(frames.empty() && !expected.contains("sound"));
+    for (const Json& frame : frames) {
         SCOPED_TRACE(frame.dump());
         if (frame.contains("resize")) {
             ASSERT_TRUE(renderer->resize({frame.at("resize").at(0), frame.at("resize").at(1)}));

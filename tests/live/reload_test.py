@@ -76,6 +76,13 @@ class Ways(ReloadTest):
         self.write("lib/mark.glsl", "#define MARK 3.0\n")
         self.expect_mark(view, 3)
 
+    def test_include_under_an_if_that_comes_later(self):
+        view = self.start(scene=probe.shader(MARK, '#define MARK 1.0\n#ifdef NOT_DEFINED\n#include "later.glsl"\n'
+                                                   "#endif"))
+        self.expect_mark(view, 1)
+        self.write("later.glsl", "#define ANYTHING\n")
+        view.wait_for_words(r"^reloaded in ")
+
     def test_picture(self):
         self.write("dot.png", png.encode(1, 1, 1, [b"\x33"]))
         values = {"dot": "texelFetch(iChannel0, ivec2(0), 0).r * 255.0"}

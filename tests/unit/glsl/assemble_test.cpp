@@ -28,6 +28,17 @@ std::string declaration(const std::string& uniform) {
     return "uniform " + uniform + ";\n";
 }
 
+TEST(Assemble, declares_the_knobs_that_a_pass_names) {
+    const std::string text =
+        "#iUniform float used = 1.0\n#iUniform float unused = 1.0\n#iUniform vec2 own = vec2(1.0, "
+        "2.0)\nuniform vec2 own;\n#define LATER used\n"
+        "void mainImage(out vec4 c, vec2 p) { c = vec4(LATER, own, 1.0); }\n";
+    const std::string source = source_of(text).text();
+    EXPECT_EQ(count(source, "uniform float used;"), 1);
+    EXPECT_EQ(count(source, "unused"), 0);
+    EXPECT_EQ(count(source, "uniform vec2 own;"), 1);
+}
+
 TEST(Assemble, declares_every_uniform_of_shadertoy_once) {
     const ShaderSource source = source_of(k_main_image);
     for (const char* uniform : k_uniforms)
@@ -56,7 +67,9 @@ TEST(Assemble, alpha_is_one_and_the_colour_starts_black) {
 
 TEST(Assemble, knobs_are_uniforms) {
     const std::string text =
-        source_of("#iUniform float a = 1.0\n#iUniform color3 b = 1.0\n#iUniform ivec2 c = 1\n" + k_main_image)
+        source_of("#iUniform float a = 1.0\n#iUniform color3 b = 1.0\n#iUniform ivec2 c = 1\n"
+                  "void f() { a; b; c; }\n" +
+                  k_main_image)
             .text();
     EXPECT_EQ(count(text, "uniform float a;\nuniform vec3 b;\nuniform ivec2 c;\n"), 1);
 }

@@ -1,0 +1,50 @@
+// The uniforms that the host gives a shader: those of ShaderToy's prologue, and our own.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace tidemark::scene {
+
+/// A uniform that ShaderToy's prologue declares.
+struct SiteUniform {
+    std::string_view name;
+    std::string_view type;
+    int length = 0;     ///< of an array; 0 for none
+    bool image = true;  ///< declared where pictures are drawn
+    bool sound = false; ///< declared in the Sound pass
+};
+
+inline constexpr SiteUniform k_site_uniforms[] = {
+    {"iResolution", "vec3"},
+    {"iTime", "float"},
+    {"iTimeDelta", "float"},
+    {"iFrameRate", "float"},
+    {"iFrame", "int"},
+    {"iMouse", "vec4"},
+    {"iDate", "vec4", 0, true, true},
+    {"iSampleRate", "float", 0, true, true},
+    {"iChannelTime", "float", 4, true, true},
+    {"iChannelResolution", "vec3", 4, true, true},
+    {"iTimeOffset", "float", 0, false, true},
+    {"iSampleOffset", "int", 0, false, true},
+};
+
+inline constexpr std::array<std::string_view, 4> k_channel_names{"iChannel0", "iChannel1", "iChannel2",
+                                                                 "iChannel3"};
+inline constexpr std::array<std::string_view, 4> k_channel_structs{"iCh0", "iCh1", "iCh2", "iCh3"};
+
+/// The matrix of the orbit camera, for a scene that declares it.
+inline constexpr std::string_view k_camera_uniform = "iCamera";
+
+/// A name that a scene may not give to a uniform of its own with another meaning.
+inline bool is_host_uniform(std::string_view name) {
+    const auto is_name = [&](std::string_view taken) { return taken == name; };
+    return std::ranges::any_of(k_site_uniforms, is_name, &SiteUniform::name) ||
+           std::ranges::any_of(k_channel_names, is_name) || std::ranges::any_of(k_channel_structs, is_name) ||
+           name == k_camera_uniform || name == "iChannel" || name == "iKeyboard" ||
+           name.starts_with("tidemark_");
+}
+
+} // namespace tidemark::scene

@@ -1,0 +1,3 @@
+
+#iUniform float iTime = 1.0
+void mainImage(out vec4 fragColor, in vec2 fragCoord) { fragColor = vec4(iTime); }
