@@ -24,6 +24,9 @@ BUILD = ROOT / "build" / "release"
 TIDEMARK = str(BUILD / "tidemark")
 FLOOR = str(BUILD / "tests" / "bench" / "tidemark_floor")
 SCENE = str(ROOT / "shaders" / "water_surface.glsl")
+DOCUMENT = ("--define", "DOCUMENT=1")  # as heavy as the document's own text
+FEEDBACK = str(ROOT / "tests" / "bench" / "feedback" / "feedback.glsl")
+BUFFERS = ("a.glsl", "b.glsl", "c.glsl", "d.glsl")
 SIZE = (640, 360)
 
 
@@ -56,35 +59,47 @@ def against(name, ours, floor, rounds):
     return row
 
 
-def complete_shader(scene, folder):
+def inspected(*arguments):
+    return subprocess.run([TIDEMARK, "inspect", *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def complete_shader(folder, scene, *options):
     """The scene as the driver sees it, its knobs' values as initialisers, for a program that knows no knobs."""
-    text = subprocess.run([TIDEMARK, "inspect", scene, "--source"], check=True, capture_output=True, text=True).stdout
-    facts = json.loads(
-        subprocess.run([TIDEMARK, "inspect", scene, "--json"], check=True, capture_output=True, text=True).stdout)
+    text = inspected(scene, *options, "--source")
+    facts = json.loads(inspected(scene, *options, "--json"))
     for knob in facts["knobs"]:
         glsl = "vec3" if knob["type"] == "color3" else knob["type"]
         value = f"{glsl}({', '.join(map(repr, knob['value']))})"
         text = re.sub(rf"^uniform {glsl} {knob['name']};", f"uniform {glsl} {knob['name']} = {value};", text,
                       flags=re.MULTILINE)
-    path = pathlib.Path(folder) / "complete.frag"
+    path = pathlib.Path(folder) / f"{abs(hash((scene, *options)))}.frag"
     path.write_text(text)
     return str(path)
 
 
+def floor(shader, frames, buffers=()):
+    return [FLOOR, shader, str(SIZE[0]), str(SIZE[1]), str(frames), "30", *buffers]
+
+
+def ours(frames, out, scene=SCENE, *options):
+    return [TIDEMARK, "capture", scene, *options, "--fps", "30", "--frames", f"0-{frames - 1}",
+            "--size", f"{SIZE[0]}x{SIZE[1]}", "-o", out]
+
+
 def capture_rows(folder, rounds):
-    shader = complete_shader(SCENE, folder)
-    width, height = map(str, SIZE)
-
-    def floor(frames):
-        return [FLOOR, shader, width, height, str(frames), "30"]
-
-    def ours(frames, out):
-        return [TIDEMARK, "capture", SCENE, "--fps", "30", "--frames", f"0-{frames - 1}",
-                "--size", f"{width}x{height}", "-o", out]
-
-    yield against("one frame, PNG", ours(1, f"{folder}/one.png"), floor(1), rounds)
-    yield against("30 frames, PNG", ours(30, f"{folder}/many.%04d.png"), floor(30), max(3, rounds // 3))
-    yield against("one frame, raw", ours(1, "-"), floor(1), rounds)
+    shader = complete_shader(folder, SCENE)
+    heavy = complete_shader(folder, SCENE, *DOCUMENT)
+    one, many = f"{folder}/one.png", f"{folder}/many.%04d.png"
+    few = max(3, rounds // 3)
+    yield against("one frame, PNG", ours(1, one), floor(shader, 1), rounds)
+    yield against("one frame, PNG, the document's marching", ours(1, one, SCENE, *DOCUMENT), floor(heavy, 1), rounds)
+    yield against("30 frames, PNG", ours(30, many), floor(shader, 30), few)
+    yield against("30 frames, PNG, the document's marching", ours(30, many, SCENE, *DOCUMENT), floor(heavy, 30), few)
+    yield against("one frame, raw", ours(1, "-"), floor(shader, 1), rounds)
+    feedback = complete_shader(folder, FEEDBACK)
+    buffers = [complete_shader(folder, FEEDBACK, "--pass", name) for name in BUFFERS]
+    yield against("four buffers that read themselves, 120 frames, raw", ours(120, "-", FEEDBACK),
+                  floor(feedback, 120, buffers), few)
 
 
 def start_up(rounds):
@@ -97,7 +112,8 @@ def reload_times(folder, rounds):
     if not shutil.which("Xvfb"):
         return None
     display = ":97"
-    scene = pathlib.Path(folder) / "live.glsl"
+    shutil.copytree(ROOT / "shaders", f"{folder}/shaders")
+    scene = pathlib.Path(folder) / "shaders" / "live.glsl"
     text = pathlib.Path(SCENE).read_text()
     scene.write_text(text)
     server = subprocess.Popen(["Xvfb", display, "-screen", "0", "800x600x24", "-nolisten", "tcp"],
@@ -126,8 +142,7 @@ def reload_times(folder, rounds):
 
 def machine():
     model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if "model name" in line), "?")
-    facts = json.loads(subprocess.run([TIDEMARK, "inspect", SCENE, "--json"], check=True, capture_output=True,
-                                      text=True).stdout)
+    facts = json.loads(inspected(SCENE, "--json"))
     return {"processor": model, "cores": os.cpu_count(), "system": platform.platform(),
             "driver": facts["driver"], "renderer": facts["renderer"]}
 

@@ -2,10 +2,11 @@
 // surfaceless EGL context, one program, one target, N draws, each read back; no file is written, nothing is
 // left out that GL needs and nothing is added. What a host costs beyond this is the host's.
 //
-//     tidemark_floor SHADER WIDTH HEIGHT FRAMES FPS
+//     tidemark_floor SHADER WIDTH HEIGHT FRAMES FPS [BUFFER...]
 //
 // SHADER is a complete fragment shader, `#version` line and main() included. Frame i is drawn with iTime = i
-// / FPS.
+// / FPS. Each BUFFER is one more, drawn before it into RGBA32F: its iChannel0 is its own last frame, and
+// SHADER's iChannel0, 1, ... are the buffers.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/glcorearb.h>
@@ -101,7 +102,50 @@ void bind_noise(GLuint unit) {
     glBindTextureUnit(unit, texture);
 }
 
-void make_target(GLsizei width, GLsizei height) {
+void set_inputs(GLuint program, int width, int height) {
+    glUseProgram(program);
+    glUniform3f(glGetUniformLocation(program, "iResolution"), float(width), float(height), 1.0F);
+    for (GLint unit = 0; unit < 4; ++unit) {
+        const std::string name = "iChannel" + std::to_string(unit);
+        if (const GLint channel = glGetUniformLocation(program, name.c_str()); channel >= 0) {
+            glUniform1i(channel, unit);
+        }
+    }
+}
+
+/// A pass that reads its own last frame: two textures by turns.
+class Buffer {
+public:
+    Buffer(const std::string& fragment, int width, int height) : program_(make_program(fragment)) {
+        set_inputs(program_, width, height);
+        frame_ = glGetUniformLocation(program_, "iFrame");
+        glCreateTextures(GL_TEXTURE_2D, 2, textures_);
+        glCreateFramebuffers(2, targets_);
+        for (int i = 0; i < 2; ++i) {
+            glTextureStorage2D(textures_[i], 1, GL_RGBA32F, width, height);
+            glNamedFramebufferTexture(targets_[i], GL_COLOR_ATTACHMENT0, textures_[i], 0);
+            glClearTexImage(textures_[i], 0, GL_RGBA, GL_FLOAT, nullptr);
+        }
+    }
+    void draw(int frame) {
+        glUseProgram(program_);
+        glUniform1i(frame_, frame);
+        glBindTextureUnit(0, textures_[latest_]);
+        latest_ = 1 - latest_;
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets_[latest_]);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    GLuint latest() const { return textures_[latest_]; }
+
+private:
+    GLuint program_;
+    GLint frame_ = -1;
+    GLuint textures_[2] = {};
+    GLuint targets_[2] = {};
+    int latest_ = 0;
+};
+
+GLuint make_target(GLsizei width, GLsizei height) {
     GLuint color = 0;
     GLuint target = 0;
     GLuint no_vertices = 0;
@@ -116,13 +160,14 @@ void make_target(GLsizei width, GLsizei height) {
     glViewport(0, 0, width, height);
     glCreateVertexArrays(1, &no_vertices);
     glBindVertexArray(no_vertices);
+    return target;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 6) {
-        stop("usage: tidemark_floor SHADER WIDTH HEIGHT FRAMES FPS");
+    if (argc < 6 || argc > 10) {
+        stop("usage: tidemark_floor SHADER WIDTH HEIGHT FRAMES FPS [BUFFER...], four buffers at most");
     }
     const int width = std::atoi(argv[2]);
     const int height = std::atoi(argv[3]);
@@ -134,18 +179,28 @@ int main(int argc, char** argv) {
 
     make_context();
     const GLuint program = make_program(text_of(argv[1]));
-    glUseProgram(program);
-    make_target(width, height);
-    if (const GLint channel = glGetUniformLocation(program, "iChannel0"); channel >= 0) {
-        bind_noise(0);
-        glUniform1i(channel, 0);
-    }
-    glUniform3f(glGetUniformLocation(program, "iResolution"), float(width), float(height), 1.0F);
+    const GLuint target = make_target(width, height);
+    set_inputs(program, width, height);
     const GLint time = glGetUniformLocation(program, "iTime");
+    std::vector<Buffer> buffers;
+    for (int i = 6; i < argc; ++i) {
+        buffers.emplace_back(text_of(argv[i]), width, height);
+    }
+    if (buffers.empty() && glGetUniformLocation(program, "iChannel0") >= 0) {
+        bind_noise(0);
+    }
 
     std::vector<uint8_t> pixels(size_t(width) * size_t(height) * 4);
     uint64_t checksum = 14695981039346656037U;
     for (int frame = 0; frame < frames; ++frame) {
+        for (Buffer& buffer : buffers) {
+            buffer.draw(frame);
+        }
+        for (size_t unit = 0; unit < buffers.size(); ++unit) {
+            glBindTextureUnit(GLuint(unit), buffers[unit].latest());
+        }
+        glBindFramebuffer(GL_FRAMEBUFFER, target);
+        glUseProgram(program);
         glUniform1f(time, float(frame / fps));
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());

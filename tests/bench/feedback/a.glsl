@@ -1,0 +1,2 @@
+#define KIND 1.0
+#include "cell.glsl"

@@ -1,0 +1,2 @@
+#define KIND 2.0
+#include "cell.glsl"

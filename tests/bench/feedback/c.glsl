@@ -1,0 +1,2 @@
+#define KIND 3.0
+#include "cell.glsl"

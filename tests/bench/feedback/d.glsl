@@ -1,0 +1,2 @@
+#define KIND 4.0
+#include "cell.glsl"
