@@ -1,6 +1,7 @@
 """`capture -o x.mp4|.webm|.gif`: the frames as a video, whole or not at all."""
 import array
 import json
+import resource
 import shutil
 import signal
 import subprocess
@@ -53,6 +54,20 @@ class Video(ProgramTest):
             self.succeed("capture", "a.glsl", "--size", "33x17", "--fps", "10", "--frames", "0-2", "-o", name)
             video = self.facts(name)["video"]
             self.assertEqual((video["width"], video["height"]), (33, 17))
+
+    def test_full_disk(self):
+        def small_files_only():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        for name in ("a.mp4", "a.webm", "a.gif"):
+            self.write(name, "what was there before")
+            done = self.run_program("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "0-9", "-o", name,
+                                    preexec_fn=small_files_only)
+            self.assertEqual(done.returncode, 4, name)
+            self.assertRegex(done.stderr, f"tidemark: error: cannot write '{name}': ffmpeg says: .*File too large")
+            self.assertEqual((self.folder / name).read_text(), "what was there before")
+        self.assertEqual(self.files(), {"a.glsl", "a.mp4", "a.webm", "a.gif"})
 
     def test_same_frames_make_the_same_file(self):
         for extension in (".mp4", ".webm", ".gif"):
@@ -108,6 +123,7 @@ class Video(ProgramTest):
         words = program.communicate(timeout=60)[1].decode()
         self.assertEqual(program.returncode, 130)
         self.assertRegex(words, r"interrupted after \d+ of 1000001 frames: no video was written\n\Z")
+        self.assertNotIn("wrote", words)
         self.assertEqual(self.files(), {"a.glsl"})
 
 
