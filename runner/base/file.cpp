@@ -55,6 +55,32 @@ tl::unexpected<Error> cannot_write(const fs::path& path, int error_number) {
     return fail(ErrorCode::write, fmt::format("cannot write '{}': {}", path.string(), reason(error_number)));
 }
 
+/// A device or a pipe: it takes bytes, and a file in its place would be the end of it.
+bool is_stream(const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::is_other(status) && status.type() != fs::file_type::unknown;
+}
+
+/// Errors speak of `name`, the path that was asked for.
+Result<void> write_bytes(const fs::path& path, const fs::path& name, std::span<const std::byte> bytes) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0)
+        return cannot_write(name, errno);
+    if (const int error = write_all(file.get(), bytes))
+        return cannot_write(name, error);
+    if (const int error = file.close())
+        return cannot_write(name, error);
+    return {};
+}
+
+/// Where a link leads, so that the file is replaced and not the link.
+fs::path behind_links(fs::path path) {
+    std::error_code error;
+    fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : fs::path{};
+    return target.empty() ? path : target;
+}
+
 } // namespace
 
 Result<std::string> read_file(const fs::path& path, size_t largest) {
@@ -99,7 +125,8 @@ Result<std::string> read_text_file(const fs::path& path) {
     });
 }
 
-StagedFile::StagedFile(fs::path final_path) : final_(std::move(final_path)), temporary_(final_) {
+StagedFile::StagedFile(fs::path final_path)
+    : final_(behind_links(std::move(final_path))), temporary_(final_) {
     static std::atomic<unsigned> count = 0; // two threads may write to one path
     temporary_.replace_filename(fmt::format(".{}.part-{}-{}{}", final_.stem().string(), ::getpid(), ++count,
                                             final_.extension().string()));
@@ -124,15 +151,10 @@ Result<void> StagedFile::commit() {
 }
 
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+    if (is_stream(path))
+        return write_bytes(path, path, bytes);
     StagedFile staged(path);
-    Descriptor file(::open(staged.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (file.get() < 0)
-        return cannot_write(path, errno);
-    if (const int error = write_all(file.get(), bytes))
-        return cannot_write(path, error);
-    if (const int error = file.close())
-        return cannot_write(path, error);
-    return staged.commit();
+    return write_bytes(staged.path(), path, bytes).and_then([&] { return staged.commit(); });
 }
 
 Result<void> write_file(const fs::path& path, std::string_view text) {

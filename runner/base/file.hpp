@@ -41,7 +41,8 @@ private:
     std::filesystem::path temporary_;
 };
 
-/// Writes the whole file or leaves what was there (ErrorCode::write, naming the path and the reason).
+/// Writes the whole file or leaves what was there (ErrorCode::write, naming the path and the reason). A
+/// device or a pipe is written to as it is.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 

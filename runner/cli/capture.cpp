@@ -165,11 +165,12 @@ Result<int> capture(const CaptureOptions& options) {
     if (options.json)
         if (auto printed = put(run.report().dump(2) + "\n"); !printed)
             return fail(std::move(printed.error()));
-    if (!options.json && !plan->output.standard_output())
+    const bool written = *complete || !plan->output.video(); // of a video nothing is kept but the whole
+    if (written && !options.json && !plan->output.standard_output())
         say_what_was_written(run.records(), plan->output.video());
     if (!*complete)
         say(fmt::format("interrupted after {} of {} frames{}", run.records().size(),
-                        plan->frames.frames.size(), plan->output.video() ? ": no video was written" : ""));
+                        plan->frames.frames.size(), written ? "" : ": no video was written"));
     return *complete ? 0 : Interrupt::k_exit_code;
 }
 

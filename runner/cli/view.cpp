@@ -4,12 +4,17 @@
 #include "cli/viewer.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace tidemark::cli {
 namespace {
+
+/// X11 counts the pixels of a window in 16 bits, half of them below zero; beyond that it takes another size.
+constexpr int k_largest_window = 32767;
 
 struct ViewOptions {
     SceneRequest scene;
@@ -21,6 +26,9 @@ Result<int> view(const ViewOptions& options) {
     auto frames = resolve(options.frames);
     if (!frames)
         return fail(std::move(frames.error()));
+    if (const Extent size = frames->extent; std::max(size.width, size.height) > k_largest_window)
+        return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
+                                                  size.width, size.height, k_largest_window));
     Viewer::Settings settings{options.scene, *std::move(frames)};
     settings.pass = options.frames.pass;
     settings.record = options.record;

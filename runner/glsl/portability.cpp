@@ -62,6 +62,11 @@ constexpr OldName k_missing_functions[] = {
     {"dFdxFine", "dFdx"},
     {"dFdyFine", "dFdy"},
     {"fwidthFine", "fwidth"},
+    // what #iKeyboard declares
+    {"isKeyDown", "texelFetch(iChannel0, ivec2(key, 0), 0).x"},
+    {"isKeyPressed", "texelFetch(iChannel0, ivec2(key, 1), 0).x"},
+    {"isKeyToggled", "texelFetch(iChannel0, ivec2(key, 2), 0).x"},
+    {"isKeyReleased", "a buffer that remembers isKeyDown"},
 };
 
 /// Functions that GLSL ES 3.00 has: they must not be defined again, not even for other types.
@@ -193,6 +198,9 @@ private:
             ++braces_;
         else if (token.is("}"))
             braces_ = std::max(0, braces_ - 1);
+        if (token.is("{") && peek(-1).is("="))
+            say(token,
+                "= {: GLSL ES 3.00 has no lists in braces; write a constructor, as in float[](1.0, 2.0)");
         everywhere(token);
         if (token.kind != TokenKind::identifier)
             return;

@@ -54,7 +54,8 @@ const Container* container_of(const fs::path& path) {
 
 Arguments arguments_for(const fs::path& staged, const VideoFormat& format) {
     const Container& container = *container_of(staged);
-    Arguments arguments{"ffmpeg",     "-hide_banner",
+    // Without -xerror ffmpeg ends well where a full disk kept the last blocks of the file from it.
+    Arguments arguments{"ffmpeg",     "-xerror",
                         "-nostats",   "-loglevel",
                         "error",      "-y",
                         "-f",         "rawvideo",

@@ -32,6 +32,27 @@ Scene scene_of(const fs::path& folder) {
     return scene;
 }
 
+bool is_read_by_another(const Scene& scene, size_t pass) {
+    for (size_t reader = 0; reader < scene.passes.size(); ++reader)
+        for (const Channel& channel : scene.passes[reader].channels)
+            if (reader != pass && channel.input == ChannelInput(PassOutput{pass}))
+                return true;
+    return false;
+}
+
+/// Names alone do not say who reads whom: whoever wrote a buffer and no directive sees noise in its place.
+void warn_of_unread(Scene& scene, const PassFiles& files) {
+    for (size_t pass = 0; pass < scene.passes.size(); ++pass)
+        for (const auto& [name, file] : files)
+            if ((name.kind == Kind::buffer || name.kind == Kind::cubemap) &&
+                scene.passes[pass].name == to_string(name) && !is_read_by_another(scene, pass))
+                scene.warnings.push_back(
+                    {{file.string()},
+                     Severity::warning,
+                     fmt::format("no other pass reads '{}': the one that does says #iChannel0 \"{}\"",
+                                 scene.passes[pass].name, file.filename().string())});
+}
+
 Result<Scene> load_by_names(const fs::path& folder, const PassFiles& files, const LoadOptions& options) {
     if (std::none_of(files.begin(), files.end(),
                      [](const auto& file) { return file.first.kind == Kind::image; }))
@@ -60,6 +81,7 @@ Result<Scene> load_by_names(const fs::path& folder, const PassFiles& files, cons
             return fail(std::move(loaded.error()));
     if (auto finished = loader.finish(); !finished)
         return fail(std::move(finished.error()));
+    warn_of_unread(scene, files);
     return scene;
 }
 

@@ -167,6 +167,8 @@ Result<Json*> find_passes(Json& json, const std::string& file) {
             return found;
         if (found->is_object() && found->contains("Shader"))
             found = &(*found)["Shader"];
+        else if (found->is_object() && found->contains("shaders"))
+            found = &(*found)["shaders"];
         else if (found->is_array() && found->size() == 1)
             found = &found->front();
         else

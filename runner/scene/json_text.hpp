@@ -20,9 +20,10 @@ using Json = nlohmann::ordered_json;
 /// U+FFFD. `file` is for the messages.
 Result<Json> parse_json(std::string_view text, const std::string& file);
 
-/// The list of passes: `renderpass` of the tree itself, of `{"Shader": …}` or of a list of one of these, or
-/// the tree where it is such a list. Fails on `{"Error": …}`, on several shaders, and on JSON that is
-/// something else; what it finds may still be no list.
+/// The list of passes: `renderpass` of the tree itself, of `{"Shader": …}`, of a list of one of these or of
+/// the site's export of all (`{"shaders": […]}`) with one; or the tree where it is such a list. Fails on
+/// `{"Error": …}`, on several shaders, and on JSON that is something else; what it finds may still be no
+/// list.
 Result<Json*> find_passes(Json& json, const std::string& file);
 
 /// The passes of that list; read_project is this for a text.

@@ -54,6 +54,23 @@ class Video(ProgramTest):
             video = self.facts(name)["video"]
             self.assertEqual((video["width"], video["height"]), (33, 17))
 
+    def test_full_disk(self):
+        # A disk of 16 KiB of our own, gone with the shell.
+        shell = ("unshare", "--user", "--map-root-user", "--mount", "sh", "-c")
+        disk = "mount -t tmpfs -o size=16k none disk"
+        (self.folder / "disk").mkdir()
+        if subprocess.run([*shell, disk], cwd=self.folder, stderr=subprocess.DEVNULL).returncode:
+            self.skipTest("this system lets nobody mount a disk of their own")
+        self.write("loud.glsl", "void mainImage(out vec4 c, in vec2 p) "
+                                "{ c = vec4(fract(sin(dot(p, vec2(91.7, 3.1)) + iTime) * 4311.3)); }\n")
+        for name in ("a.mp4", "a.webm", "a.gif"):
+            line = (f'{disk} && "$0" capture loud.glsl --size 128x72 --fps 25 --frames 0-9 -o disk/{name}; '
+                    'echo $?; ls -A disk')
+            done = subprocess.run([*shell, line, PROGRAM], cwd=self.folder, env=environment(), text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            self.assertEqual(done.stdout, "4\n", (name, done.stderr))
+            self.assertRegex(done.stderr, f"error: cannot write 'disk/{name}': ffmpeg says: .*No space left on device")
+
     def test_same_frames_make_the_same_file(self):
         for extension in (".mp4", ".webm", ".gif"):
             for name in ("one", "two"):
@@ -108,6 +125,7 @@ class Video(ProgramTest):
         words = program.communicate(timeout=60)[1].decode()
         self.assertEqual(program.returncode, 130)
         self.assertRegex(words, r"interrupted after \d+ of 1000001 frames: no video was written\n\Z")
+        self.assertNotIn("wrote", words)
         self.assertEqual(self.files(), {"a.glsl"})
 
 

@@ -28,6 +28,8 @@ class NoDisplay(ProgramTest):
     def test_bad_options_come_first(self):
         self.expect_failure(["view", "a.glsl", "--size", "0x5"], 2,
                             "tidemark: error: --size 0x5: give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360")
+        self.expect_failure(["view", "a.glsl", "--size", "99999x5"], 2,
+                            "tidemark: error: --size 99999x5: a window has at most 32767 pixels on a side")
         self.expect_failure(["view", "a.glsl", "--camera", "1"], 2,
                             "tidemark: error: --camera 1: give azimuth,elevation,distance as in 30,20,10 (degrees, "
                             "degrees, a distance above 0)")

@@ -2,8 +2,10 @@
 #include "base/file.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -109,6 +111,33 @@ TEST(WriteFile, a_full_disk_leaves_the_old_as_it_was) {
     EXPECT_EQ(read_file(path), "before");
     EXPECT_EQ(files_in(folder), 1u);
     EXPECT_EQ(refusal_under_limit(1000, path, std::string(1000, 'x')), "it was written");
+}
+
+TEST(WriteFile, a_pipe_takes_the_bytes_and_stays_a_pipe) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "pipe";
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    const int reader = ::open(path.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    ASSERT_TRUE(write_file(path, "bytes"));
+    char bytes[16];
+    EXPECT_EQ(::read(reader, bytes, sizeof bytes), 5);
+    ::close(reader);
+    EXPECT_TRUE(fs::is_fifo(path));
+    EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(WriteFile, a_device_that_is_full) {
+    EXPECT_EQ(refusal(write_file("/dev/full", "x")), "cannot write '/dev/full': No space left on device");
+}
+
+TEST(WriteFile, a_link_stays_one) {
+    const TemporaryFolder folder;
+    save_in_place(folder / "a.txt", "before");
+    fs::create_symlink("a.txt", folder / "link");
+    ASSERT_TRUE(write_file(folder / "link", "after"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(read_file(folder / "a.txt"), "after");
 }
 
 TEST(StagedFile, keeps_its_extension_beside_its_place) {

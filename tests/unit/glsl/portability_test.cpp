@@ -60,6 +60,13 @@ TEST(Portability, what_desktop_has_and_the_site_has_not) {
     EXPECT_EQ(lint("float f(vec2 p) { return noise1(p); }\n"),
               "a.glsl:1:26: warning: noise1: not in GLSL ES 3.00; write a function of your own\n");
     EXPECT_EQ(
+        lint("bool f() { return isKeyDown(65); }\n"),
+        "a.glsl:1:19: warning: isKeyDown: not in GLSL ES 3.00; write texelFetch(iChannel0, ivec2(key, 0), "
+        "0).x\n");
+    EXPECT_EQ(lint("const float t[2] = { 1.0, 2.0 };\nconst float u[2] = float[](1.0, 2.0);\n"),
+              "a.glsl:1:20: warning: = {: GLSL ES 3.00 has no lists in braces; write a constructor, as in "
+              "float[](1.0, 2.0)\n");
+    EXPECT_EQ(
         lint("float mod(int a, int b) { return float(a % b); }\n"),
         "a.glsl:1:7: warning: mod: GLSL ES 3.00 forbids to define a built-in function again; choose another "
         "name\n");

@@ -35,6 +35,16 @@ TEST_F(Folder, every_pass_by_our_names) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
+TEST_F(Folder, a_pass_that_no_other_reads_is_told) {
+    save("Buffer A.glsl", "#iChannel0 \"self\"\n" + k_main_image);
+    save("image.glsl", k_main_image);
+    const Scene scene = load();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(plain(to_string(scene.warnings[0])),
+              "Buffer A.glsl: warning: no other pass reads 'Buffer A': the one that does says "
+              "#iChannel0 \"Buffer A.glsl\"");
+}
+
 TEST_F(Folder, names_in_the_wild) {
     save("Buffer A.glsl", k_main_image);
     save("BufB.frag", k_main_image);

@@ -71,7 +71,8 @@ TEST_F(Json, every_wrapping_is_the_same_project) {
     const std::string bare = R"({"ver":"0.1","info":{},"renderpass":[)" + std::string(k_image) + "]}";
     for (const std::string& json :
          {bare, "[" + bare + "]", R"({"Shader":)" + bare + "}", R"({"Shader":[)" + bare + "]}",
-          R"([{"Shader":)" + bare + "}]", "[" + std::string(k_image) + "]", "\xEF\xBB\xBF" + bare}) {
+          R"([{"Shader":)" + bare + "}]", R"({"userName":"x","numShaders":1,"shaders":[)" + bare + "]}",
+          "[" + std::string(k_image) + "]", "\xEF\xBB\xBF" + bare}) {
         const auto scene = load(json);
         ASSERT_TRUE(scene) << to_string(scene.error()) << json;
         EXPECT_THAT(names_of(*scene), ElementsAre("Image"));
@@ -184,6 +185,8 @@ TEST_F(Json, what_is_no_project_is_told_so) {
     EXPECT_EQ(error_of(R"({"Shaders":2,"Results":["a","b"]})"),
               "x.json: error: this is no ShaderToy project: there is no list named renderpass");
     EXPECT_EQ(error_of("[" + project(k_image) + "," + project(k_image) + "]"),
+              "x.json: error: this holds 2 projects: a scene is one, so save it in a file of its own");
+    EXPECT_EQ(error_of(R"({"numShaders":2,"shaders":[)" + project(k_image) + "," + project(k_image) + "]}"),
               "x.json: error: this holds 2 projects: a scene is one, so save it in a file of its own");
     EXPECT_EQ(error_of(project("")), "x.json: error: renderpass is no list of passes");
     EXPECT_EQ(error_of(project("1")), "x.json: error: pass 1 is no object");
