@@ -4,7 +4,8 @@
 #include "lab/outcome.hpp"
 #include "lab/timing.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <map>
 
 namespace tidemark::lab {
 namespace {
@@ -57,6 +58,20 @@ private:
             if (auto good = with(scene_, settings); !good)
                 return fail(std::move(good.error()));
         return {};
+    }
+
+    /// What a recipe shows, drawn once: taking a source away makes many points the same.
+    Result<const Sight*> sight_of(const Recipe& recipe) {
+        std::vector<Setting> key = merged(recipe.settings);
+        std::ranges::sort(key, {}, &Setting::name);
+        const auto known = known_sights_.find(to_string(key));
+        if (known != known_sights_.end())
+            return &known->second;
+        auto specimen = Specimen::create(scene_, recipe, study().extent);
+        auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+        if (!sight)
+            return fail(std::move(sight.error()));
+        return &(known_sights_[to_string(key)] = *std::move(sight));
     }
 
     Result<Sight> sight_of(Specimen& specimen) {
@@ -151,20 +166,19 @@ private:
         for (size_t i = 0; i < set().points.size() && going(); ++i) {
             WorkPrecision& point = set().points[i];
             Recipe recipe{point.point.settings};
-            Sight before = sights_[i];
+            const Sight* before = &sights_[i];
             for (const ErrorSource& source : study().sources) {
                 if (!point.measured())
                     break;
                 recipe.settings.insert(recipe.settings.end(), source.settings.begin(), source.settings.end());
-                auto specimen = Specimen::create(scene_, recipe, study().extent);
-                auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+                const auto sight = sight_of(recipe);
                 if (!sight)
                     continue;
-                point.shares.push_back(share_of(source.name, before, *sight, truth_));
-                before = *std::move(sight);
+                point.shares.push_back(share_of(source.name, *before, **sight, truth_));
+                before = *sight;
             }
             if (point.measured())
-                point.shares.push_back(share_of("algorithm", before, true_sight, truth_));
+                point.shares.push_back(share_of("algorithm", *before, true_sight, truth_));
             watch_.advance();
         }
     }
@@ -175,6 +189,7 @@ private:
     Findings findings_;
     std::vector<std::optional<Specimen>> specimens_; ///< by point; nothing for a point that failed
     std::vector<Sight> sights_;
+    std::map<std::string, Sight> known_sights_;
     Truth truth_;
     bool stopped_ = false;
 };
