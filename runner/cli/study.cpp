@@ -101,6 +101,8 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
     }
     if (!axes.empty())
         study->series = lab::series_of(axes);
+    if (study->sources.empty())
+        study->sources = {{"rounding", {}, true}};
     for (const std::string& text : options.reference) {
         auto settings = lab::parse_settings(text, "--reference");
         if (!settings)

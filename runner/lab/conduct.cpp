@@ -4,6 +4,8 @@
 #include "lab/outcome.hpp"
 #include "lab/timing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -42,6 +44,12 @@ private:
     WorkPrecisionSet& set() { return findings_.set; }
     const Study& study() const { return findings_.set.study; }
 
+    void remark(std::string text) {
+        auto& remarks = set().circumstances.remarks;
+        if (std::ranges::find(remarks, text) == remarks.end())
+            remarks.push_back(std::move(text));
+    }
+
     bool going() {
         stopped_ = stopped_ || !watch_.keep_going();
         return !stopped_;
@@ -49,7 +57,7 @@ private:
 
     /// Names and values that the scene does not have are mistakes of the person who asked, all known at once.
     Result<void> check_settings() {
-        std::vector<std::vector<Setting>> all{study().reference};
+        std::vector<std::vector<Setting>> all{study().reference, study().model};
         for (const ErrorSource& source : study().sources)
             all.push_back(source.settings);
         for (const WorkPrecision& point : set().points)
@@ -64,14 +72,16 @@ private:
     Result<const Sight*> sight_of(const Recipe& recipe) {
         std::vector<Setting> key = merged(recipe.settings);
         std::ranges::sort(key, {}, &Setting::name);
-        const auto known = known_sights_.find(to_string(key));
+        const std::string name =
+            to_string(key) + (recipe.precision == glsl::Precision::single ? "" : ", in double");
+        const auto known = known_sights_.find(name);
         if (known != known_sights_.end())
             return &known->second;
         auto specimen = Specimen::create(scene_, recipe, study().extent);
         auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
         if (!sight)
             return fail(std::move(sight.error()));
-        return &(known_sights_[to_string(key)] = *std::move(sight));
+        return &(known_sights_[name] = *std::move(sight));
     }
 
     Result<Sight> sight_of(Specimen& specimen) {
@@ -119,6 +129,10 @@ private:
         auto pictures = converged_pictures(scene_, study(), [this] { return going(); });
         if (!pictures)
             return fail(std::move(pictures.error()));
+        truth_recipe_ = {pictures->settings, pictures->not_promoted.empty() ? glsl::Precision::promoted
+                                                                            : glsl::Precision::single};
+        if (!pictures->not_promoted.empty())
+            remark("the reference is in single precision: " + pictures->not_promoted);
         set().picture_standard = std::move(pictures->standard);
         truth_.pictures = std::move(pictures->views);
         auto certified = certified_hits(scene_, study(), [this] { return going(); });
@@ -159,10 +173,11 @@ private:
     /// Each source's settings are added to those before; the step from one sight to the next is its share,
     /// and the algorithm's is what then remains.
     void take_sources_away() {
-        if (study().sources.empty())
+        if (study().sources.empty() && study().model.empty())
             return;
         watch_.begin("points taken apart", set().points.size());
         const Sight true_sight{truth_.pictures, truth_.hits};
+        const std::optional<Share> model = model_share(true_sight);
         for (size_t i = 0; i < set().points.size() && going(); ++i) {
             WorkPrecision& point = set().points[i];
             Recipe recipe{point.point.settings};
@@ -171,16 +186,37 @@ private:
                 if (!point.measured())
                     break;
                 recipe.settings.insert(recipe.settings.end(), source.settings.begin(), source.settings.end());
+                if (source.doubles)
+                    recipe.precision = glsl::Precision::promoted;
                 const auto sight = sight_of(recipe);
-                if (!sight)
+                if (!sight) {
+                    remark(
+                        fmt::format("the share of {} is missing: {}", source.name, to_string(sight.error())));
                     continue;
+                }
                 point.shares.push_back(share_of(source.name, *before, **sight, truth_));
                 before = *sight;
             }
             if (point.measured())
                 point.shares.push_back(share_of("algorithm", *before, true_sight, truth_));
+            if (point.measured() && model)
+                point.shares.push_back(*model);
             watch_.advance();
         }
+    }
+
+    /// What the reference itself would change by without the scene's approximations: the same for every
+    /// point.
+    std::optional<Share> model_share(const Sight& true_sight) {
+        if (study().model.empty())
+            return std::nullopt;
+        Recipe recipe = truth_recipe_;
+        recipe.settings.insert(recipe.settings.end(), study().model.begin(), study().model.end());
+        const auto sight = sight_of(recipe);
+        if (sight) // of the picture alone: hits are a matter of the field
+            return Share{"model", 0, pooled_rmse((*sight)->pictures, true_sight.pictures)};
+        remark("the share of the model is missing: " + to_string(sight.error()));
+        return std::nullopt;
     }
 
     const scene::Scene& scene_;
@@ -191,6 +227,7 @@ private:
     std::vector<Sight> sights_;
     std::map<std::string, Sight> known_sights_;
     Truth truth_;
+    Recipe truth_recipe_; ///< of the pictures
     bool stopped_ = false;
 };
 

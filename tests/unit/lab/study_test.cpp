@@ -1,10 +1,13 @@
 // What a study is to do: settings, axes, views, files, and what comes after the strictest value.
+#include "base/file.hpp"
 #include "lab/setting.hpp"
 #include "lab/stricter.hpp"
 #include "lab/study.hpp"
 #include "scene/directives.hpp"
 
 #include <gmock/gmock.h>
+
+#include <filesystem>
 
 namespace tidemark::lab {
 namespace {
@@ -141,6 +144,33 @@ TEST(StudyFile, errors_have_line_and_pointer) {
     EXPECT_THAT(error_of("{\"series\": {}}"), HasSubstr("/series: must be an array"));
     EXPECT_THAT(error_of("[]"), HasSubstr("must be an object"));
     EXPECT_THAT(error_of("{"), HasSubstr("s.json"));
+}
+
+TEST(StudyFile, those_of_our_scenes_name_knobs_that_the_scenes_have) {
+    namespace fs = std::filesystem;
+    size_t studies = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(TIDEMARK_SOURCE_DIR) / "shaders")) {
+        const std::string name = entry.path().string();
+        if (!name.ends_with(".study.json"))
+            continue;
+        SCOPED_TRACE(name);
+        ++studies;
+        const auto study = parse_study(*read_text_file(entry.path()), name);
+        ASSERT_TRUE(study) << to_string(study.error());
+        const auto scene =
+            scene::load_scene(name.substr(0, name.size() - std::string_view(".study.json").size()) + ".glsl");
+        ASSERT_TRUE(scene) << to_string(scene.error());
+        std::vector<std::vector<Setting>> all{study->reference, study->model};
+        for (const Point& point : points_of(*study))
+            all.push_back(point.settings);
+        for (const ErrorSource& source : study->sources)
+            all.push_back(source.settings);
+        for (const auto& settings : all) {
+            const auto set = with(*scene, settings);
+            EXPECT_TRUE(set) << to_string(set.error());
+        }
+    }
+    EXPECT_GE(studies, 8u);
 }
 
 // ---- Beyond the strictest -------------------------------------------------------------------------------
