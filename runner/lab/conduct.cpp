@@ -143,6 +143,7 @@ private:
             truth_.hits = std::move((*certified)->views);
             truth_.footprints = std::move((*certified)->footprints);
             truth_.references = std::move((*certified)->references);
+            check_pictures_by_hits(pictures->hits);
         } else if (!pictures->hits.empty()) {
             set().hit_standard = std::move(pictures->hit_standard);
             truth_.hits = std::move(pictures->hits);
@@ -150,6 +151,24 @@ private:
         }
         watch_.advance();
         return {};
+    }
+
+    /// Where a march has a proof, the rays of the pictures' reference are held against it.
+    void check_pictures_by_hits(const std::vector<Hits>& hits) {
+        Hits proved, drawn;
+        std::vector<double> footprints;
+        for (size_t view = 0; view < hits.size(); ++view) {
+            proved.append(truth_.hits[view]);
+            drawn.append(hits[view]);
+            footprints.insert(footprints.end(), truth_.footprints[view].begin(),
+                              truth_.footprints[view].end());
+        }
+        if (hits.empty())
+            return;
+        const HitErrors errors = hit_errors(proved, drawn, footprints);
+        set().picture_standard.check +=
+            fmt::format("; its rays against the certified march: RMS {:.2g}, {:.2g} % wrong", errors.rms,
+                        errors.wrong_tenth);
     }
 
     void hold_against_truth() {

@@ -97,7 +97,7 @@ std::string diagram_script(const WorkPrecisionSet& set, Cost across, const std::
     if (all.empty())
         return {};
     std::string script = "set encoding utf8\nset logscale xy\nset format '%g'\nset grid lc rgb '#dddddd'\n"
-                         "set key outside right top noenhanced\nset border lc rgb '#666666'\n";
+                         "set key below noenhanced\nset border lc rgb '#666666'\n";
     script += fmt::format("set xlabel {}\nset ylabel {} noenhanced\n",
                           across == Cost::time ? "'milliseconds a frame, median with 95 % interval'"
                                                : "'field evaluations a pixel'",
