@@ -36,8 +36,11 @@ std::string promise_of(const WorkPrecisionSet& set) {
 }
 
 std::string cost_of(const WorkPrecision& point) {
-    return fmt::format("{} ms [{}, {}]", figure(point.all.time.median), figure(point.all.time.confidence.low),
-                       figure(point.all.time.confidence.high));
+    const TimeSummary& time = point.all.time;
+    if (std::isnan(time.confidence.low))
+        return fmt::format("{} ms, too few rounds for an interval", figure(time.median));
+    return fmt::format("{} ms [{}, {}]", figure(time.median), figure(time.confidence.low),
+                       figure(time.confidence.high));
 }
 
 std::string quality_of(const WorkPrecisionSet& set, const WorkPrecision& point) {
