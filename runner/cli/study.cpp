@@ -7,6 +7,7 @@
 #include "cli/progress.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
+#include "lab/baseline.hpp"
 #include "lab/conduct.hpp"
 #include "lab/report.hpp"
 #include "lab/report_data.hpp"
@@ -33,6 +34,7 @@ struct StudyOptions {
     std::vector<std::string> vary;
     std::string views;
     std::vector<std::string> reference;
+    std::string baseline;
     std::string device = "auto";
     lab::Timing timing;
     bool json = false;
@@ -99,6 +101,8 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
     }
     if (!axes.empty())
         study->series = lab::series_of(axes);
+    if (study->sources.empty())
+        study->sources = {{"rounding", {}, true}};
     for (const std::string& text : options.reference) {
         auto settings = lab::parse_settings(text, "--reference");
         if (!settings)
@@ -168,7 +172,20 @@ Result<void> make_folder(const fs::path& folder) {
     if (error)
         return fail(ErrorCode::write,
                     fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
-    return write_file(folder / "study.json", "{}\n");
+    return write_file(folder / "study.json", "{\"complete\": false}\n");
+}
+
+/// Prints what became worse; the number of such findings.
+Result<size_t> hold_against_baseline(const std::string& file, const std::string& text,
+                                     const lab::WorkPrecisionSet& set) {
+    const auto found = lab::compare_with(text, file, set);
+    if (!found)
+        return fail(found.error());
+    for (const auto* lines : {&found->notes, &found->worse})
+        for (const std::string& line : *lines)
+            say(line);
+    say(fmt::format("against the baseline: {} of {} settings worse", found->worse.size(), found->compared));
+    return found->worse.size();
 }
 
 Result<int> study(const StudyOptions& options) {
@@ -183,6 +200,10 @@ Result<int> study(const StudyOptions& options) {
     const auto scene = load(options.scene);
     if (!scene)
         return fail(scene.error());
+    // Read now: the report may take its place.
+    const auto baseline = options.baseline.empty() ? Result<std::string>() : read_text_file(options.baseline);
+    if (!baseline)
+        return fail(baseline.error());
     if (auto made = make_folder(folder); !made)
         return fail(std::move(made.error()));
     const auto context = platform::HeadlessContext::create(options.device);
@@ -206,7 +227,13 @@ Result<int> study(const StudyOptions& options) {
     if (options.json)
         if (auto printed = put(lab::to_json(findings->set)); !printed)
             return fail(std::move(printed.error()));
-    return interrupt.requested() ? Interrupt::k_exit_code : 0;
+    if (interrupt.requested())
+        return Interrupt::k_exit_code;
+    if (options.baseline.empty())
+        return 0;
+    return hold_against_baseline(options.baseline, *baseline, findings->set).map([](size_t worse) {
+        return worse == 0 ? 0 : exit_code(ErrorCode::check_failed);
+    });
 }
 
 } // namespace
@@ -244,6 +271,10 @@ void add_study(CLI::App& app, Action& chosen) {
                      "Seconds for the timing: fewer rounds when 40 take longer")
         ->type_name("S")
         ->capture_default_str();
+    command
+        ->add_option("--baseline", options->baseline,
+                     "An older study.json: exit 1 where something is slower or more wrong beyond noise")
+        ->type_name("FILE");
     command
         ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")
         ->type_name("NAME")

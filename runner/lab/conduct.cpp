@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 namespace tidemark::lab {
 namespace {
 
@@ -41,6 +44,12 @@ private:
     WorkPrecisionSet& set() { return findings_.set; }
     const Study& study() const { return findings_.set.study; }
 
+    void remark(std::string text) {
+        auto& remarks = set().circumstances.remarks;
+        if (std::ranges::find(remarks, text) == remarks.end())
+            remarks.push_back(std::move(text));
+    }
+
     bool going() {
         stopped_ = stopped_ || !watch_.keep_going();
         return !stopped_;
@@ -48,7 +57,7 @@ private:
 
     /// Names and values that the scene does not have are mistakes of the person who asked, all known at once.
     Result<void> check_settings() {
-        std::vector<std::vector<Setting>> all{study().reference};
+        std::vector<std::vector<Setting>> all{study().reference, study().model};
         for (const ErrorSource& source : study().sources)
             all.push_back(source.settings);
         for (const WorkPrecision& point : set().points)
@@ -57,6 +66,22 @@ private:
             if (auto good = with(scene_, settings); !good)
                 return fail(std::move(good.error()));
         return {};
+    }
+
+    /// What a recipe shows, drawn once: taking a source away makes many points the same.
+    Result<const Sight*> sight_of(const Recipe& recipe) {
+        std::vector<Setting> key = merged(recipe.settings);
+        std::ranges::sort(key, {}, &Setting::name);
+        const std::string name =
+            to_string(key) + (recipe.precision == glsl::Precision::single ? "" : ", in double");
+        const auto known = known_sights_.find(name);
+        if (known != known_sights_.end())
+            return &known->second;
+        auto specimen = Specimen::create(scene_, recipe, study().extent);
+        auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+        if (!sight)
+            return fail(std::move(sight.error()));
+        return &(known_sights_[name] = *std::move(sight));
     }
 
     Result<Sight> sight_of(Specimen& specimen) {
@@ -104,6 +129,10 @@ private:
         auto pictures = converged_pictures(scene_, study(), [this] { return going(); });
         if (!pictures)
             return fail(std::move(pictures.error()));
+        truth_recipe_ = {pictures->settings, pictures->not_promoted.empty() ? glsl::Precision::promoted
+                                                                            : glsl::Precision::single};
+        if (!pictures->not_promoted.empty())
+            remark("the reference is in single precision: " + pictures->not_promoted);
         set().picture_standard = std::move(pictures->standard);
         truth_.pictures = std::move(pictures->views);
         auto certified = certified_hits(scene_, study(), [this] { return going(); });
@@ -114,6 +143,7 @@ private:
             truth_.hits = std::move((*certified)->views);
             truth_.footprints = std::move((*certified)->footprints);
             truth_.references = std::move((*certified)->references);
+            check_pictures_by_hits(pictures->hits);
         } else if (!pictures->hits.empty()) {
             set().hit_standard = std::move(pictures->hit_standard);
             truth_.hits = std::move(pictures->hits);
@@ -121,6 +151,24 @@ private:
         }
         watch_.advance();
         return {};
+    }
+
+    /// Where a march has a proof, the rays of the pictures' reference are held against it.
+    void check_pictures_by_hits(const std::vector<Hits>& hits) {
+        Hits proved, drawn;
+        std::vector<double> footprints;
+        for (size_t view = 0; view < hits.size(); ++view) {
+            proved.append(truth_.hits[view]);
+            drawn.append(hits[view]);
+            footprints.insert(footprints.end(), truth_.footprints[view].begin(),
+                              truth_.footprints[view].end());
+        }
+        if (hits.empty())
+            return;
+        const HitErrors errors = hit_errors(proved, drawn, footprints);
+        set().picture_standard.check +=
+            fmt::format("; its rays against the certified march: RMS {:.2g}, {:.2g} % wrong", errors.rms,
+                        errors.wrong_tenth);
     }
 
     void hold_against_truth() {
@@ -144,29 +192,50 @@ private:
     /// Each source's settings are added to those before; the step from one sight to the next is its share,
     /// and the algorithm's is what then remains.
     void take_sources_away() {
-        if (study().sources.empty())
+        if (study().sources.empty() && study().model.empty())
             return;
         watch_.begin("points taken apart", set().points.size());
         const Sight true_sight{truth_.pictures, truth_.hits};
+        const std::optional<Share> model = model_share(true_sight);
         for (size_t i = 0; i < set().points.size() && going(); ++i) {
             WorkPrecision& point = set().points[i];
             Recipe recipe{point.point.settings};
-            Sight before = sights_[i];
+            const Sight* before = &sights_[i];
             for (const ErrorSource& source : study().sources) {
                 if (!point.measured())
                     break;
                 recipe.settings.insert(recipe.settings.end(), source.settings.begin(), source.settings.end());
-                auto specimen = Specimen::create(scene_, recipe, study().extent);
-                auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
-                if (!sight)
+                if (source.doubles)
+                    recipe.precision = glsl::Precision::promoted;
+                const auto sight = sight_of(recipe);
+                if (!sight) {
+                    remark(
+                        fmt::format("the share of {} is missing: {}", source.name, to_string(sight.error())));
                     continue;
-                point.shares.push_back(share_of(source.name, before, *sight, truth_));
-                before = *std::move(sight);
+                }
+                point.shares.push_back(share_of(source.name, *before, **sight, truth_));
+                before = *sight;
             }
             if (point.measured())
-                point.shares.push_back(share_of("algorithm", before, true_sight, truth_));
+                point.shares.push_back(share_of("algorithm", *before, true_sight, truth_));
+            if (point.measured() && model)
+                point.shares.push_back(*model);
             watch_.advance();
         }
+    }
+
+    /// What the reference itself would change by without the scene's approximations: the same for every
+    /// point.
+    std::optional<Share> model_share(const Sight& true_sight) {
+        if (study().model.empty())
+            return std::nullopt;
+        Recipe recipe = truth_recipe_;
+        recipe.settings.insert(recipe.settings.end(), study().model.begin(), study().model.end());
+        const auto sight = sight_of(recipe);
+        if (sight) // of the picture alone: hits are a matter of the field
+            return Share{"model", 0, pooled_rmse((*sight)->pictures, true_sight.pictures)};
+        remark("the share of the model is missing: " + to_string(sight.error()));
+        return std::nullopt;
     }
 
     const scene::Scene& scene_;
@@ -175,7 +244,9 @@ private:
     Findings findings_;
     std::vector<std::optional<Specimen>> specimens_; ///< by point; nothing for a point that failed
     std::vector<Sight> sights_;
+    std::map<std::string, Sight> known_sights_;
     Truth truth_;
+    Recipe truth_recipe_; ///< of the pictures
     bool stopped_ = false;
 };
 

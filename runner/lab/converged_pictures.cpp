@@ -2,7 +2,9 @@
 #include "lab/truth.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <chrono>
 #include <cmath>
 
 namespace tidemark::lab {
@@ -13,19 +15,26 @@ constexpr int k_most_steps = 6;
 /// does.
 constexpr double k_settled = 0.1;
 
+/// A step that takes longer, seconds, is the last: the next one would take twice as long, doubles several
+/// times.
+constexpr double k_longest_step = 20;
+
 /// What one setting of the scene shows in all views.
 struct Shown {
     std::vector<Setting> settings;
     std::vector<image::Image> pictures;
     std::vector<Hits> hits;
+    std::string precision = "in single precision";
+    double seconds = 0; ///< that it took
 };
 
-Result<std::optional<Shown>> show(const scene::Scene& scene, const Study& study,
-                                  std::vector<Setting> settings, const KeepGoing& keep_going) {
-    auto specimen = Specimen::create(scene, {settings}, study.extent);
+Result<std::optional<Shown>> show(const scene::Scene& scene, const Study& study, const Recipe& recipe,
+                                  const KeepGoing& keep_going) {
+    const auto start = std::chrono::steady_clock::now();
+    auto specimen = Specimen::create(scene, recipe, study.extent);
     if (!specimen)
         return fail(std::move(specimen.error()));
-    Shown shown{std::move(settings), {}, {}};
+    Shown shown{recipe.settings, {}, {}};
     for (const View& view : study.views) {
         if (!keep_going())
             return std::optional<Shown>{};
@@ -36,6 +45,13 @@ Result<std::optional<Shown>> show(const scene::Scene& scene, const Study& study,
         if (!hits)
             return fail(std::move(hits.error()));
         shown.hits.push_back(*std::move(hits));
+    }
+    shown.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (recipe.precision != glsl::Precision::single) {
+        const auto kept = specimen->kept_hashes();
+        shown.precision =
+            "promoted to double" +
+            (kept.empty() ? "" : fmt::format(" (hashes kept in floats: {})", fmt::join(kept, ", ")));
     }
     return std::optional<Shown>(std::move(shown));
 }
@@ -67,7 +83,7 @@ Change change_of(const Shown& a, const Shown& b, Extent extent) {
 PictureTruth truth_of(Shown shown, const std::optional<Change>& change, const std::string& how) {
     PictureTruth truth;
     truth.standard.method =
-        fmt::format("the scene itself with {}, single precision", to_string(shown.settings));
+        fmt::format("the scene itself with {}, {}", to_string(shown.settings), shown.precision);
     truth.standard.check = how;
     if (change)
         truth.standard.uncertainty = change->pictures;
@@ -76,6 +92,7 @@ PictureTruth truth_of(Shown shown, const std::optional<Change>& change, const st
         if (change)
             truth.hit_standard.uncertainty = change->hits;
     }
+    truth.settings = std::move(shown.settings);
     truth.views = std::move(shown.pictures);
     truth.hits = std::move(shown.hits);
     return truth;
@@ -100,7 +117,7 @@ double pooled_rmse(const std::vector<image::Image>& left, const std::vector<imag
 
 Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
                                         const KeepGoing& keep_going) {
-    auto first = show(scene, study, strictest(study, 0), keep_going);
+    auto first = show(scene, study, {strictest(study, 0)}, keep_going);
     if (!first)
         return fail(std::move(first.error()));
     if (!*first)
@@ -114,7 +131,7 @@ Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& 
         std::vector<Setting> settings = strictest(study, step);
         if (settings == best.settings)
             break;
-        auto next = show(scene, study, settings, keep_going);
+        auto next = show(scene, study, {settings}, keep_going);
         if (!next || !*next) {
             if (change)
                 break;
@@ -134,10 +151,20 @@ Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& 
             break;
         }
         best = **std::move(next);
-        if (changed.pictures <= k_settled * pooled_rmse(strictest_point.pictures, best.pictures))
+        if (changed.pictures <= k_settled * pooled_rmse(strictest_point.pictures, best.pictures) ||
+            best.seconds > k_longest_step)
             break;
     }
-    return truth_of(std::move(best), change, how);
+    std::string not_promoted = fmt::format("it took {:.0f} s in floats already", best.seconds);
+    if (best.seconds <= k_longest_step) {
+        auto promoted = show(scene, study, {best.settings, glsl::Precision::promoted}, keep_going);
+        not_promoted = !promoted ? to_string(promoted.error()) : !*promoted ? "interrupted" : "";
+        if (promoted && *promoted)
+            best = **std::move(promoted);
+    }
+    PictureTruth truth = truth_of(std::move(best), change, how);
+    truth.not_promoted = std::move(not_promoted);
+    return truth;
 }
 
 } // namespace tidemark::lab

@@ -55,7 +55,7 @@ std::string block(const std::string& name, const std::vector<Mark>& marks) {
     return text + "EOD\n";
 }
 
-/// The staircase of what can be had: from the cheapest to the best.
+/// The staircase of what can be had for a time: down at each point of the front.
 std::string front(std::vector<Mark> marks) {
     std::erase_if(marks, [](const Mark& mark) { return !mark.front; });
     std::ranges::sort(marks, {}, &Mark::cost);
@@ -70,8 +70,8 @@ std::string plot_of(const std::string& name, const std::string& title, const cha
                             name, colour);
     text += fmt::format("  ${0} using ($5==0?$1:NaN):2 with points pt 7 ps 0.9 lc rgb '{1}' title {2}, \\\n"
                         "  ${0} using ($5==1?$1:NaN):2 with points pt 6 ps 0.9 lc rgb '{1}' notitle, \\\n"
-                        "  ${0} using 1:2:6 with labels left offset 0.7,0.5 font ',10' tc rgb '{1}' notitle",
-                        name, colour, quoted_text(title));
+                        "  ${0} using 1:2:6 with labels left offset 0.7,{3} font ',10' tc rgb '{1}' notitle",
+                        name, colour, quoted_text(title), colour == k_grey ? -0.6 : 0.5);
     return text;
 }
 
@@ -97,7 +97,7 @@ std::string diagram_script(const WorkPrecisionSet& set, Cost across, const std::
     if (all.empty())
         return {};
     std::string script = "set encoding utf8\nset logscale xy\nset format '%g'\nset grid lc rgb '#dddddd'\n"
-                         "set key outside right top noenhanced\nset border lc rgb '#666666'\n";
+                         "set key below noenhanced\nset border lc rgb '#666666'\n";
     script += fmt::format("set xlabel {}\nset ylabel {} noenhanced\n",
                           across == Cost::time ? "'milliseconds a frame, median with 95 % interval'"
                                                : "'field evaluations a pixel'",
@@ -105,7 +105,7 @@ std::string diagram_script(const WorkPrecisionSet& set, Cost across, const std::
     script += blocks;
     if (across == Cost::time) {
         script += front(all);
-        plots = "  $front using 1:2 with fsteps lw 6 lc rgb '#e8e8d0' title 'front', \\\n" + plots;
+        plots = "  $front using 1:2 with steps lw 6 lc rgb '#e8e8d0' title 'front', \\\n" + plots;
     }
     for (const auto& [ending, terminal] :
          {std::pair{"svg", "svg size 1000,600 font 'sans-serif,13' noenhanced background '#ffffff'"},

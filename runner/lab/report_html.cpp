@@ -229,7 +229,9 @@ std::string method(const WorkPrecisionSet& set) {
     html += standard("pictures", set.picture_standard);
     html += fmt::format(
         "<dt>Time</dt><dd>{}; {} warm-up rounds, then {} rounds; in each every setting draws every view "
-        "once, in an order shuffled anew (fixed seed). Medians with 95 % bootstrap intervals; compiling "
+        "once, in an order shuffled anew (fixed seed); a setting that would take more than its share of the "
+        "time sits "
+        "rounds out. Medians with 95 % bootstrap intervals; compiling "
         "and the first draw apart. &ldquo;All&rdquo; is the mean over the views of each round.</dd>\n",
         escaped(facts.clock), facts.warm_up_rounds, facts.timed_rounds);
     html += fmt::format(

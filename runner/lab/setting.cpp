@@ -72,6 +72,18 @@ Result<std::vector<Setting>> parse_settings(std::string_view text, std::string_v
     return settings;
 }
 
+std::vector<Setting> merged(const std::vector<Setting>& settings) {
+    std::vector<Setting> last;
+    for (const Setting& setting : settings) {
+        const auto known = std::ranges::find(last, setting.name, &Setting::name);
+        if (known != last.end())
+            known->value = setting.value;
+        else
+            last.push_back(setting);
+    }
+    return last;
+}
+
 std::string to_string(const std::vector<Setting>& settings) {
     std::string text;
     for (const Setting& setting : settings)

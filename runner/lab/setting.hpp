@@ -32,6 +32,9 @@ Result<Axis> parse_axis(std::string_view text, std::string_view option);
 /// `NAME=V,NAME=V`. As above.
 Result<std::vector<Setting>> parse_settings(std::string_view text, std::string_view option);
 
+/// Each knob once, with the value that was given last: what apply would leave.
+std::vector<Setting> merged(const std::vector<Setting>& settings);
+
 /// `a = 1, b = 2`; "defaults" when there are none.
 std::string to_string(const std::vector<Setting>& settings);
 

@@ -3,9 +3,11 @@
 #include "glsl/hit.hpp"
 
 #include <GL/glcorearb.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <chrono>
+#include <set>
 
 namespace tidemark::lab {
 namespace {
@@ -52,9 +54,11 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
         return fail(std::move(set.error()));
     Specimen specimen;
     specimen.extent_ = extent;
+    specimen.precision_ = recipe.precision;
     specimen.hit_scene_ = glsl::hit_scene(*set);
     const Moment start = now();
-    auto renderer = render::Renderer::create(*std::move(set), {extent, image::SampleType::f32, ""});
+    auto renderer =
+        render::Renderer::create(*std::move(set), {extent, image::SampleType::f32, "", recipe.precision});
     if (!renderer)
         return fail(std::move(renderer.error()));
     specimen.compile_milliseconds_ = between(start, now()).wall;
@@ -74,13 +78,22 @@ image::Image Specimen::picture(const View& view) {
 
 Result<Hits> Specimen::hits(const View& view) {
     if (!hit_renderer_) {
-        auto renderer = render::Renderer::create(*hit_scene_, {extent_, image::SampleType::f32, ""});
+        auto renderer =
+            render::Renderer::create(*hit_scene_, {extent_, image::SampleType::f32, "", precision_});
         if (!renderer)
             return fail(std::move(renderer.error()));
         hit_renderer_ = *std::move(renderer);
     }
     draw(*hit_renderer_, view);
     return hits_of(hit_renderer_->read_back());
+}
+
+std::vector<std::string> Specimen::kept_hashes() const {
+    std::set<std::string> names;
+    for (const render::PlannedPass& planned : renderer_->plan().passes)
+        for (const glsl::KeptHash& hash : renderer_->kept_hashes(planned.pass))
+            names.insert(hash.function.empty() ? fmt::format("line {}", hash.where.line) : hash.function);
+    return {names.begin(), names.end()};
 }
 
 Specimen::Cost Specimen::time(const View& view) {

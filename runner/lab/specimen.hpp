@@ -15,6 +15,7 @@ namespace tidemark::lab {
 /// How one of a study's pictures is made.
 struct Recipe {
     std::vector<Setting> settings;
+    glsl::Precision precision = glsl::Precision::single;
 };
 
 class Specimen {
@@ -36,6 +37,9 @@ public:
     };
     Cost time(const View& view);
 
+    /// What computes in floats although the recipe says double: hashes, by the names of their functions.
+    std::vector<std::string> kept_hashes() const;
+
     double compile_milliseconds() const { return compile_milliseconds_; }
     /// The first frame, in which drivers compile what they put off.
     double first_draw_milliseconds() const { return first_draw_milliseconds_; }
@@ -44,6 +48,7 @@ private:
     Specimen() = default;
 
     Extent extent_;
+    glsl::Precision precision_ = glsl::Precision::single;
     std::optional<render::Renderer> renderer_;
     std::optional<scene::Scene> hit_scene_;
     std::optional<render::Renderer> hit_renderer_;

@@ -32,7 +32,7 @@ double quantile(std::vector<double> values, double part) {
 }
 
 Interval bootstrap(size_t count, const std::function<double(const std::vector<size_t>& rows)>& of) {
-    if (count == 0)
+    if (count < k_fewest_runs)
         return {std::nan(""), std::nan("")};
     std::mt19937 random(20240607);
     std::vector<double> found;
@@ -70,7 +70,7 @@ TimeSummary summary_of(const std::vector<double>& values) {
     summary.first_quartile = quantile_of_sorted(sorted, 0.25);
     summary.third_quartile = quantile_of_sorted(sorted, 0.75);
     summary.confidence = bootstrap_median(values);
-    if (const size_t third = values.size() / 3; third >= 3) {
+    if (const size_t third = values.size() / 3; third >= k_fewest_runs) {
         const std::vector<double> first(values.begin(), values.begin() + ptrdiff_t(third));
         const std::vector<double> last(values.end() - ptrdiff_t(third), values.end());
         summary.drift = median(last) / median(first);

@@ -29,6 +29,9 @@ struct Interval {
 Interval bootstrap(size_t count, const std::function<double(const std::vector<size_t>& rows)>& of);
 Interval bootstrap_median(const std::vector<double>& values);
 
+/// Of fewer values there is no interval worth the name: it is NaN, and contains and overlaps nothing.
+inline constexpr size_t k_fewest_runs = 5;
+
 /// A time as a report gives it, milliseconds.
 struct TimeSummary {
     size_t runs = 0;

@@ -28,6 +28,29 @@ std::string float_text(double number) {
 
 constexpr double k_largest_int = 1 << 30;
 
+/// A number times a factor, of the kind it is; nothing where a whole number would leave 1 to 2^30.
+std::optional<std::string> scaled(const std::string& text, double factor) {
+    const auto number = number_of(text);
+    if (!number)
+        return std::nullopt;
+    const double value = *number * factor;
+    if (!is_int(text))
+        return float_text(value);
+    if (std::abs(value) < 1 || std::abs(value) > k_largest_int)
+        return std::nullopt;
+    return fmt::format("{}", std::llround(value));
+}
+
+/// From one value of the axis to the next; nothing for texts, a single value, a change of sign.
+std::optional<double> ratio_of(const Axis& axis) {
+    if (axis.values.size() < 2)
+        return std::nullopt;
+    const auto last = number_of(axis.values.back()), before = number_of(axis.values[axis.values.size() - 2]);
+    if (!last || !before || *last * *before <= 0 || *last == *before)
+        return std::nullopt;
+    return *last / *before;
+}
+
 } // namespace
 
 std::optional<std::string> beyond(const Axis& axis, int steps) {
@@ -35,19 +58,11 @@ std::optional<std::string> beyond(const Axis& axis, int steps) {
         return std::nullopt;
     if (steps == 0)
         return axis.values.back();
-    if (axis.values.size() < 2)
+    const auto ratio = ratio_of(axis);
+    if (!ratio)
         return std::nullopt;
-    const auto last = number_of(axis.values.back()), before = number_of(axis.values[axis.values.size() - 2]);
-    if (!last || !before || *last * *before <= 0 || *last == *before)
-        return std::nullopt;
-    double ratio = *last / *before;
-    ratio = ratio > 1 ? std::max(ratio, 2.0) : std::min(ratio, 0.5);
-    const double value = *last * std::pow(ratio, steps);
-    if (!is_int(axis.values.back()))
-        return float_text(value);
-    if (std::abs(value) < 1 || std::abs(value) > k_largest_int)
-        return std::nullopt;
-    return fmt::format("{}", std::llround(value));
+    return scaled(axis.values.back(),
+                  std::pow(*ratio > 1 ? std::max(*ratio, 2.0) : std::min(*ratio, 0.5), steps));
 }
 
 std::vector<Axis> axes_of(const Study& study) {
@@ -70,26 +85,23 @@ std::vector<Axis> axes_of(const Study& study) {
 
 std::vector<Setting> strictest(const Study& study, int steps) {
     std::vector<Setting> settings;
-    const auto further = [&](const Axis& axis) {
-        for (int i = steps; i >= 0; --i)
-            if (auto value = beyond(axis, i)) {
-                settings.push_back({axis.name, *std::move(value)});
-                return;
-            }
-    };
     if (study.reference.empty()) {
         for (const Axis& axis : axes_of(study))
-            further(axis);
+            for (int i = steps; i >= 0; --i)
+                if (auto value = beyond(axis, i)) {
+                    settings.push_back({axis.name, *std::move(value)});
+                    break;
+                }
         return settings;
     }
-    for (const Setting& fixed : study.reference) {
-        // In the direction in which some series goes: its last value, then the reference's.
-        Axis axis{fixed.name, {fixed.value}};
+    for (const Setting& named : study.reference) {
+        settings.push_back(named);
+        // Twice or half, as some series goes.
         for (const Series& series : study.series)
-            for (const Axis& turned : series.axes)
-                if (turned.name == fixed.name && turned.values.back() != fixed.value)
-                    axis.values = {turned.values.back(), fixed.value};
-        further(axis);
+            for (const Axis& axis : series.axes)
+                if (const auto ratio = ratio_of(axis); ratio && axis.name == named.name && steps > 0)
+                    settings.back().value =
+                        scaled(named.value, std::pow(*ratio > 1 ? 2.0 : 0.5, steps)).value_or(named.value);
     }
     return settings;
 }

@@ -18,7 +18,8 @@ std::optional<std::string> beyond(const Axis& axis, int steps);
 std::vector<Axis> axes_of(const Study& study);
 
 /// The settings at which the study is most exact, `steps` further than it goes itself: its reference settings
-/// where it names some, else the end of each axis. Equal to those of `steps` - 1 where nothing can go on.
+/// where it names some, twice as strict at each step, else the end of each axis. Equal to those of `steps` -
+/// 1 where nothing can go on.
 std::vector<Setting> strictest(const Study& study, int steps);
 
 } // namespace tidemark::lab

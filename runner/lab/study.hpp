@@ -29,6 +29,7 @@ struct Series {
 struct ErrorSource {
     std::string name; ///< "budget", "epsilon", "model"
     std::vector<Setting> settings;
+    bool doubles = false; ///< from here on in double precision: its share is the rounding's
 };
 
 /// What a picture must be to be good enough for the report's sentence.
@@ -45,6 +46,7 @@ struct Study {
     std::vector<Setting>
         reference; ///< empty: the strictest values of the axes, made stricter until nothing moves
     std::vector<ErrorSource> sources;
+    std::vector<Setting> model; ///< what the scene would be without its approximations of what it shows
     std::vector<std::string> omissions; ///< what was left out, and why
     Promise promise;
 };

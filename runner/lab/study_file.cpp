@@ -17,7 +17,8 @@ public:
 
     Result<Study> read(const Json& json) {
         Study study;
-        known(json, "", {"about", "size", "views", "series", "reference", "sources", "omissions", "promise"});
+        known(json, "",
+              {"about", "size", "views", "series", "reference", "sources", "model", "omissions", "promise"});
         if (json.contains("about"))
             study.about = string_of(json["about"], "/about");
         if (json.contains("size"))
@@ -27,9 +28,11 @@ public:
         each(json, "series", "",
              [&](const Json& item, const std::string& at) { study.series.push_back(series(item, at)); });
         study.reference = settings(json, "reference", "");
+        study.model = settings(json, "model", "");
         each(json, "sources", "", [&](const Json& item, const std::string& at) {
-            known(item, at, {"name", "set"});
-            study.sources.push_back({required(item, "name", at), settings(item, "set", at)});
+            known(item, at, {"name", "set", "precision"});
+            study.sources.push_back(
+                {required(item, "name", at), settings(item, "set", at), doubles(item, at)});
         });
         each(json, "omissions", "", [&](const Json& item, const std::string& at) {
             study.omissions.push_back(string_of(item, at));
@@ -200,6 +203,15 @@ private:
         found.settings = settings(json, "set", at);
         found.axes = axes(json, at);
         return found;
+    }
+
+    bool doubles(const Json& json, const std::string& at) {
+        if (!json.is_object() || !json.contains("precision"))
+            return false;
+        const std::string precision = string_of(json["precision"], at + "/precision");
+        if (precision != "single" && precision != "double")
+            wrong(at + "/precision", "is single or double");
+        return precision == "double";
     }
 
     Promise promise(const Json& json) {

@@ -1,9 +1,8 @@
 #include "lab/timing.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 namespace tidemark::lab {
 namespace {
@@ -15,92 +14,105 @@ double load_average() {
     return ::getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-/// One point on one view.
-struct Unit {
-    size_t point;
-    size_t view;
-};
-
-std::vector<double> by_round(const std::vector<std::vector<double>>& views) {
-    std::vector<double> means;
-    for (size_t round = 0; round < views.front().size(); ++round) {
-        double sum = 0;
-        for (const auto& rounds : views)
-            sum += rounds[round];
-        means.push_back(sum / double(views.size()));
-    }
-    return means;
+/// Without the rounds that it did not take part in.
+std::vector<double> present(std::vector<double> rounds) {
+    std::erase_if(rounds, [](double value) { return std::isnan(value); });
+    return rounds;
 }
 
-/// From the single runs to the summaries. Rounds that were not finished are cut off.
-void summarise(WorkPrecision& point, size_t rounds) {
-    for (auto* clock : {&point.wall, &point.cpu})
-        for (std::vector<double>& runs : *clock)
-            runs.resize(rounds);
+/// From the single runs to the summaries.
+void summarise(WorkPrecision& point) {
     for (size_t view = 0; view < point.views.size(); ++view) {
-        point.views[view].time = summary_of(point.wall[view]);
-        point.views[view].cpu = summary_of(point.cpu[view]);
+        point.views[view].time = summary_of(present(point.wall[view]));
+        point.views[view].cpu = summary_of(present(point.cpu[view]));
     }
-    point.all.time = summary_of(by_round(point.wall));
-    point.all.cpu = summary_of(by_round(point.cpu));
+    point.all.time = summary_of(present(mean_of_views(point.wall)));
+    point.all.cpu = summary_of(present(mean_of_views(point.cpu)));
 }
+
+/// Draws points on views and keeps the clocks.
+class Timer {
+public:
+    Timer(const Watch& watch, std::vector<std::optional<Specimen>>& specimens, WorkPrecisionSet& set)
+        : watch_(watch), specimens_(specimens), set_(set), seconds_(set.points.size(), 0.0) {}
+
+    /// One round of the points for which `takes_part` holds. False: stopped.
+    template <class TakesPart>
+    bool round(size_t number, bool keep, TakesPart takes_part) {
+        const size_t views = set_.study.views.size();
+        if (keep)
+            make_room();
+        for (const size_t place : shuffled(set_.points.size() * views, k_seed + unsigned(number))) {
+            const size_t index = place / views, view = place % views;
+            WorkPrecision& point = set_.points[index];
+            if (!point.measured() || !takes_part(index))
+                continue;
+            if (!watch_.keep_going())
+                return false;
+            const Specimen::Cost cost = specimens_[index]->time(set_.study.views[view]);
+            if (keep) {
+                point.wall[view].back() = cost.wall;
+                point.cpu[view].back() = cost.cpu;
+            } else if (number == 0) {
+                seconds_[index] += cost.wall * 1e-3;
+            }
+        }
+        watch_.advance();
+        return true;
+    }
+
+    /// What round 0 cost of one point on all views.
+    double seconds(size_t point) const { return seconds_[point]; }
+
+private:
+    /// A place for one more round, not a number until it is run.
+    void make_room() {
+        for (WorkPrecision& point : set_.points)
+            for (auto* clock : {&point.wall, &point.cpu}) {
+                clock->resize(set_.study.views.size());
+                for (std::vector<double>& rounds : *clock)
+                    rounds.push_back(std::nan(""));
+            }
+    }
+
+    const Watch& watch_;
+    std::vector<std::optional<Specimen>>& specimens_;
+    WorkPrecisionSet& set_;
+    std::vector<double> seconds_;
+};
 
 } // namespace
 
-Rounds rounds_within(const Timing& timing, double round_seconds) {
-    const double affordable = round_seconds > 0 ? timing.budget / round_seconds : 1e9;
-    const size_t wanted = timing.warm_up_rounds + timing.rounds;
-    if (affordable >= double(wanted))
-        return {timing.warm_up_rounds, timing.rounds};
-    const auto total = std::max<size_t>(2, size_t(affordable));
-    const size_t warm_up = std::min(timing.warm_up_rounds, std::max<size_t>(1, total / 4));
-    return {warm_up, std::min(timing.rounds, total - warm_up)};
+bool takes_part(size_t round, size_t affordable, size_t total) {
+    return affordable >= total || (round + 1) * affordable / total > round * affordable / total;
 }
 
 bool time_points(const Timing& timing, const Watch& watch, std::vector<std::optional<Specimen>>& specimens,
                  WorkPrecisionSet& set) {
-    std::vector<Unit> units;
-    const size_t views = set.study.views.size();
-    for (size_t i = 0; i < set.points.size(); ++i) {
-        if (!set.points[i].measured())
-            continue;
-        set.points[i].wall.resize(views);
-        set.points[i].cpu.resize(views);
-        for (size_t view = 0; view < views; ++view)
-            units.push_back({i, view});
-    }
-    const auto round = [&](size_t number, bool keep) {
-        for (const size_t place : shuffled(units.size(), k_seed + unsigned(number))) {
-            const Unit unit = units[place];
-            if (!watch.keep_going())
-                return false;
-            const Specimen::Cost cost = specimens[unit.point]->time(set.study.views[unit.view]);
-            if (keep) {
-                set.points[unit.point].wall[unit.view].push_back(cost.wall);
-                set.points[unit.point].cpu[unit.view].push_back(cost.cpu);
-            }
-        }
-        watch.advance();
-        return true;
-    };
     Circumstances& facts = set.circumstances;
     facts.load_before = load_average();
+    Timer timer(watch, specimens, set);
     watch.begin("trial round", 1);
-    const auto start = std::chrono::steady_clock::now();
-    bool going = round(0, false);
-    const std::chrono::duration<double> trial = std::chrono::steady_clock::now() - start;
-    const Rounds rounds = rounds_within(timing, trial.count());
-    watch.begin("rounds timed", rounds.warm_up + rounds.timed - 1);
-    for (facts.warm_up_rounds = 1; going && facts.warm_up_rounds < rounds.warm_up; ++facts.warm_up_rounds)
-        going = round(facts.warm_up_rounds, false);
-    while (going && facts.timed_rounds < rounds.timed) {
-        going = round(rounds.warm_up + facts.timed_rounds, true);
-        facts.timed_rounds += going;
+    bool going = timer.round(0, false, [](size_t) { return true; });
+    const double share = timing.budget / double(std::max<size_t>(1, set.points.size()));
+    const size_t total = timing.warm_up_rounds + timing.rounds;
+    std::vector<size_t> affordable;
+    for (size_t i = 0; i < set.points.size(); ++i) {
+        const double rounds = share / std::max(timer.seconds(i), 1e-6);
+        affordable.push_back(size_t(std::clamp(rounds, 1.0, double(total))));
     }
+    watch.begin("rounds timed", total - 1);
+    for (size_t number = 1; going && number < total; ++number) {
+        const bool keep = number >= timing.warm_up_rounds;
+        going = timer.round(number, keep,
+                            [&](size_t point) { return takes_part(number, affordable[point], total); });
+        facts.timed_rounds += keep && going;
+    }
+    facts.warm_up_rounds = timing.warm_up_rounds;
     facts.load_after = load_average();
     for (WorkPrecision& point : set.points)
-        if (point.measured())
-            summarise(point, facts.timed_rounds);
+        if (point.measured() && !point.wall.empty())
+            summarise(point);
     return going;
 }
 

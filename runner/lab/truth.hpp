@@ -35,10 +35,13 @@ struct PictureTruth {
     std::vector<image::Image> views;
     std::vector<Hits> hits; ///< empty without mainHit
     Standard hit_standard;
+    std::vector<Setting> settings; ///< that it was drawn with
+    std::string not_promoted;      ///< why it is in single precision, where it is
 };
 
 /// Draws the scene with the study's reference settings or, without any, with the strictest value of every
-/// axis, made stricter until the picture stays the same. `keep_going` false: the best so far.
+/// axis, made stricter until the picture stays the same; then once more with these settings in double
+/// precision, which is the truth where the scene can be promoted. `keep_going` false: the best so far.
 Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
                                         const KeepGoing& keep_going);
 

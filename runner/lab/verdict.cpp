@@ -29,15 +29,6 @@ const WorkPrecision* cheapest(const WorkPrecisionSet& set, Wanted wanted) {
     return best;
 }
 
-/// Mean over views of each round.
-std::vector<double> rounds_of(const WorkPrecision& point) {
-    std::vector<double> means(point.wall.front().size(), 0.0);
-    for (const std::vector<double>& view : point.wall)
-        for (size_t i = 0; i < means.size(); ++i)
-            means[i] += view[i] / double(point.wall.size());
-    return means;
-}
-
 std::string promise_of(const WorkPrecisionSet& set) {
     const Promise& promise = set.study.promise;
     return (set.has_hits() ? fmt::format("wrong <= {:g} % and ", promise.most_wrong_percent) : "") +
@@ -45,8 +36,11 @@ std::string promise_of(const WorkPrecisionSet& set) {
 }
 
 std::string cost_of(const WorkPrecision& point) {
-    return fmt::format("{} ms [{}, {}]", figure(point.all.time.median), figure(point.all.time.confidence.low),
-                       figure(point.all.time.confidence.high));
+    const TimeSummary& time = point.all.time;
+    if (std::isnan(time.confidence.low))
+        return fmt::format("{} ms, too few rounds for an interval", figure(time.median));
+    return fmt::format("{} ms [{}, {}]", figure(time.median), figure(time.confidence.low),
+                       figure(time.confidence.high));
 }
 
 std::string quality_of(const WorkPrecisionSet& set, const WorkPrecision& point) {
@@ -70,7 +64,10 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
     if (!best || !timed(defaults))
         return {};
     const auto gain = speedup(defaults, *best);
-    if (best == &defaults || !gain)
+    if (best != &defaults && !gain)
+        return fmt::format("no verdict at equal error: too few rounds of {} and the defaults fit the budget",
+                           best->point.label);
+    if (best == &defaults)
         return "nothing in this study is as exact as the scene's defaults and cheaper";
     if (!gain->certain())
         return fmt::format(
@@ -91,11 +88,13 @@ std::string figure(double value) {
 std::optional<Speedup> speedup(const WorkPrecision& slow, const WorkPrecision& fast) {
     if (!timed(slow) || !timed(fast))
         return std::nullopt;
-    const std::vector<double> a = rounds_of(slow), b = rounds_of(fast);
-    const size_t rounds = std::min(a.size(), b.size());
+    const std::vector<double> a = mean_of_views(slow.wall), b = mean_of_views(fast.wall);
     std::vector<double> ratios;
-    for (size_t i = 0; i < rounds; ++i)
-        ratios.push_back(a[i] / b[i]);
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        if (!std::isnan(a[i] / b[i]))
+            ratios.push_back(a[i] / b[i]);
+    if (ratios.size() < k_fewest_runs)
+        return std::nullopt;
     return Speedup{median(ratios), bootstrap_median(ratios)};
 }
 

@@ -29,6 +29,14 @@ std::string error_name(const WorkPrecisionSet& set) {
     return set.has_hits() ? "RMS error of the hit distance" : "RMSE of the picture";
 }
 
+std::vector<double> mean_of_views(const std::vector<std::vector<double>>& clock) {
+    std::vector<double> means(clock.empty() ? 0 : clock.front().size(), 0.0);
+    for (const std::vector<double>& view : clock)
+        for (size_t i = 0; i < means.size(); ++i)
+            means[i] += view[i] / double(clock.size());
+    return means;
+}
+
 void judge(WorkPrecisionSet& set) {
     const auto& uncertainty =
         set.has_hits() ? set.hit_standard.uncertainty : set.picture_standard.uncertainty;

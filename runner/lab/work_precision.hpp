@@ -40,7 +40,8 @@ struct WorkPrecision {
     std::vector<Outcome> views; ///< one for each view of the study
     Outcome all;                ///< the views together: errors over all their pixels, time the mean of theirs
     std::vector<Share> shares;
-    /// Milliseconds of each timed run, by view and round: rounds are comparable between points.
+    /// Milliseconds of each timed run, by view and round, NaN in rounds without this point: rounds are
+    /// comparable between points.
     std::vector<std::vector<double>> wall;
     std::vector<std::vector<double>> cpu;
     double compile_milliseconds = 0;
@@ -89,6 +90,9 @@ struct WorkPrecisionSet {
 /// The error that diagrams and verdicts are about: RMS of t where there are hits, else RMSE of the picture.
 double error_of(const WorkPrecisionSet& set, const Outcome& outcome);
 std::string error_name(const WorkPrecisionSet& set);
+
+/// The mean over the views of each round, from `wall` or `cpu`.
+std::vector<double> mean_of_views(const std::vector<std::vector<double>>& clock);
 
 /// Marks hollow points and the Pareto front of error and median time.
 void judge(WorkPrecisionSet& set);

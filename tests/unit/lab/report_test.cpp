@@ -1,0 +1,193 @@
+// What is said of a study, made by hand so that the right answers are known.
+#include "lab/baseline.hpp"
+#include "lab/diagram.hpp"
+#include "lab/report_data.hpp"
+#include "lab/report_html.hpp"
+#include "lab/timing.hpp"
+#include "lab/verdict.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace tidemark::lab {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A point of a picture-only study with that error and about that time in each of 30 rounds.
+WorkPrecision point(size_t series, const std::string& label, double rmse, double milliseconds) {
+    WorkPrecision made;
+    made.point = {series, label, label, {{"N", label}}};
+    Outcome outcome;
+    outcome.picture.samples.rmse = rmse;
+    outcome.picture.samples.psnr = -20 * std::log10(rmse);
+    std::vector<double> rounds;
+    for (int i = 0; i < 30; ++i)
+        rounds.push_back(milliseconds * (1 + 0.01 * (i * 7 % 5)));
+    outcome.time = summary_of(rounds);
+    made.wall = made.cpu = {rounds};
+    made.views = {outcome};
+    made.all = outcome;
+    return made;
+}
+
+WorkPrecisionSet set_of(std::vector<WorkPrecision> points) {
+    WorkPrecisionSet set;
+    set.study.views = {{"first", 1, {}, {}}};
+    set.study.series = {{"N <of it>", Trust::heuristic, {}, {{"N", {}}}}};
+    set.picture_standard = {"itself", 1e-5, "compared"};
+    set.circumstances.renderer = "some GPU";
+    set.points = std::move(points);
+    judge(set);
+    return set;
+}
+
+WorkPrecisionSet usual() {
+    return set_of({point(1, "defaults", 0.01, 20), point(0, "8", 0.1, 5), point(0, "16", 0.009, 10),
+                   point(0, "32", 0.001, 40), point(0, "64", 0.002, 80), point(0, "128", 5e-5, 90)});
+}
+
+TEST(Judge, finds_the_front_and_what_is_too_near_the_reference) {
+    std::vector<bool> front, hollow;
+    for (const WorkPrecision& p : usual().points) {
+        front.push_back(p.on_front);
+        hollow.push_back(p.hollow);
+    }
+    EXPECT_THAT(front, ElementsAre(false, true, true, true, false, true));
+    EXPECT_THAT(hollow, ElementsAre(false, false, false, false, false, true));
+}
+
+TEST(Verdict, names_the_cheapest_that_is_good_enough_and_the_gain_at_equal_error) {
+    const WorkPrecisionSet set = usual();
+    EXPECT_EQ(cheapest_good(set)->point.label, "32"); // 60 dB; "16" has 41
+    EXPECT_EQ(cheapest_as_exact(set)->point.label, "16");
+    const auto gain = speedup(set.points[0], set.points[2]);
+    ASSERT_TRUE(gain);
+    EXPECT_NEAR(gain->ratio, 2.0, 1e-9);
+    EXPECT_TRUE(gain->certain());
+    EXPECT_THAT(sentences(set), testing::Contains(HasSubstr("at equal error 2.00 x [2.00, 2.00] faster")));
+    EXPECT_THAT(sentences(set)[0], HasSubstr("cheapest setting with PSNR >= 50 dB: 32 (40.8 ms"));
+}
+
+TEST(Verdict, is_withheld_where_noise_decides) {
+    WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 10), point(0, "8", 0.01, 9.99)});
+    for (size_t i = 0; i < 30; ++i)
+        set.points[1].wall[0][i] *= i % 2 ? 0.8 : 1.25;
+    EXPECT_THAT(sentences(set),
+                testing::Contains(HasSubstr("nothing is faster than the scene's defaults beyond noise")));
+    set.points[1].wall[0].resize(3);
+    EXPECT_EQ(speedup(set.points[0], set.points[1]), std::nullopt);
+    EXPECT_THAT(sentences(set), testing::Contains(HasSubstr("no verdict at equal error")));
+}
+
+TEST(Verdict, says_when_nothing_is_good_enough_and_when_it_was_cut_short) {
+    WorkPrecisionSet set = set_of({point(1, "defaults", 0.1, 10)});
+    set.circumstances.complete = false;
+    EXPECT_THAT(sentences(set),
+                ElementsAre("no setting of this study has PSNR >= 50 dB",
+                            "nothing in this study is as exact as the scene's defaults and cheaper",
+                            "incomplete: the study was interrupted"));
+}
+
+TEST(Data, json_has_everything_and_null_for_what_is_no_number) {
+    WorkPrecisionSet set = usual();
+    set.points[1].all.picture.samples.psnr = INFINITY;
+    set.points[2].failure = "it broke";
+    const auto json = nlohmann::json::parse(to_json(set));
+    EXPECT_EQ(json["schema"], "tidemark study 1");
+    EXPECT_EQ(json["points"].size(), 6u);
+    EXPECT_TRUE(json["points"][1]["all"]["picture"]["psnr_db"].is_null());
+    EXPECT_EQ(json["points"][0]["views"]["first"]["wall_ms"]["runs"], 30);
+    EXPECT_EQ(json["points"][2]["failure"], "it broke");
+    EXPECT_FALSE(json["points"][0]["all"].contains("hits"));
+    EXPECT_EQ(json["references"]["picture"]["uncertainty"], 1e-5);
+}
+
+TEST(Data, csv_has_a_row_for_each_view_and_quotes_what_needs_it) {
+    WorkPrecisionSet set = usual();
+    set.points[0].point.label = "a \"b\", c";
+    const std::string csv = to_csv(set);
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 * 6);
+    EXPECT_THAT(csv, HasSubstr("\"a \"\"b\"\", c\""));
+    const std::string head = csv.substr(0, csv.find('\n'));
+    const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+    EXPECT_EQ(std::ranges::count(head, ','), std::ranges::count(last, ','));
+}
+
+TEST(Diagram, draws_every_series_the_front_and_hollow_points) {
+    const std::string script = diagram_script(usual(), Cost::time, "error-vs-time");
+    EXPECT_THAT(script, HasSubstr("set output 'error-vs-time.svg'"));
+    EXPECT_THAT(script, HasSubstr("set logscale xy"));
+    EXPECT_THAT(script, HasSubstr("title 'N <of it> (heuristic)'"));
+    EXPECT_THAT(script, HasSubstr("$front << EOD"));
+    EXPECT_THAT(script, HasSubstr("5e-05"));
+    EXPECT_EQ(diagram_script(usual(), Cost::work, "w"), ""); // no hits, no work
+}
+
+TEST(Diagram, texts_are_no_commands) {
+    WorkPrecisionSet set = usual();
+    set.study.series[0].name = "x'; system('rm') ; \n'";
+    set.points[1].point.knob = "a\"b";
+    const std::string script = diagram_script(set, Cost::time, "t");
+    EXPECT_THAT(script, HasSubstr("title 'x''; system(''rm'') ;  '' (heuristic)'"));
+    EXPECT_THAT(script, HasSubstr("\"a'b\""));
+}
+
+TEST(Html, escapes_and_needs_no_network) {
+    WorkPrecisionSet set = usual();
+    set.points[2].failure = "a <b> & c";
+    set.study.omissions = {"left <out>"};
+    const std::string html = to_html(
+        set,
+        {{}, {{"reference", "data:image/png;base64,AA=="}, {"<8>", "data:image/png;base64,BB=="}}, "first"});
+    EXPECT_THAT(html, HasSubstr("a &lt;b&gt; &amp; c"));
+    EXPECT_THAT(html, HasSubstr("left &lt;out&gt;"));
+    EXPECT_THAT(html, HasSubstr("&lt;8&gt;"));
+    EXPECT_THAT(html, Not(HasSubstr("http")));
+    EXPECT_THAT(html, Not(HasSubstr("<of it>")));
+}
+
+TEST(Baseline, tells_what_became_slower_or_more_wrong_and_nothing_else) {
+    const std::string old = to_json(usual());
+    const auto same = compare_with(old, "old.json", usual());
+    ASSERT_TRUE(same) << to_string(same.error());
+    EXPECT_THAT(same->worse, ElementsAre());
+    EXPECT_EQ(same->compared, 6u);
+    const auto changed = compare_with(
+        old, "old.json",
+        set_of({point(1, "defaults", 0.02, 20), point(0, "8", 0.1, 7), point(0, "16", 0.0085, 10.2)}));
+    ASSERT_TRUE(changed);
+    EXPECT_THAT(changed->worse,
+                ElementsAre(HasSubstr("defaults: more wrong: RMSE of the picture 0.01 -> 0.02"),
+                            HasSubstr("8: slower: 5.1 ms -> 7.14 ms")));
+}
+
+TEST(Baseline, of_another_machine_or_another_study_is_told) {
+    const std::string old = to_json(usual());
+    WorkPrecisionSet elsewhere = set_of({point(1, "defaults", 0.01, 200)});
+    elsewhere.circumstances.renderer = "another GPU";
+    const auto found = compare_with(old, "old.json", elsewhere);
+    EXPECT_THAT(found->worse, ElementsAre());
+    EXPECT_THAT(found->notes, ElementsAre("times are not compared: the baseline is of another machine"));
+    WorkPrecisionSet other = usual();
+    other.study.views[0].time = 2;
+    EXPECT_EQ(compare_with(old, "old.json", other).error().message,
+              "--baseline 'old.json': that study has other views or another size");
+    for (const char* bad : {"{}", "[]", "3", "{\"schema\": \"tidemark study 1\"}"})
+        EXPECT_FALSE(compare_with(bad, "old.json", usual())) << bad;
+}
+
+TEST(Timing, rounds_are_spread_evenly_and_end_together) {
+    for (const size_t affordable : {1, 3, 17, 39, 40, 100}) {
+        size_t rounds = 0;
+        for (size_t round = 0; round < 40; ++round)
+            rounds += takes_part(round, affordable, 40);
+        EXPECT_EQ(rounds, std::min<size_t>(affordable, 40));
+        EXPECT_TRUE(takes_part(39, affordable, 40));
+    }
+}
+
+} // namespace
+} // namespace tidemark::lab
