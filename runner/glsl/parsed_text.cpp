@@ -39,14 +39,24 @@ std::string ParsedText::excerpt(NodeId id) const {
     const Node& node = tree_[id];
     std::string text;
     for (size_t i = node.begin; i < node.end; ++i) {
-        const Word& word = expansion_.words[i];
-        const bool follows = i > node.begin && word.spelled >= expansion_.words[i - 1].spelled;
-        const text::Token& token = tokens_[word.spelled];
-        if (i > node.begin && !(follows && token.glued))
+        if (i > node.begin && stand_apart(expansion_.words[i - 1], expansion_.words[i]))
             text += ' ';
-        text += word.text;
+        text += expansion_.words[i].text;
     }
     return text;
+}
+
+/// As they do in the author's text where they are neighbours there; else as people write it.
+bool ParsedText::stand_apart(const Word& left, const Word& right) const {
+    const text::Token& token = tokens_[right.spelled];
+    const bool neighbours = right.spelled > left.spelled && tokens_[left.spelled].begin + left.text.size() <= token.begin &&
+                            right.spelled - left.spelled <= left.text.size();
+    if (neighbours)
+        return !token.glued;
+    constexpr std::string_view k_sticks_left = ")],;.(";
+    constexpr std::string_view k_sticks_right = "([.!~";
+    return k_sticks_left.find(right.text[0]) == std::string_view::npos &&
+           k_sticks_right.find(left.text.back()) == std::string_view::npos;
 }
 
 } // namespace tidemark::glsl

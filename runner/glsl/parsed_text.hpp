@@ -42,6 +42,7 @@ public:
 private:
     explicit ParsedText(text::MappedText source) : source_(std::move(source)) {}
     SourceLocation place(size_t token) const;
+    bool stand_apart(const Word& left, const Word& right) const;
 
     text::MappedText source_;
     std::vector<text::Token> tokens_;

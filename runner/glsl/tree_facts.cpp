@@ -199,4 +199,8 @@ bool TreeFacts::writes_argument(std::string_view name, size_t index) const {
     return false;
 }
 
+TreeFacts find_facts(const ParsedText& text) {
+    return Collector(text).run();
+}
+
 } // namespace tidemark::glsl

@@ -262,9 +262,12 @@ private:
     bool wanted(NodeId id, Cover cover) const {
         if (contains(request_.repaired, id) || !is_watched_operation(text_, facts_, id))
             return false;
-        if (request_.within != k_no_node)
-            return tree_.is_within(id, request_.within);
-        return cover == Cover::open;
+        switch (request_.reach) {
+        case WatchRequest::Reach::statements: return cover == Cover::open;
+        case WatchRequest::Reach::operations: return tree_.is_within(id, request_.within);
+        case WatchRequest::Reach::everything: return true;
+        }
+        return false;
     }
 
     /// Opens what leads `id` through us; how many parentheses are to be closed by `close`.
@@ -384,7 +387,7 @@ private:
     void jump(NodeId id) {
         if (text_.word_of(id) != "discard")
             return raw(id);
-        put("{" + flush() + "discard;}");
+        put(fmt::format("{{{}discard;}}", flush()));
     }
 
     void loop(NodeId id) {

@@ -14,8 +14,13 @@ namespace tidemark::glsl {
 
 /// What to watch, and what to change. A node that is watched is known by its number in the tree.
 struct WatchRequest {
-    /// Each statement's own results alone, which is cheap; or every operation below `within`.
-    NodeId within = k_no_node; ///< k_no_node: statements
+    enum class Reach {
+        statements, ///< what statements store, return and pass on: cheap
+        operations, ///< every operation below `within`
+        everything,
+    };
+    Reach reach = Reach::statements;
+    NodeId within = k_no_node;
     /// Its operands are written down, with loops and calls on the way. Below `within`.
     NodeId capture = k_no_node;
     std::vector<NodeId> repaired; ///< give 0.5 where they are not finite
