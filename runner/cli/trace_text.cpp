@@ -26,13 +26,24 @@ std::string operands(const Birth& birth) {
     return text;
 }
 
+/// Whether the statement does nothing but store or return what the operation gives.
+bool says_all(const Birth& birth) {
+    if (!birth.statement.ends_with(birth.operation))
+        return false;
+    std::string_view before(birth.statement);
+    before.remove_suffix(birth.operation.size());
+    while (before.ends_with(' '))
+        before.remove_suffix(1);
+    return before.empty() || before.ends_with('=') || before == "return";
+}
+
 /// "`d = a / b` gave +Inf: a = 0.31, b = 0 (division by zero)".
 std::string sentence(const Birth& birth) {
     const std::string_view value = birth.value ? lab::worst_of(*birth.value) : std::string_view{};
     std::string text = fmt::format("`{}` {}", birth.statement,
                                    value.empty() ? std::string("is the first that is not finite")
                                                  : fmt::format("gave {}", value));
-    if (birth.operation != birth.statement)
+    if (!says_all(birth))
         text += fmt::format(" in `{}`", birth.operation);
     text += operands(birth);
     if (!birth.why.reason.empty())

@@ -53,8 +53,10 @@ bool ParsedText::stand_apart(const Word& left, const Word& right) const {
                             right.spelled - left.spelled <= left.text.size();
     if (neighbours)
         return !token.glued;
-    constexpr std::string_view k_sticks_left = ")],;.(";
+    constexpr std::string_view k_sticks_left = ")],;.";
     constexpr std::string_view k_sticks_right = "([.!~";
+    if (right.is("(") || right.is("["))
+        return left.kind != text::TokenKind::identifier && k_sticks_right.find(left.text.back()) == std::string_view::npos;
     return k_sticks_left.find(right.text[0]) == std::string_view::npos &&
            k_sticks_right.find(left.text.back()) == std::string_view::npos;
 }

@@ -92,6 +92,17 @@ std::string origin_of(const WatchedText& watched, NodeId operation, const Explan
     return {};
 }
 
+/// `0.5`, `vec3(0.5)`, `-1.0`: its value says no more than its text.
+bool is_spelled_out(const WatchedText& watched, NodeId id) {
+    const glsl::Node& node = watched.text.tree()[id];
+    for (size_t i = node.begin; i < node.end; ++i) {
+        const glsl::Word& word = watched.text.words()[i];
+        if (word.kind == text::TokenKind::identifier && !watched.facts.is_type(word.text))
+            return false;
+    }
+    return true;
+}
+
 void add_way(Birth& birth, const WatchedText& watched, const glsl::Watch& watch, const WatchReading& reading) {
     const auto& words = reading.words;
     const glsl::SyntaxTree& tree = watched.text.tree();
@@ -170,8 +181,11 @@ void add_reading(Birth& birth, const WatchedText& watched, NodeId operation, con
         NodeId shown = node;
         while (tree[shown].kind == NodeKind::parenthesis)
             shown = tree.child(shown, 0);
-        if (tree[shown].kind != NodeKind::literal)
-            birth.operands.push_back({shortened(watched.text.excerpt(shown)), value});
+        std::string text = shortened(watched.text.excerpt(shown));
+        const bool told = std::any_of(birth.operands.begin(), birth.operands.end(),
+                                      [&](const TracedOperand& operand) { return operand.text == text; });
+        if (!told && !is_spelled_out(watched, shown))
+            birth.operands.push_back({std::move(text), value});
     }
     if (birth.value)
         birth.why = explain(operation_name(watched, operation), values, *birth.value);

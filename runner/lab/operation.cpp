@@ -222,7 +222,9 @@ std::string to_string(const ShaderValue& value) {
     if (value.size() == 1)
         return number(0);
     std::string text = value.shape.type == SlotType::matrix
-                           ? fmt::format("mat{}x{}(", value.shape.columns, value.shape.rows)
+                           ? value.shape.columns == value.shape.rows
+                                 ? fmt::format("mat{}(", value.shape.rows)
+                                 : fmt::format("mat{}x{}(", value.shape.columns, value.shape.rows)
                            : fmt::format("{}vec{}(",
                                          value.shape.type == SlotType::integer            ? "i"
                                          : value.shape.type == SlotType::unsigned_integer ? "u"

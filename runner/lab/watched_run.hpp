@@ -42,6 +42,9 @@ struct WatchReading {
     glsl::NodeId hit() const { return words[glsl::WatchLayout::k_hit]; }
 };
 
+/// The text of a pass in the plan as it was linked, read to its tree.
+Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass);
+
 /// The whole triangle is drawn and all but one pixel cut off, so that derivatives and everything else are as in
 /// the picture. Fails (ErrorCode::load) with the driver's words when it refuses the text.
 Result<WatchReading> read_pixel(const Moment& moment, const glsl::Watch& watch, PixelPlace pixel);
