@@ -51,7 +51,8 @@ Result<int> check_portable(const CheckOptions& options) {
 void add_trace_options(CLI::App& command, TraceOptions& options) {
     add_picture_options(command, options.frames);
     add_time_options(command, options.frames);
-    command.add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
+    command
+        .add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
         ->type_name("X,Y");
     command.add_flag("--hidden", options.hidden,
                      "Where all pixels are finite, trace a NaN that a clamp or a condition swallowed");

@@ -29,8 +29,8 @@ Result<std::optional<lab::PixelPlace>> parse_pixel(const std::string& text, Exte
             pixel.y < extent.height)
             return pixel;
     }
-    return fail(ErrorCode::usage,
-                fmt::format("--pixel {}: give x,y from the bottom left, within {}x{}", text, extent.width, extent.height));
+    return fail(ErrorCode::usage, fmt::format("--pixel {}: give x,y from the bottom left, within {}x{}", text,
+                                              extent.width, extent.height));
 }
 
 /// What the child tells: one object a line; the last is the best.
@@ -47,10 +47,14 @@ Json told(const Error& error) {
 
 Error error_of(const Json& line) {
     Error error{ErrorCode(line.at("code").get<int>()), line.at("error").get<std::string>(), {}};
-    for (const Json& d : line.at("diagnostics"))
-        error.diagnostics.push_back({{d[0].get<std::string>(), d[1].get<int>(), d[2].get<int>()},
-                                     Severity(d[3].get<int>()),
-                                     d[4].get<std::string>()});
+    for (const Json& d : line.at("diagnostics")) {
+        Diagnostic& diagnostic = error.diagnostics.emplace_back();
+        d[0].get_to(diagnostic.where.file);
+        d[1].get_to(diagnostic.where.line);
+        d[2].get_to(diagnostic.where.column);
+        diagnostic.severity = Severity(d[3].get<int>());
+        d[4].get_to(diagnostic.message);
+    }
     return error;
 }
 
@@ -65,7 +69,8 @@ Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const Trac
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
-    auto renderer = render::Renderer::create(scene, {frames.extent, image::SampleType::f32, options.frames.pass});
+    auto renderer =
+        render::Renderer::create(scene, {frames.extent, image::SampleType::f32, options.frames.pass});
     if (!renderer)
         return fail(std::move(renderer.error()));
     lab::TraceRequest request;
@@ -98,8 +103,9 @@ Result<int> report(const ForkedResult& run, const TraceOptions& options, const s
     Json json = {{"tidemark", k_version}, {"scene", scene.file.string()}, {"finite", !found}};
     json["trace"] = found ? line.at("trace") : Json();
     json["ended"] = end;
-    std::string text = found ? line.at("text").get<std::string>()
-                       : options.hidden ? "every pixel is finite, and no operation gave NaN\n" : "every pixel is finite\n";
+    std::string text = found            ? line.at("text").get<std::string>()
+                       : options.hidden ? "every pixel is finite, and no operation gave NaN\n"
+                                        : "every pixel is finite\n";
     if (!end.empty())
         text += fmt::format("  note: {}: what is said above is not the whole\n", end);
     const int code = found ? exit_code(ErrorCode::check_failed) : 0;

@@ -1,7 +1,7 @@
 #include "cli/forked.hpp"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -40,7 +40,8 @@ void write_line(int fd, std::string_view line) {
 bool read_all(int fd, Clock::time_point deadline, std::string& output) {
     std::array<char, 1 << 14> block;
     for (;;) {
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+        const auto left =
+            std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
         pollfd wait{fd, POLLIN, 0};
         const int ready = left <= 0 ? 0 : ::poll(&wait, 1, int(std::min<long>(left, 1'000'000)));
         if (ready == 0 && Clock::now() >= deadline)

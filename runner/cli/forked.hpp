@@ -1,5 +1,5 @@
-// Work in a process of its own, for what may crash or never end: a driver that compiles a hostile shader. To be
-// called before the program has an OpenGL context or threads.
+// Work in a process of its own, for what may crash or never end: a driver that compiles a hostile shader. To
+// be called before the program has an OpenGL context or threads.
 #pragma once
 
 #include "base/result.hpp"

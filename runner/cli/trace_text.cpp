@@ -22,7 +22,8 @@ std::string operands(const Birth& birth) {
     std::string text;
     for (const lab::TracedOperand& operand : birth.operands)
         if (operand.value)
-            text += fmt::format("{}{} = {}", text.empty() ? ": " : ", ", operand.text, lab::to_string(*operand.value));
+            text += fmt::format("{}{} = {}", text.empty() ? ": " : ", ", operand.text,
+                                lab::to_string(*operand.value));
     return text;
 }
 
@@ -87,8 +88,9 @@ Json to_json(const Birth& birth) {
     json["value"] = birth.value ? Json(lab::to_string(*birth.value)) : Json();
     json["operands"] = Json::array();
     for (const lab::TracedOperand& operand : birth.operands)
-        json["operands"].push_back({{"text", operand.text},
-                                    {"value", operand.value ? Json(lab::to_string(*operand.value)) : Json()}});
+        json["operands"].push_back(
+            {{"text", operand.text},
+             {"value", operand.value ? Json(lab::to_string(*operand.value)) : Json()}});
     json["reason"] = birth.why.reason;
     json["carried"] = birth.why.verdict == lab::Verdict::carried;
     json["undefined"] = birth.why.verdict == lab::Verdict::undefined;
@@ -111,8 +113,8 @@ Json to_json(const Birth& birth) {
 std::string to_text(const NanTrace& trace) {
     std::string text;
     if (trace.first)
-        text = fmt::format("{}: {} in {}\n{}", place(trace.first->where), sentence(*trace.first), pixel_text(trace),
-                           way(*trace.first));
+        text = fmt::format("{}: {} in {}\n{}", place(trace.first->where), sentence(*trace.first),
+                           pixel_text(trace), way(*trace.first));
     else
         text = fmt::format("{} is not finite; no operation in it gave that\n", pixel_text(trace));
     if (trace.washed)

@@ -17,9 +17,9 @@ constexpr size_t k_most_words = 4'000'000;
 constexpr int k_deepest_arguments = 100;
 constexpr size_t k_longest_pasted = 1024; // GLSL's own limit of a name
 
-constexpr std::string_view k_operators[] = {"<<=", ">>=", "++", "--", "+=", "-=", "*=", "/=", "%=",
-                                            "&=",  "|=",  "^=", "&&", "||", "^^", "==", "!=", "<=",
-                                            ">=",  "<<",  ">>", "##"};
+constexpr std::string_view k_operators[] = {
+    "<<=", ">>=", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=",
+    "^=",  "&&",  "||", "^^", "==", "!=", "<=", ">=", "<<", ">>", "##"};
 
 /// How many tokens the operator at `i` takes.
 size_t operator_length(const std::vector<Token>& tokens, size_t i, size_t end) {
@@ -83,7 +83,7 @@ public:
 private:
     /// What is being read, innermost last: the code, then what macros stand for.
     struct Source {
-        const Flow* read;     ///< nullptr: its own
+        const Flow* read;       ///< nullptr: its own
         Macro* macro = nullptr; ///< whose body it is
         Flow own{};
         size_t at = 0;
@@ -95,8 +95,7 @@ private:
     void give_up(size_t token, std::string message) {
         if (error_)
             return;
-        const SourceLocation where = lines_.locate(tokens_[token].line, tokens_[token].column);
-        error_ = Error{ErrorCode::load, message, {{where, Severity::error, message}}};
+        error_ = error_at(lines_.locate(tokens_[token].line, tokens_[token].column), std::move(message));
     }
 
     Word word_at(size_t token, size_t length) const {

@@ -33,9 +33,9 @@ struct Expansion {
     std::deque<std::string> pasted; ///< words that `##` and __LINE__ made
 };
 
-/// Fails (ErrorCode::load), naming the line, where a condition cannot be evaluated without the driver, where a
-/// macro is called without end, and when macros make more than 64 words from each of the text's (4 million at
-/// most).
+/// Fails (ErrorCode::load), naming the line, where a condition cannot be evaluated without the driver, where
+/// a macro is called without end, and when macros make more than 64 words from each of the text's (4 million
+/// at most).
 Result<Expansion> expand(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed,
                          const text::LineMap& lines);
 

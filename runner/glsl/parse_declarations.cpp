@@ -6,11 +6,11 @@
 namespace tidemark::glsl {
 namespace {
 
-constexpr std::string_view k_qualifiers[] = {
-    "const",   "in",        "out",      "inout",   "uniform",       "highp",     "mediump",  "lowp",
-    "flat",    "smooth",    "centroid", "varying", "noperspective", "invariant", "precise",  "buffer",
-    "shared",  "attribute", "coherent", "patch",   "volatile",      "restrict",  "readonly", "writeonly",
-    "sample"};
+constexpr std::string_view k_qualifiers[] = {"const",    "in",       "out",           "inout",     "uniform",
+                                             "highp",    "mediump",  "lowp",          "flat",      "smooth",
+                                             "centroid", "varying",  "noperspective", "invariant", "precise",
+                                             "buffer",   "shared",   "attribute",     "coherent",  "patch",
+                                             "volatile", "restrict", "readonly",      "writeonly", "sample"};
 
 } // namespace
 

@@ -9,7 +9,8 @@ namespace {
 bool is_assignment(std::string_view word) {
     if (word == "=")
         return true;
-    return word.size() >= 2 && word.back() == '=' && word != "==" && word != "!=" && word != "<=" && word != ">=";
+    return word.size() >= 2 && word.back() == '=' && word != "==" && word != "!=" && word != "<=" &&
+           word != ">=";
 }
 
 /// How tightly a binary operator holds; 0: it is none.
@@ -72,8 +73,7 @@ NodeId Parser::binary(int rank) {
 }
 
 NodeId Parser::unary() {
-    const bool prefix =
-        at("-") || at("+") || at("!") || at("~") || at("++") || at("--");
+    const bool prefix = at("-") || at("+") || at("!") || at("~") || at("++") || at("--");
     if (!prefix)
         return postfix();
     const Nesting nesting(*this, 1);

@@ -6,8 +6,8 @@
 namespace tidemark::glsl {
 
 bool is_statement_keyword(std::string_view word) {
-    constexpr std::string_view k_keywords[] = {"if",      "else",   "for",   "while",    "do",     "switch", "case",
-                                               "default", "return", "break", "continue", "discard"};
+    constexpr std::string_view k_keywords[] = {"if",   "else",    "for",    "while", "do",       "switch",
+                                               "case", "default", "return", "break", "continue", "discard"};
     return std::find(std::begin(k_keywords), std::end(k_keywords), word) != std::end(k_keywords);
 }
 

@@ -49,14 +49,16 @@ std::string ParsedText::excerpt(NodeId id) const {
 /// As they do in the author's text where they are neighbours there; else as people write it.
 bool ParsedText::stand_apart(const Word& left, const Word& right) const {
     const text::Token& token = tokens_[right.spelled];
-    const bool neighbours = right.spelled > left.spelled && tokens_[left.spelled].begin + left.text.size() <= token.begin &&
+    const bool neighbours = right.spelled > left.spelled &&
+                            tokens_[left.spelled].begin + left.text.size() <= token.begin &&
                             right.spelled - left.spelled <= left.text.size();
     if (neighbours)
         return !token.glued;
     constexpr std::string_view k_sticks_left = ")],;.";
     constexpr std::string_view k_sticks_right = "([.!~";
     if (right.is("(") || right.is("["))
-        return left.kind != text::TokenKind::identifier && k_sticks_right.find(left.text.back()) == std::string_view::npos;
+        return left.kind != text::TokenKind::identifier &&
+               k_sticks_right.find(left.text.back()) == std::string_view::npos;
     return k_sticks_left.find(right.text[0]) == std::string_view::npos &&
            k_sticks_right.find(left.text.back()) == std::string_view::npos;
 }

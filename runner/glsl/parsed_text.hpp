@@ -15,8 +15,8 @@ namespace tidemark::glsl {
 
 class ParsedText {
 public:
-    /// `source` is what a driver would get, #version included; `known` are all macros that the driver defines.
-    /// The error says where the text cannot be followed.
+    /// `source` is what a driver would get, #version included; `known` are all macros that the driver
+    /// defines. The error says where the text cannot be followed.
     static Result<std::unique_ptr<const ParsedText>> read(text::MappedText source,
                                                           std::span<const KnownMacro> known);
     ParsedText(const ParsedText&) = delete;
@@ -35,8 +35,8 @@ public:
     SourceLocation spelled(size_t word) const { return place(expansion_.words[word].spelled); }
     SourceLocation used(size_t word) const { return place(expansion_.words[word].used); }
 
-    /// What a node looks like to its author: as written where no macro is in it, else word by word; blanks and
-    /// comments come down to one blank.
+    /// What a node looks like to its author: as written where no macro is in it, else word by word; blanks
+    /// and comments come down to one blank.
     std::string excerpt(NodeId id) const;
 
 private:

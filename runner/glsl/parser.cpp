@@ -40,8 +40,7 @@ void Parser::give_up(std::string_view message) {
         if (at_ < words_.size())
             found = fmt::format("'{}'", word.text.substr(0, 40));
     }
-    const std::string text = fmt::format("{} at {}", message, found);
-    error_ = Error{ErrorCode::load, text, {{where, Severity::error, text}}};
+    error_ = error_at(where, fmt::format("{} at {}", message, found));
     at_ = end_; // where every rule ends
 }
 

@@ -1,5 +1,5 @@
-// The parser behind parse() of glsl/syntax_tree.hpp. It never throws and never loops: after the first error it
-// stands at the end of the text, where every rule ends.
+// The parser behind parse() of glsl/syntax_tree.hpp. It never throws and never loops: after the first error
+// it stands at the end of the text, where every rule ends.
 #pragma once
 
 #include "glsl/syntax_tree.hpp"
@@ -12,8 +12,7 @@ namespace tidemark::glsl {
 
 class Parser {
 public:
-    Parser(const std::vector<Word>& words, const std::vector<text::Token>& tokens,
-           const text::LineMap& lines)
+    Parser(const std::vector<Word>& words, const std::vector<text::Token>& tokens, const text::LineMap& lines)
         : words_(words), tokens_(tokens), lines_(lines), end_(words.size()) {
         tree_.nodes.resize(1);
         tree_.nodes.reserve(words.size() + 1);

@@ -1,5 +1,5 @@
-// A light syntax tree of a GLSL text without macros: functions, statements and expressions as nodes that point
-// back at their words. No types, no scopes: it says what belongs to what, and nothing of what it means.
+// A light syntax tree of a GLSL text without macros: functions, statements and expressions as nodes that
+// point back at their words. No types, no scopes: it says what belongs to what, and nothing of what it means.
 #pragma once
 
 #include "base/result.hpp"
@@ -84,8 +84,8 @@ struct SyntaxTree {
 bool is_expression(NodeKind kind);
 bool is_loop(NodeKind kind);
 
-/// Linear in the words. Fails where the text is no GLSL that we can follow, or nests deeper than k_most_height;
-/// the error's place is that of the word in `tokens`, through `lines`.
+/// Linear in the words. Fails where the text is no GLSL that we can follow, or nests deeper than
+/// k_most_height; the error's place is that of the word in `tokens`, through `lines`.
 Result<SyntaxTree> parse(const std::vector<Word>& words, const std::vector<text::Token>& tokens,
                          const text::LineMap& lines);
 

@@ -10,7 +10,7 @@ struct Writer {
     std::string_view name;
     unsigned arguments;
 };
-constexpr Writer k_writers[] = {{"modf", 2u},      {"frexp", 2u},        {"uaddCarry", 4u},
+constexpr Writer k_writers[] = {{"modf", 2u},       {"frexp", 2u},         {"uaddCarry", 4u},
                                 {"usubBorrow", 4u}, {"umulExtended", 12u}, {"imulExtended", 12u}};
 
 bool is_digits_shape(std::string_view text) {
@@ -80,8 +80,8 @@ private:
         for (const NodeId declaration : tree_.children(id)) {
             const NodeId type = tree_.child(declaration, 0);
             for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next)
-                members.push_back({type_name(text_, type), text_.word_of(name),
-                                   dimensions(text_, type, name) > 0});
+                members.push_back(
+                    {type_name(text_, type), text_.word_of(name), dimensions(text_, type, name) > 0});
         }
     }
 
@@ -162,7 +162,8 @@ size_t dimensions(const ParsedText& text, NodeId type, NodeId declared) {
     const NodeId structure = tree.child(type, 0);
     size_t count = 0;
     int depth = 0;
-    for (size_t i = structure != k_no_node ? tree[structure].end : tree[type].word + 1; i < tree[type].end; ++i) {
+    for (size_t i = structure != k_no_node ? tree[structure].end : tree[type].word + 1; i < tree[type].end;
+         ++i) {
         if (text.word(i) == "[" && depth++ == 0)
             ++count;
         depth -= text.word(i) == "]";

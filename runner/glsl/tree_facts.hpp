@@ -1,5 +1,5 @@
-// What a syntax tree declares: structures, functions and what the names of variables stand for. By name alone,
-// over the whole text: where a name is declared twice, it may be either.
+// What a syntax tree declares: structures, functions and what the names of variables stand for. By name
+// alone, over the whole text: where a name is declared twice, it may be either.
 #pragma once
 
 #include "glsl/parsed_text.hpp"

@@ -46,14 +46,19 @@ bool is_pure(const SyntaxTree& tree, NodeId id) {
 class Watcher {
 public:
     Watcher(const ParsedText& text, const TreeFacts& facts, const WatchRequest& request)
-        : text_(text), tree_(text.tree()), facts_(facts), request_(request), prefix_(fresh_prefix(text.words())) {
+        : text_(text), tree_(text.tree()), facts_(facts), request_(request),
+          prefix_(fresh_prefix(text.words())) {
         if (request.capture != k_no_node) {
             result_.operands = operands_of(request.capture);
             reach_ = find_reach(text, facts, request.capture);
             result_.loops = reach_.loops;
         }
-        options_ = {prefix_, request.capture != k_no_node, !request.repaired.empty(), request.nan_only,
-                    text.headers().find("#version 450") != std::string::npos, result_.loops.size()};
+        options_ = {prefix_,
+                    request.capture != k_no_node,
+                    !request.repaired.empty(),
+                    request.nan_only,
+                    text.headers().find("#version 450") != std::string::npos,
+                    result_.loops.size()};
     }
 
     Watch run() {
@@ -92,7 +97,8 @@ private:
     }
 
     std::string main_function() const {
-        std::string text = fmt::format("\nvoid main(){{{}{}main();{}}}\n", zeroed_globals(), prefix_, flush());
+        std::string text =
+            fmt::format("\nvoid main(){{{}{}main();{}}}\n", zeroed_globals(), prefix_, flush());
         return text;
     }
 
@@ -317,9 +323,11 @@ private:
         const bool on_the_way = std::binary_search(reach_.calls.begin(), reach_.calls.end(), id);
         const bool nothing = on_the_way && facts_.functions.at(name).returns_nothing;
         if (on_the_way)
-            put(nothing ? fmt::format("({}push({}),", prefix_, id) : fmt::format("{0}K({0}push({1}),", prefix_, id));
+            put(nothing ? fmt::format("({}push({}),", prefix_, id)
+                        : fmt::format("{0}K({0}push({1}),", prefix_, id));
         const Cover inside = open(id, cover);
-        // What a function of the author's gets is watched before it goes in, for in there it has no statement.
+        // What a function of the author's gets is watched before it goes in, for in there it has no
+        // statement.
         arguments(id, facts_.function(name) ? Cover::open : inside);
         close(id, cover);
         if (on_the_way)
@@ -395,7 +403,7 @@ private:
         if (counted == result_.loops.end())
             return children(id, tree_[id].begin, Cover::open);
         const size_t index = size_t(counted - result_.loops.begin());
-        const NodeId body = tree_[id].kind == NodeKind::loop_do ? tree_.child(id, 0)
+        const NodeId body = tree_[id].kind == NodeKind::loop_do    ? tree_.child(id, 0)
                             : tree_[id].kind == NodeKind::loop_for ? tree_.child(id, 3)
                                                                    : tree_.child(id, 1);
         put(fmt::format("{{if({0}h==0){0}L{1}=0;", prefix_, index));
@@ -413,7 +421,8 @@ private:
         put("}");
     }
 
-    /// What of an operation can be written down: no numbers of the text, no samplers, nothing that is written to.
+    /// What of an operation can be written down: no numbers of the text, no samplers, nothing that is written
+    /// to.
     std::vector<NodeId> operands_of(NodeId id) const {
         std::vector<NodeId> found;
         const auto add = [&](NodeId operand) {
@@ -500,7 +509,8 @@ std::vector<NodeId> uninitialised(const ParsedText& text, const TreeFacts& facts
             const NodeKind around = tree[tree[node.parent].parent].kind;
             bool has_value = false;
             for (const NodeId part : tree.children(id))
-                has_value = has_value || tree[part].kind != NodeKind::index || text.word(tree[part].begin) != "[";
+                has_value =
+                    has_value || tree[part].kind != NodeKind::index || text.word(tree[part].begin) != "[";
             const bool variable = around == NodeKind::block || around == NodeKind::text;
             bool stays = false;
             for (const auto qualifier : {"const", "uniform", "in", "out", "buffer", "shared", "varying"})

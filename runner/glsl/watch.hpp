@@ -47,7 +47,14 @@ struct WatchLayout {
 };
 
 /// The type of a slot: 0 where nothing was written.
-enum class SlotType : unsigned { none = 0, floating = 1, integer = 5, unsigned_integer = 9, boolean = 13, matrix = 100 };
+enum class SlotType : unsigned {
+    none = 0,
+    floating = 1,
+    integer = 5,
+    unsigned_integer = 9,
+    boolean = 13,
+    matrix = 100
+};
 
 /// How a slot's type is written down: vectors as their class plus components - 1, matrices as 100 + 10 *
 /// columns + rows.

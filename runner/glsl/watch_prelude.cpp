@@ -27,9 +27,11 @@ constexpr std::array<std::string_view, 12> k_wholes{"int",   "ivec2", "ivec3", "
                                                     "uvec3", "uvec4", "bool",  "bvec2", "bvec3", "bvec4"};
 constexpr std::array<std::string_view, 4> k_doubles{"double", "dvec2", "dvec3", "dvec4"};
 
-constexpr std::string_view k_any_bad = R"(bool $bad(float v){return (floatBitsToUint(v)&0x7f800000u)==0x7f800000u;}
+constexpr std::string_view k_any_bad =
+    R"(bool $bad(float v){return (floatBitsToUint(v)&0x7f800000u)==0x7f800000u;}
 )";
-constexpr std::string_view k_nan_bad = R"(bool $bad(float v){return (floatBitsToUint(v)&0x7fffffffu)>0x7f800000u;}
+constexpr std::string_view k_nan_bad =
+    R"(bool $bad(float v){return (floatBitsToUint(v)&0x7fffffffu)>0x7f800000u;}
 )";
 constexpr std::string_view k_bad_vectors = R"(bool $bad(vec2 v){return $bad(v.x)||$bad(v.y);}
 bool $bad(vec3 v){return $bad(v.x)||$bad(v.y)||$bad(v.z);}
@@ -64,8 +66,8 @@ std::string store(std::string_view prefix, std::string_view type, int code, int 
 }
 
 std::string store_matrix(std::string_view prefix, int columns, int rows) {
-    std::string text = fmt::format("void {0}store(int k,mat{1}x{2} v){{{0}out[k]={3}u;", prefix, columns, rows,
-                                   100 + 10 * columns + rows);
+    std::string text = fmt::format("void {0}store(int k,mat{1}x{2} v){{{0}out[k]={3}u;", prefix, columns,
+                                   rows, 100 + 10 * columns + rows);
     for (int i = 0; i < columns * rows; ++i)
         text += fmt::format("{}out[k+{}]=floatBitsToUint(v[{}][{}]);", prefix, i + 1, i / rows, i % rows);
     return text + "}\n";
@@ -106,7 +108,9 @@ public:
     }
 
 private:
-    void add(std::string_view pattern, std::string_view type) { text_ += spell(pattern, options_.prefix, type); }
+    void add(std::string_view pattern, std::string_view type) {
+        text_ += spell(pattern, options_.prefix, type);
+    }
 
     template <class F>
     static void for_each_matrix(F&& use) {
@@ -124,9 +128,10 @@ private:
                         WatchLayout::k_most_calls, WatchLayout::k_path),
             {});
         text_ += spell(fmt::format("void $leave(){{$out[{}]=uint($depth);", WatchLayout::k_depth),
-                      options_.prefix, {});
+                       options_.prefix, {});
         for (size_t i = 0; i < options_.loops; ++i)
-            text_ += spell(fmt::format("$out[{}]=uint($L{});", WatchLayout::k_loops + i, i), options_.prefix, {});
+            text_ +=
+                spell(fmt::format("$out[{}]=uint($L{});", WatchLayout::k_loops + i, i), options_.prefix, {});
         text_ += "}\n";
         for (size_t i = 0; i < k_floats.size(); ++i)
             text_ += store(options_.prefix, k_floats[i], int(SlotType::floating) + int(i), int(i) + 1);
@@ -156,15 +161,17 @@ std::string watch_prelude(const PreludeOptions& options) {
     return Prelude(options).run();
 }
 
-std::string structure_overloads(const PreludeOptions& options, const TreeFacts& facts, std::string_view name) {
+std::string structure_overloads(const PreludeOptions& options, const TreeFacts& facts,
+                                std::string_view name) {
     std::string bad;
     for (const StructureMember& member : facts.structures.at(name))
         if (!member.array && (class_of_type(member.type) == TypeClass::floating ||
                               (facts.structures.contains(member.type) && member.type != name)))
             bad += fmt::format("||{}bad(v.{})", options.prefix, member.name);
     std::string text = spell(fmt::format("bool $bad(@ v){{return false{};}}\n", bad), options.prefix, name);
-    text += spell(options.capture ? "@ $P(@ v,int i){if($h==0&&$bad(v)){$h=i;$leave();}return v;}\n" : k_probe,
-                 options.prefix, name);
+    text +=
+        spell(options.capture ? "@ $P(@ v,int i){if($h==0&&$bad(v)){$h=i;$leave();}return v;}\n" : k_probe,
+              options.prefix, name);
     if (options.repair)
         text += spell(k_no_repair, options.prefix, name);
     if (options.capture)

@@ -29,7 +29,8 @@ Reach find_reach(const ParsedText& text, const TreeFacts& facts, NodeId operatio
     std::unordered_map<std::string_view, std::vector<NodeId>> calls_of;
     for (NodeId id = 1; id < tree.nodes.size(); ++id)
         if (tree[id].kind == NodeKind::call)
-            if (const auto* function = facts.function(called_name(text, id)); function && !function->returns_array)
+            if (const auto* function = facts.function(called_name(text, id));
+                function && !function->returns_array)
                 calls_of[called_name(text, id)].push_back(id);
     Reach reach;
     add_loops_around(text, operation, reach.loops);

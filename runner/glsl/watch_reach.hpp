@@ -9,7 +9,8 @@ namespace tidemark::glsl {
 
 struct Reach {
     std::vector<NodeId> calls; ///< of functions that come to the operation; ascending
-    std::vector<NodeId> loops; ///< around the operation or around such a call; WatchLayout::k_most_loops at most
+    std::vector<NodeId>
+        loops; ///< around the operation or around such a call; WatchLayout::k_most_loops at most
 };
 
 Reach find_reach(const ParsedText& text, const TreeFacts& facts, NodeId operation);

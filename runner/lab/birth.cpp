@@ -103,18 +103,20 @@ bool is_spelled_out(const WatchedText& watched, NodeId id) {
     return true;
 }
 
-void add_way(Birth& birth, const WatchedText& watched, const glsl::Watch& watch, const WatchReading& reading) {
+void add_way(Birth& birth, const WatchedText& watched, const glsl::Watch& watch,
+             const WatchReading& reading) {
     const auto& words = reading.words;
     const glsl::SyntaxTree& tree = watched.text.tree();
     const size_t depth = std::min<size_t>(words[WatchLayout::k_depth], WatchLayout::k_most_calls);
     for (size_t i = 0; i < depth; ++i) {
         const NodeId call = words[WatchLayout::k_path + i];
         if (call < tree.nodes.size())
-            birth.calls.push_back({watched.text.used(tree[call].begin),
-                                   std::string(glsl::called_name(watched.text, call))});
+            birth.calls.push_back(
+                {watched.text.used(tree[call].begin), std::string(glsl::called_name(watched.text, call))});
     }
     for (size_t i = 0; i < watch.loops.size(); ++i)
-        birth.loops.push_back({watched.text.used(tree[watch.loops[i]].begin), words[WatchLayout::k_loops + i]});
+        birth.loops.push_back(
+            {watched.text.used(tree[watch.loops[i]].begin), words[WatchLayout::k_loops + i]});
     // A loop that was not entered is no loop on the way.
     std::erase_if(birth.loops, [](const TracedLoop& loop) { return loop.iteration == 0; });
 }

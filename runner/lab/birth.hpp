@@ -1,4 +1,5 @@
-// An operation of a syntax tree as its author knows it: text, place, what it belongs to, what it computed with.
+// An operation of a syntax tree as its author knows it: text, place, what it belongs to, what it computed
+// with.
 #pragma once
 
 #include "glsl/watch.hpp"

@@ -43,7 +43,8 @@ std::string to_text(const PixelBits& bits) {
 /// One pixel of one pass at one moment.
 class PixelTracer {
 public:
-    PixelTracer(const Moment& moment, const WatchedText& watched, NanTrace& trace, const TraceRequest& request)
+    PixelTracer(const Moment& moment, const WatchedText& watched, NanTrace& trace,
+                const TraceRequest& request)
         : moment_(moment), watched_(watched), trace_(trace), request_(request) {}
 
     Result<void> run(bool nan_only) {
@@ -94,7 +95,8 @@ private:
         if (!reading.arrived())
             trace_.notes.push_back("the watched shader did not come to its end in this pixel");
         const bool half = moment_.renderer.scene().passes[moment_.pass].kind == scene::PassKind::cubemap;
-        if (is_finite(reading.colour) != is_finite(trace_.colour) || (!half && !same(reading.colour, trace_.colour)))
+        if (is_finite(reading.colour) != is_finite(trace_.colour) ||
+            (!half && !same(reading.colour, trace_.colour)))
             trace_.notes.push_back(fmt::format("watching changes this pixel: {} as drawn, {} watched",
                                                to_text(trace_.colour), to_text(reading.colour)));
     }
@@ -162,7 +164,8 @@ private:
                 break;
             statement = reading->hit();
         }
-        trace_.notes.push_back(fmt::format("mending {} operations does not mend the pixel", repaired_.size()));
+        trace_.notes.push_back(
+            fmt::format("mending {} operations does not mend the pixel", repaired_.size()));
         return {};
     }
 
@@ -235,7 +238,8 @@ std::optional<PixelPlace> first_bad(const render::Renderer& renderer, size_t pas
 
 class Tracer {
 public:
-    Tracer(render::Renderer& renderer, const TraceRequest& request) : renderer_(renderer), request_(request) {}
+    Tracer(render::Renderer& renderer, const TraceRequest& request)
+        : renderer_(renderer), request_(request) {}
 
     Result<std::optional<NanTrace>> run() {
         if (request_.pixel)
@@ -290,7 +294,7 @@ private:
         const render::FrameInputs inputs = request_.inputs(bad.frame);
         const Moment moment{renderer_, bad.pass, inputs};
         if (auto done = PixelTracer(moment, watched, trace, request_).run(nan_only); !done)
-            trace.notes.push_back(done.error().message);
+            trace.notes.push_back(to_string(done.error()));
         if (trace.washed && !trace.first)
             return std::optional<NanTrace>();
         return std::optional(std::move(trace));

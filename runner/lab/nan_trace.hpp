@@ -1,5 +1,5 @@
-// Where a NaN or an infinity in a picture comes from: the operation that gave birth to it, with its operands, the
-// loops and the calls on the way, and whether mending it mends the pixel. A context must be current.
+// Where a NaN or an infinity in a picture comes from: the operation that gave birth to it, with its operands,
+// the loops and the calls on the way, and whether mending it mends the pixel. A context must be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -49,8 +49,8 @@ struct NanTrace {
     std::string pass;
     int frame = 0;
     PixelPlace pixel{};
-    PixelBits colour{};   ///< as drawn
-    bool washed = false;  ///< the pixel is finite: a clamp, a min or a condition swallowed what was born
+    PixelBits colour{};  ///< as drawn
+    bool washed = false; ///< the pixel is finite: a clamp, a min or a condition swallowed what was born
     std::optional<Birth> first{};
     std::optional<Birth> cure{}; ///< the first whose mending, with those before it, makes the pixel finite
     bool cure_is_first = false;
@@ -67,8 +67,8 @@ struct TraceRequest {
     std::function<void(const NanTrace&)> progress{};
 };
 
-/// Nothing when all pixels of all passes are finite (and, with `hidden`, no operation gave NaN on the way). The renderer draws in
-/// floats (RenderOptions::samples). Fails where the scene's text cannot be followed.
+/// Nothing when all pixels of all passes are finite (and, with `hidden`, no operation gave NaN on the way).
+/// The renderer draws in floats (RenderOptions::samples). Fails where the scene's text cannot be followed.
 Result<std::optional<NanTrace>> trace_nan(render::Renderer& renderer, const TraceRequest& request);
 
 } // namespace tidemark::lab

@@ -128,7 +128,8 @@ private:
                 return false;
             matrices += operand->shape.columns > 1;
         }
-        return name_ != "*" || (matrices < 2 && (matrices == 0 || operands_[0]->size() == 1 || operands_[1]->size() == 1));
+        return name_ != "*" ||
+               (matrices < 2 && (matrices == 0 || operands_[0]->size() == 1 || operands_[1]->size() == 1));
     }
 
     Arguments arguments(size_t component) const {
@@ -165,7 +166,8 @@ private:
 
     /// Functions of whole vectors.
     std::string_view of_vectors() const {
-        constexpr std::string_view k_lengths[] = {"length", "normalize", "distance", "dot", "cross", "reflect"};
+        constexpr std::string_view k_lengths[] = {"length", "normalize", "distance",
+                                                  "dot",    "cross",     "reflect"};
         if (std::find(std::begin(k_lengths), std::end(k_lengths), name_) == std::end(k_lengths) || !known())
             return {};
         double largest = 0;
@@ -173,7 +175,8 @@ private:
             largest = std::max(largest, squares(*operand));
         // Squares this small are none: a float of normal size cannot hold them.
         if (name_ == "normalize" && largest < double(FLT_MIN))
-            return largest == 0 ? "normalize of a zero vector" : "normalize of a vector whose squares underflow";
+            return largest == 0 ? "normalize of a zero vector"
+                                : "normalize of a vector whose squares underflow";
         return largest > double(FLT_MAX) / 4 ? "overflow: the squares are beyond the largest float"
                                              : std::string_view{};
     }

@@ -65,8 +65,7 @@ PixelBits bits_at(const image::Image& image, PixelPlace pixel) {
 }
 
 Extent extent_of(const Moment& moment) {
-    const bool cube =
-        moment.renderer.scene().passes[moment.pass].kind == scene::PassKind::cubemap;
+    const bool cube = moment.renderer.scene().passes[moment.pass].kind == scene::PassKind::cubemap;
     return cube ? Extent{render::k_cube_side, render::k_cube_side} : moment.renderer.extent();
 }
 
@@ -74,13 +73,15 @@ Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer
     const glsl::Dialect& dialect = renderer.dialect(pass);
     const bool es = dialect.version == glsl::Version::es_300;
     const std::vector<std::string> extensions = gl::query_extensions();
-    std::vector<glsl::KnownMacro> known{
-        {"__VERSION__", es ? 300 : dialect.version == glsl::Version::core_450 ? 450 : 330},
-        {"GL_FRAGMENT_PRECISION_HIGH", 1},
-        {es ? "GL_ES" : "GL_core_profile", 1}};
+    std::vector<glsl::KnownMacro> known{{"__VERSION__", es                                           ? 300
+                                                        : dialect.version == glsl::Version::core_450 ? 450
+                                                                                                     : 330},
+                                        {"GL_FRAGMENT_PRECISION_HIGH", 1},
+                                        {es ? "GL_ES" : "GL_core_profile", 1}};
     for (const std::string& name : extensions)
         known.push_back({name, 1});
-    return glsl::ParsedText::read(glsl::assemble(renderer.scene(), renderer.scene().passes[pass], dialect), known);
+    return glsl::ParsedText::read(glsl::assemble(renderer.scene(), renderer.scene().passes[pass], dialect),
+                                  known);
 }
 
 Result<WatchReading> read_pixel(const Moment& moment, const glsl::Watch& watch, PixelPlace pixel) {

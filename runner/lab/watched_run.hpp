@@ -1,5 +1,5 @@
-// A shader that watches itself, drawn for one pixel or for a whole picture in place of a pass, and what it wrote
-// down. A context must be current.
+// A shader that watches itself, drawn for one pixel or for a whole picture in place of a pass, and what it
+// wrote down. A context must be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -45,8 +45,8 @@ struct WatchReading {
 /// The text of a pass in the plan as it was linked, read to its tree.
 Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass);
 
-/// The whole triangle is drawn and all but one pixel cut off, so that derivatives and everything else are as in
-/// the picture. Fails (ErrorCode::load) with the driver's words when it refuses the text.
+/// The whole triangle is drawn and all but one pixel cut off, so that derivatives and everything else are as
+/// in the picture. Fails (ErrorCode::load) with the driver's words when it refuses the text.
 Result<WatchReading> read_pixel(const Moment& moment, const glsl::Watch& watch, PixelPlace pixel);
 
 /// The first hit of each pixel (WatchRequest::map_width is the picture's).

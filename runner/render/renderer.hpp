@@ -45,7 +45,8 @@ public:
     /// One frame. Buffers keep their content for the next one.
     void draw(const FrameInputs& inputs);
 
-    /// The passes in front of `pass` alone. What draw_stand_in then sees is what `pass` would see in this frame.
+    /// The passes in front of `pass` alone. What draw_stand_in then sees is what `pass` would see in this
+    /// frame.
     void draw_before(size_t pass, const FrameInputs& inputs);
     /// Draws what `pass` is about to draw by another program, made from a text of the same dialect, into a
     /// target of the same size. Of a cubemap pass, one face. The pass itself stays undrawn.
@@ -106,8 +107,8 @@ private:
     GLenum format_of(size_t pass) const;
 
     void draw_pass(size_t pass, const FrameInputs& inputs);
-    void bind(size_t pass, const gl::Program& program, const UniformTable& uniforms, const FrameInputs& inputs,
-              Extent extent) const;
+    void bind(size_t pass, const gl::Program& program, const UniformTable& uniforms,
+              const FrameInputs& inputs, Extent extent) const;
     void draw_face(const gl::Program& program, const gl::RenderTarget& into) const;
     ChannelFacts facts_of(const CompiledPass& pass, scene::PassKind kind, const FrameInputs& inputs) const;
 

@@ -52,7 +52,8 @@ SourceLocation LineMap::locate(int line, int column) const {
     const bool countable = line - run.line <= std::numeric_limits<int>::max() - run.source_line;
     if (file.empty() || !countable)
         return {};
-    return {file, run.source_line + (line - run.line), column > 0 ? std::max(1, column + shift_at(line, column)) : column};
+    return {file, run.source_line + (line - run.line),
+            column > 0 ? std::max(1, column + shift_at(line, column)) : column};
 }
 
 int LineMap::shift_at(int line, int column) const {

@@ -1,8 +1,7 @@
 // Faults that were planted, each named with its line; sound shaders, of which nothing is said. The first in
 // tests/cases/trace/faults, where `// born VALUE: reason; …` marks the line, the others in …/sound.
-#include "lab/nan_trace.hpp"
-
 #include "gl_test.hpp"
+#include "lab/nan_trace.hpp"
 
 #include <gmock/gmock.h>
 
@@ -35,7 +34,9 @@ struct Mark {
 
     bool has(const std::string& text) const { return words.find(text) != std::string::npos; }
     /// The number behind `text`.
-    int number(const std::string& text) const { return std::stoi(words.substr(words.find(text) + text.size())); }
+    int number(const std::string& text) const {
+        return std::stoi(words.substr(words.find(text) + text.size()));
+    }
 };
 
 Mark read_mark(const fs::path& file) {
