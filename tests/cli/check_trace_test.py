@@ -1,9 +1,7 @@
 """tidemark check --trace: where a NaN is born, as people and as scripts read it."""
 import json
-import tempfile
-import unittest
 
-from support.program import tidemark
+from support.program import ProgramTest, main
 
 FAULTY = """void mainImage(out vec4 c, in vec2 p) {
     float none = floor(p.x / 1000.0), wave = 0.31 / none;
@@ -19,15 +17,12 @@ ENDLESS = """void mainImage(out vec4 c, in vec2 p) {
 """
 
 
-class CheckTrace(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class CheckTrace(ProgramTest):
     def check(self, text, *options):
-        with open(self.folder.name + "/waves.glsl", "w") as file:
-            file.write(text)
-        return tidemark("check", "waves.glsl", "--trace", "--size", "16x9", *options, cwd=self.folder.name)
+        self.write("waves.glsl", text)
+        run = self.run_program("check", "waves.glsl", "--trace", "--size", "16x9", *options)
+        run.stdout = run.stdout.decode()
+        return run
 
     def test_the_statement_is_named(self):
         run = self.check(FAULTY)
@@ -72,4 +67,4 @@ class CheckTrace(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()
