@@ -1,4 +1,5 @@
 #include "cli/check_probes.hpp"
+#include "cli/check_trace.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/options.hpp"
@@ -16,7 +17,9 @@ namespace {
 
 struct CheckOptions {
     ProbesRequest probes;
+    TraceOptions trace; ///< its scene, its device and its form are those of the probes
     bool portable = false;
+    bool traced = false;
     bool list = false;
 };
 
@@ -45,6 +48,27 @@ Result<int> check_portable(const CheckOptions& options) {
     return put(options.probes.json ? json.dump(2) + "\n" : text).map([code] { return code; });
 }
 
+void add_trace_options(CLI::App& command, TraceOptions& options) {
+    add_picture_options(command, options.frames);
+    add_time_options(command, options.frames);
+    command
+        .add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
+        ->type_name("X,Y");
+    command.add_flag("--hidden", options.hidden,
+                     "Where all pixels are finite, trace a NaN that a clamp or a condition swallowed");
+    command.add_option("--timeout", options.timeout, "Give up the trace after so long")
+        ->type_name("SECONDS")
+        ->capture_default_str();
+}
+
+Result<int> trace(const CheckOptions& options) {
+    TraceOptions trace = options.trace;
+    trace.scene = options.probes.scene;
+    trace.device = options.probes.device;
+    trace.json = options.probes.json;
+    return check_trace(trace);
+}
+
 } // namespace
 
 void add_check(CLI::App& app, Action& chosen) {
@@ -71,6 +95,10 @@ void add_check(CLI::App& app, Action& chosen) {
     command
         ->add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
         ->excludes(list);
+    command->add_flag("--trace", options->traced, "Instead: where a NaN or an infinity in the picture is born")
+        ->excludes(list)
+        ->excludes("--portable");
+    add_trace_options(*command, options->trace);
     command->add_flag("--json", probes.json, "One JSON object on standard output");
     command->callback([options, &chosen] {
         if (!options->list && options->probes.scene.path.empty())
@@ -78,6 +106,7 @@ void add_check(CLI::App& app, Action& chosen) {
         chosen = [options] {
             return options->list       ? list_probes()
                    : options->portable ? check_portable(*options)
+                   : options->traced   ? trace(*options)
                                        : check_probes(options->probes);
         };
     });

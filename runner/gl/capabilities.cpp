@@ -23,4 +23,13 @@ Capabilities query_capabilities() {
             std::min({texture, viewport[0], viewport[1]})};
 }
 
+std::vector<std::string> query_extensions() {
+    GLint count = 0;
+    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+    std::vector<std::string> names;
+    for (GLint i = 0; i < count; ++i)
+        names.emplace_back(reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i))));
+    return names;
+}
+
 } // namespace tidemark::gl

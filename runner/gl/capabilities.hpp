@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tidemark::gl {
 
@@ -13,5 +14,8 @@ struct Capabilities {
 };
 
 Capabilities query_capabilities();
+
+/// The names of its extensions, which a shader finds defined as macros.
+std::vector<std::string> query_extensions();
 
 } // namespace tidemark::gl

@@ -26,4 +26,8 @@ void delete_program(GLuint id) {
     glDeleteProgram(id);
 }
 
+void delete_buffer(GLuint id) {
+    glDeleteBuffers(1, &id);
+}
+
 } // namespace tidemark::gl

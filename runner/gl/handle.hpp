@@ -39,6 +39,7 @@ void delete_framebuffer(GLuint id);
 void delete_vertex_array(GLuint id);
 void delete_shader(GLuint id);
 void delete_program(GLuint id);
+void delete_buffer(GLuint id);
 
 using TextureHandle = Handle<delete_texture>;
 using SamplerHandle = Handle<delete_sampler>;
@@ -46,5 +47,6 @@ using FramebufferHandle = Handle<delete_framebuffer>;
 using VertexArrayHandle = Handle<delete_vertex_array>;
 using ShaderHandle = Handle<delete_shader>;
 using ProgramHandle = Handle<delete_program>;
+using BufferHandle = Handle<delete_buffer>;
 
 } // namespace tidemark::gl

@@ -20,7 +20,12 @@ struct Meaning {
     bool parameters = false;
     bool doubtful = false; ///< defined or not: that depends on something we do not know
 };
-using Macros = std::unordered_map<std::string_view, Meaning>;
+struct Macros : std::unordered_map<std::string_view, Meaning> {
+    bool all_known = false; ///< the driver has no others
+
+    /// Which extensions a driver announces is its own affair.
+    bool may_be_the_drivers(std::string_view name) const { return !all_known && name.starts_with("GL_"); }
+};
 using Value = std::optional<long>; ///< nothing: not known
 
 Activity both(Activity a, Activity b) {
@@ -39,8 +44,7 @@ Activity is_defined(const Macros& macros, std::string_view name) {
     const auto found = macros.find(name);
     if (found != macros.end())
         return found->second.doubtful ? Activity::unknown : Activity::active;
-    // Which extensions a driver announces is its own affair.
-    return name.starts_with("GL_") ? Activity::unknown : Activity::inactive;
+    return macros.may_be_the_drivers(name) ? Activity::unknown : Activity::inactive;
 }
 
 /// Evaluates the expression of an #if. Gives up (no value) instead of following deep or endless macros.
@@ -199,7 +203,7 @@ private:
     Value name(std::string_view word) {
         const auto found = macros_.find(word);
         if (found == macros_.end())
-            return word.starts_with("GL_") ? Value{} : Value(0);
+            return macros_.may_be_the_drivers(word) ? Value{} : Value(0);
         const Meaning& meaning = found->second;
         if (meaning.doubtful || meaning.parameters)
             return std::nullopt;
@@ -216,7 +220,9 @@ private:
 
 class Preprocessor {
 public:
-    Preprocessor(const std::vector<Token>& tokens, std::span<const KnownMacro> known) : tokens_(tokens) {
+    Preprocessor(const std::vector<Token>& tokens, std::span<const KnownMacro> known, bool all_known)
+        : tokens_(tokens) {
+        macros_.all_known = all_known;
         for (const KnownMacro& macro : known)
             macros_[macro.name] = {.number = macro.value};
         result_.activity.resize(tokens.size(), Activity::active);
@@ -315,8 +321,8 @@ private:
 
 } // namespace
 
-Preprocessed preprocess(const std::vector<Token>& tokens, std::span<const KnownMacro> known) {
-    return Preprocessor(tokens, known).run();
+Preprocessed preprocess(const std::vector<Token>& tokens, std::span<const KnownMacro> known, bool all_known) {
+    return Preprocessor(tokens, known, all_known).run();
 }
 
 } // namespace tidemark::glsl

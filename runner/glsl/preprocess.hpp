@@ -40,7 +40,9 @@ struct Preprocessed {
     std::vector<size_t> directives; ///< the `#` of every other directive that is not inactive
 };
 
+/// With `all_known`, no macro but those of `known` is defined before the text begins; without, the driver may
+/// define any that begins with GL_.
 Preprocessed preprocess(const std::vector<text::Token>& tokens,
-                        std::span<const KnownMacro> known = k_site_macros);
+                        std::span<const KnownMacro> known = k_site_macros, bool all_known = false);
 
 } // namespace tidemark::glsl

@@ -27,11 +27,15 @@ Result<BoundChannel> make_channel(const gl::Program& program, int unit, const sc
             return fail(texture.error());
         bound.source = *texture;
     }
+    point_samplers(program, unit);
+    return bound;
+}
+
+void point_samplers(const gl::Program& program, int unit) {
     const double number[] = {double(unit)};
     for (const std::string& name : sampler_names(unit))
         if (const gl::Uniform* sampler = program.reflection().find(name))
             gl::set_uniform(program, *sampler, number);
-    return bound;
 }
 
 void bind(const BoundChannel& channel, const gl::Texture& texture) {

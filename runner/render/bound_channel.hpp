@@ -25,6 +25,9 @@ struct BoundChannel {
 Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
                                   ChannelTextures& textures);
 
+/// The same for the samplers of another program alone.
+void point_samplers(const gl::Program& program, int unit);
+
 /// For the next draws.
 void bind(const BoundChannel& channel, const gl::Texture& texture);
 

@@ -33,6 +33,12 @@ void supply_other_kinds(scene::Scene& scene, size_t pass, const glsl::ChannelKin
     }
 }
 
+/// Which face of a cube a program draws.
+void set_face(const gl::Program& program, int face) {
+    if (const gl::Uniform* corners = program.reflection().find("tidemark_corners"))
+        gl::set_uniform(program, *corners, k_face_corners[face]);
+}
+
 } // namespace
 
 Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& options) {
@@ -97,6 +103,7 @@ Result<void> Renderer::compile() {
         if (!linked)
             return fail(std::move(linked.error()));
         supply_other_kinds(scene_, i, linked->dialect.channels);
+        passes_[i].dialect = linked->dialect;
         gl::Program& program = linked->program;
         reflections[i] = program.reflection();
         passes_[i].uniforms = UniformTable(program.reflection(), scene_.knobs);
@@ -214,33 +221,55 @@ const gl::Texture& Renderer::texture_of(const BoundChannel& channel) const {
                   : textures_.texture(std::get<ChannelTextures::Index>(channel.source));
 }
 
+void Renderer::draw_before(size_t pass, const FrameInputs& inputs) {
+    textures_.update(inputs);
+    for (const PlannedPass& planned : plan_.passes) {
+        if (planned.pass == pass)
+            return;
+        draw_pass(planned.pass, inputs);
+    }
+}
+
+/// All that a program reads.
+void Renderer::bind(size_t index, const gl::Program& program, const UniformTable& uniforms,
+                    const FrameInputs& inputs, Extent extent) const {
+    const CompiledPass& pass = passes_[index];
+    uniforms.upload(program, inputs, extent, facts_of(pass, scene_.passes[index].kind, inputs), scene_.knobs);
+    for (const BoundChannel& channel : pass.channels)
+        render::bind(channel, texture_of(channel));
+}
+
 void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
     const CompiledPass& pass = passes_[index];
-    const PassKind kind = scene_.passes[index].kind;
     PassTarget& target = targets_[index];
     const gl::RenderTarget& into = target.next();
-    pass.uniforms.upload(*pass.program, inputs, into.extent(), facts_of(pass, kind, inputs), scene_.knobs);
-    for (const BoundChannel& channel : pass.channels)
-        bind(channel, texture_of(channel));
-    if (kind != PassKind::cubemap) {
-        draw_face(pass, into);
+    bind(index, *pass.program, pass.uniforms, inputs, into.extent());
+    if (scene_.passes[index].kind != PassKind::cubemap) {
+        draw_face(*pass.program, into);
     } else {
-        const gl::Uniform* corners = pass.program->reflection().find("tidemark_corners");
         for (int face = 0; face < 6; ++face) {
             gl::select_face(into, face);
-            if (corners)
-                gl::set_uniform(*pass.program, *corners, k_face_corners[face]);
-            draw_face(pass, into);
+            set_face(*pass.program, face);
+            draw_face(*pass.program, into);
         }
     }
     target.flip();
 }
 
-void Renderer::draw_face(const CompiledPass& pass, const gl::RenderTarget& into) const {
+void Renderer::draw_stand_in(size_t index, const gl::Program& program, const FrameInputs& inputs,
+                             const gl::RenderTarget& into, int face) const {
+    for (const BoundChannel& channel : passes_[index].channels)
+        point_samplers(program, channel.unit);
+    set_face(program, face);
+    bind(index, program, UniformTable(program.reflection(), scene_.knobs), inputs, into.extent());
+    draw_face(program, into);
+}
+
+void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& into) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer.id());
     glViewport(0, 0, into.extent().width, into.extent().height);
     glDisable(GL_DITHER);
-    glUseProgram(pass.program->id());
+    glUseProgram(program.id());
     glBindVertexArray(no_vertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -249,6 +278,15 @@ Image Renderer::read_back(size_t pass) const {
     const gl::RenderTarget& target = targets_[pass].latest();
     Image image(target.extent(), 4, samples_);
     gl::read_pixels(target, GL_RGBA, samples_ == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT, image.bytes);
+    return image;
+}
+
+Image Renderer::read_floats(size_t pass, int face) const {
+    const gl::RenderTarget& from = targets_[pass].latest();
+    if (scene_.passes[pass].kind == PassKind::cubemap)
+        gl::select_face(from, face);
+    Image image(from.extent(), 4, SampleType::f32);
+    gl::read_pixels(from, GL_RGBA, GL_FLOAT, image.bytes);
     return image;
 }
 

@@ -45,6 +45,14 @@ public:
     /// One frame. Buffers keep their content for the next one.
     void draw(const FrameInputs& inputs);
 
+    /// The passes in front of `pass` alone. What draw_stand_in then sees is what `pass` would see in this
+    /// frame.
+    void draw_before(size_t pass, const FrameInputs& inputs);
+    /// Draws what `pass` is about to draw by another program, made from a text of the same dialect, into a
+    /// target of the same size. Of a cubemap pass, one face. The pass itself stays undrawn.
+    void draw_stand_in(size_t pass, const gl::Program& program, const FrameInputs& inputs,
+                       const gl::RenderTarget& into, int face = 0) const;
+
     /// Buffers back to zero, as before frame 0.
     void reset();
 
@@ -59,6 +67,9 @@ public:
     /// Other values for the scene's knobs, in their order, from the next frame on.
     void turn(std::vector<scene::Knob> knobs) { scene_.knobs = std::move(knobs); }
 
+    /// The last picture of any pass in the plan, in floats.
+    image::Image read_floats(size_t pass, int face = 0) const;
+
     /// Targets of another size, buffers keeping the overlap; fails (ErrorCode::usage) beyond the driver's
     /// limit and leaves the old ones.
     Result<void> resize(Extent extent);
@@ -67,16 +78,20 @@ public:
     const gl::RenderTarget& target() const { return targets_[shown_].latest(); }
     const scene::Scene& scene() const { return scene_; }
     const scene::Pass& shown_pass() const { return scene_.passes[shown_]; }
+    size_t shown_index() const { return shown_; }
     const FramePlan& plan() const { return plan_; }
     /// The program of a pass in the plan.
     const gl::Program& program(size_t pass) const { return *passes_[pass].program; }
     glsl::Precision precision() const { return precision_; }
     /// What a pass in the plan leaves in floats although the scene is promoted.
     const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const { return passes_[pass].hashes; }
+    /// What it was linked as.
+    const glsl::Dialect& dialect(size_t pass) const { return passes_[pass].dialect; }
 
 private:
     struct CompiledPass {
         std::optional<gl::Program> program; ///< none: not needed
+        glsl::Dialect dialect;
         UniformTable uniforms;
         std::vector<BoundChannel> channels;
         std::vector<glsl::KeptHash> hashes;
@@ -92,7 +107,9 @@ private:
     GLenum format_of(size_t pass) const;
 
     void draw_pass(size_t pass, const FrameInputs& inputs);
-    void draw_face(const CompiledPass& pass, const gl::RenderTarget& into) const;
+    void bind(size_t pass, const gl::Program& program, const UniformTable& uniforms,
+              const FrameInputs& inputs, Extent extent) const;
+    void draw_face(const gl::Program& program, const gl::RenderTarget& into) const;
     ChannelFacts facts_of(const CompiledPass& pass, scene::PassKind kind, const FrameInputs& inputs) const;
 
     scene::Scene scene_;

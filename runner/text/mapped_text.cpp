@@ -5,6 +5,35 @@
 #include <limits>
 
 namespace tidemark::text {
+namespace {
+
+bool stands_before(const LineMap::Shift& a, const LineMap::Shift& b) {
+    return a.line != b.line ? a.line < b.line : a.column < b.column;
+}
+
+/// Finds lines and columns of offsets that only grow.
+class Cursor {
+public:
+    explicit Cursor(std::string_view text) : text_(text) {}
+
+    void advance(size_t to) {
+        for (; at_ < to; ++at_)
+            if (text_[at_] == '\n') {
+                ++line_;
+                line_begin_ = at_ + 1;
+            }
+    }
+    int line() const { return line_; }
+    int column() const { return int(at_ - line_begin_) + 1; }
+
+private:
+    std::string_view text_;
+    size_t at_ = 0;
+    size_t line_begin_ = 0;
+    int line_ = 1;
+};
+
+} // namespace
 
 void LineMap::begin_run(int line, std::string_view file, int source_line) {
     auto known = std::find(files_.begin(), files_.end(), file);
@@ -23,12 +52,51 @@ SourceLocation LineMap::locate(int line, int column) const {
     const bool countable = line - run.line <= std::numeric_limits<int>::max() - run.source_line;
     if (file.empty() || !countable)
         return {};
-    return {file, run.source_line + (line - run.line), column};
+    return {file, run.source_line + (line - run.line),
+            column > 0 ? std::max(1, column + shift_at(line, column)) : column};
+}
+
+int LineMap::shift_at(int line, int column) const {
+    const auto next = std::upper_bound(shifts_.begin(), shifts_.end(), Shift{line, column, 0}, stands_before);
+    return next == shifts_.begin() || std::prev(next)->line != line ? 0 : std::prev(next)->by;
+}
+
+/// The shifts so far are about columns before this call: they move, and both are added up.
+void LineMap::shift(const std::vector<Shift>& shifts) {
+    std::vector<Shift> result;
+    size_t old = 0;
+    int before = 0; // what the old ones say here
+    int added = 0;  // what the new ones say here
+    int line = 0;
+    const auto begin_line = [&](int next) {
+        if (next != line)
+            before = added = 0;
+        line = next;
+    };
+    const auto take_old = [&](const Shift& shift) {
+        begin_line(shift.line);
+        before = shift.by;
+        result.push_back({line, std::max(1, shift.column - added), before + added});
+    };
+    for (const Shift& shift : shifts) {
+        const int total = shift.line == line ? added + shift.by : shift.by;
+        // In the columns of before, this one stands at its own column plus all shifts up to it.
+        while (old < shifts_.size() && stands_before(shifts_[old], {shift.line, shift.column + total, 0}))
+            take_old(shifts_[old++]);
+        begin_line(shift.line);
+        added = total;
+        result.push_back({line, shift.column, before + added});
+    }
+    while (old < shifts_.size())
+        take_old(shifts_[old++]);
+    shifts_ = std::move(result);
 }
 
 void LineMap::append(const LineMap& other, int first_line) {
     for (const Run& run : other.runs_)
         begin_run(run.line + first_line - 1, other.files_[size_t(run.file)], run.source_line);
+    for (const Shift& shift : other.shifts_)
+        shifts_.push_back({shift.line + first_line - 1, shift.column, shift.by});
 }
 
 void MappedText::append(std::string_view chunk, std::string_view file, int first_line) {
@@ -57,6 +125,11 @@ void MappedText::apply(const std::vector<Edit>& edits) {
         return;
     std::string result;
     result.reserve(text_.size());
+    std::vector<LineMap::Shift> shifts;
+    Cursor cursor(text_);
+    size_t line_begin = 0; // in the result
+    int line = 1;
+    int told = 0; // by the shifts of this line
     size_t copied = 0;
     for (const Edit& edit : edits) {
         assert(edit.begin >= copied && edit.end >= edit.begin && edit.end <= text_.size());
@@ -65,9 +138,21 @@ void MappedText::apply(const std::vector<Edit>& edits) {
         result += edit.replacement;
         result.append(size_t(std::count(removed.begin(), removed.end(), '\n')), '\n');
         copied = edit.end;
+        cursor.advance(edit.end);
+        if (cursor.line() != line) {
+            line = cursor.line();
+            line_begin = result.rfind('\n') + 1;
+            told = 0;
+        }
+        const int column = int(result.size() - line_begin) + 1;
+        const int by = cursor.column() - column - told;
+        if (by != 0)
+            shifts.push_back({line, column, by});
+        told += by;
     }
     result.append(text_, copied, std::string::npos);
     text_ = std::move(result);
+    lines_.shift(shifts);
 }
 
 std::string with_plain_line_ends(std::string text) {

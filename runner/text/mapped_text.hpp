@@ -22,14 +22,26 @@ public:
     /// The runs of `other`, whose line 1 stands at `first_line` here.
     void append(const LineMap& other, int first_line);
 
+    /// On `line`, what stands from `column` on was written `by` columns further right (left where negative)
+    /// than it would be found without this call. In ascending order of places.
+    struct Shift {
+        int line;
+        int column;
+        int by;
+    };
+    void shift(const std::vector<Shift>& shifts);
+
 private:
+    int shift_at(int line, int column) const;
+
     struct Run {
         int line;
         int file;
         int source_line;
     };
     std::vector<std::string> files_;
-    std::vector<Run> runs_; // ascending in `line`
+    std::vector<Run> runs_;     // ascending in `line`
+    std::vector<Shift> shifts_; // ascending; each holds up to the next of its line
 };
 
 /// Replace the characters [begin, end) by `replacement`.

@@ -119,5 +119,39 @@ TEST(PlainLineEnds, only_a_leading_byte_order_mark_goes) {
     EXPECT_EQ(with_plain_line_ends("\xEF\xBB"), "\xEF\xBB");
 }
 
+TEST(MappedText, columns_are_the_authors_after_edits) {
+    MappedText text;
+    text.append("out a; float b, c; d\nnext line\n", "a.glsl", 1);
+    text.apply({{0, 3, "inout"}, {14, 14, "=0"}, {17, 17, "=0"}});
+    ASSERT_EQ(text.text(), "inout a; float b=0, c=0; d\nnext line\n");
+    const auto column = [&](std::string_view piece) {
+        const size_t at = text.text().find(piece);
+        return text.lines().locate(1, int(at) + 1).column;
+    };
+    EXPECT_EQ(column("inout"), 1);
+    EXPECT_EQ(column("a;"), 5);
+    EXPECT_EQ(column(", c"), 15);
+    EXPECT_EQ(column("d\n"), 20);
+    EXPECT_EQ(text.lines().locate(2, 6).column, 6);
+    text.apply({{0, 6, ""}, {9, 14, "vec2"}}); // what was edited before is edited again
+    ASSERT_EQ(text.text(), "a; vec2 b=0, c=0; d\nnext line\n");
+    EXPECT_EQ(column("a;"), 5);
+    EXPECT_EQ(column("b=0"), 14);
+    EXPECT_EQ(column(", c"), 15);
+    EXPECT_EQ(column("d\n"), 20);
+    MappedText whole;
+    whole.append_generated("prologue\n");
+    whole.append(text);
+    EXPECT_EQ(whole.lines().locate(2, 9).column, 14);
+}
+
+TEST(MappedText, columns_behind_an_edit_over_lines) {
+    MappedText text;
+    text.append("a /*\n*/ b\n", "a.glsl", 1);
+    text.apply({{2, 7, " "}});
+    ASSERT_EQ(text.text(), "a  \n b\n");
+    EXPECT_EQ(text.lines().locate(2, 2).column, 4);
+}
+
 } // namespace
 } // namespace tidemark::text

@@ -1,0 +1,24 @@
+// `tidemark check --trace`: names the statement where a NaN or an infinity is born.
+#pragma once
+
+#include "cli/options.hpp"
+
+#include <string>
+
+namespace tidemark::cli {
+
+struct TraceOptions {
+    SceneRequest scene;
+    FrameOptions frames;
+    std::string pixel; ///< `x,y`; empty: the first bad one
+    std::string device = "auto";
+    double timeout = 60;
+    bool hidden = false;
+    bool json = false;
+};
+
+/// Exit code 1 when something that is not finite was found. Runs in a process of its own, so that neither a
+/// crash of the driver nor a shader without end is more than an answer.
+Result<int> check_trace(const TraceOptions& options);
+
+} // namespace tidemark::cli

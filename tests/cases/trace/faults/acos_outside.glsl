@@ -1,0 +1,5 @@
+void mainImage(out vec4 fragColor, in vec2 fragCoord) {
+    vec2 uv = fragCoord / iResolution.xy;
+    float angle = acos(uv.x + 1.5); // born NaN: acos outside of [-1, 1]
+    fragColor = vec4(angle);
+}
