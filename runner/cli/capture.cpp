@@ -41,7 +41,14 @@ std::string default_output(const CaptureOptions& options, size_t frame_count) {
     return options.scene.path.stem().string() + (frame_count > 1 ? ".%04d.png" : ".png");
 }
 
-Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output) {
+/// A buffer is state: a half would make infinity of 1e6. So a pass that was asked for keeps its floats.
+SampleDepth default_depth(const OutputName& output, const std::string& pass) {
+    const SampleDepth natural = image::natural_depth(output.pattern());
+    const bool shown = pass.empty() || pass == "Image";
+    return natural == SampleDepth::half && !shown ? SampleDepth::f32 : natural;
+}
+
+Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& pass) {
     constexpr std::pair<std::string_view, SampleDepth> k_depths[] = {{"8", SampleDepth::u8},
                                                                      {"16", SampleDepth::u16},
                                                                      {"half", SampleDepth::half},
@@ -50,7 +57,7 @@ Result<SampleDepth> parse_depth(const std::string& text, const OutputName& outpu
     if (raw && !text.empty())
         return fail(ErrorCode::usage, "--depth: videos and raw frames on standard output always have 8 bits");
     if (text.empty())
-        return raw ? SampleDepth::u8 : image::natural_depth(output.pattern());
+        return raw ? SampleDepth::u8 : default_depth(output, pass);
     for (const auto& [name, depth] : k_depths)
         if (name == text)
             return depth;
@@ -73,7 +80,7 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
         return fail(std::move(output.error()));
     if (!output->standard_output() && !output->video())
         drop_repeats(frames->frames);
-    const auto depth = parse_depth(options.depth, *output);
+    const auto depth = parse_depth(options.depth, *output, options.frames.pass);
     if (!depth)
         return fail(depth.error());
     if (output->video() && output->pattern().extension() == ".gif" &&
@@ -190,8 +197,9 @@ void add_capture(CLI::App& app, Action& chosen) {
             "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
-        ->add_option("--depth", options->depth,
-                     "Bits of a sample in the file [what the format stores by nature]")
+        ->add_option(
+            "--depth", options->depth,
+            "Bits of a sample in the file [what the format stores by nature; a --pass in .exr: float]")
         ->type_name("8|16|half|float");
     command
         ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")

@@ -132,6 +132,19 @@ class Formats(CaptureTest):
             at = header.index(b"chlist\0") + len(b"chlist\0") + 4
             self.assertEqual(header[at:at + 6], b"B\0" + bytes([kind, 0, 0, 0]))
 
+    def test_a_buffer_keeps_its_floats(self):
+        (self.folder / "state").mkdir()
+        self.write("state/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1e6, 0.1, p); }\n")
+        self.write("state/image.glsl", """#iChannel0 "buffer_a.glsl"
+void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }
+""")
+        self.succeed("capture", "state", "--size", "2x1", "--pass", "Buffer A", "-o", "a.exr")
+        self.write("reads.glsl", """#iChannel0 "a.exr"
+void mainImage(out vec4 c, in vec2 p) { c = vec4(texture(iChannel0, vec2(0.25, 0.5)).rg == vec2(1e6, 0.1)); }
+""")
+        told = self.succeed("capture", "reads.glsl", "--size", "1x1", "-o", "-").stdout
+        self.assertEqual(told, b"\xff\xff\xff")
+
     def test_float_picture_can_be_read_back_by_a_scene(self):
         self.write("bright.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1000.5, -2.0, p.x, 1.0); }\n")
         self.succeed("capture", "bright.glsl", *SIZE, "-o", "bright.exr", "--depth", "float")
