@@ -117,8 +117,11 @@ Result<Reference> reference_of(MakeReference make, const scene::Scene& scene, co
     wanted.time = double(float(inputs.time));
     wanted.resolution = {extent.width, extent.height};
     wanted.mouse = {inputs.mouse.x, inputs.mouse.y};
-    if (const auto octaves = glsl::definition_of(scene, "OCTAVES"))
-        wanted.octaves = std::atoi(octaves->c_str());
+    for (const char* name : {"MARCH_OCTAVES", "OCTAVES"}) // a shape may have fewer than its light
+        if (const auto octaves = glsl::definition_of(scene, name)) {
+            wanted.octaves = std::atoi(octaves->c_str());
+            break;
+        }
     wanted.lattice = lattice;
     return make(wanted);
 }
