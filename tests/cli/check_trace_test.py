@@ -61,7 +61,7 @@ class CheckTrace(ProgramTest):
 
     def test_usage(self):
         for options in (("--pixel", "16,0"), ("--pixel", "x"), ("--timeout", "0"), ("--frames", "0-3"),
-                        ("--portable",)):
+                        ("--portable",), ("--precision", "double")):
             with self.subTest(options=options):
                 self.assertEqual(self.check(SOUND, *options).returncode, 2)
 
