@@ -95,7 +95,8 @@ void add_check(CLI::App& app, Action& chosen) {
     command
         ->add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
         ->excludes(list);
-    command->add_flag("--trace", options->traced, "Instead: where a NaN or an infinity in the picture is born")
+    command
+        ->add_flag("--trace", options->traced, "Instead: where a NaN or an infinity in the picture is born")
         ->excludes(list)
         ->excludes("--portable");
     add_trace_options(*command, options->trace);

@@ -184,8 +184,8 @@ private:
     }
 
     static bool suspects_variables(const Birth& birth) {
-        return birth.why.verdict == Verdict::undefined ||
-               (birth.why.verdict == Verdict::carried && birth.origin.empty());
+        return birth.why.cause == Cause::undefined ||
+               (birth.why.cause == Cause::carried && birth.origin.empty());
     }
 
     bool cures(const std::vector<NodeId>& zeroed) {
