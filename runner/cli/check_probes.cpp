@@ -84,11 +84,11 @@ Result<void> keep_picture(const fs::path& folder, Asked& asked) {
     return image::write_picture(asked.picture, *asked.answer.picture);
 }
 
-/// Asks one probe, unless it is not to be asked.
-Result<Asked> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool time_left) {
+/// Asks one probe, unless the scene leaves it out and nobody named it.
+Result<Asked> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name, bool time_left) {
     Asked asked{&probe, {Verdict::not_applicable, {}, {}, {}}, 0, {}};
     const auto skipped = bench.promises().skip.find(std::string(probe.name));
-    if (skipped != bench.promises().skip.end()) {
+    if (!by_name && skipped != bench.promises().skip.end()) {
         asked.answer.sentence = "left out by the scene: " + skipped->second;
     } else if (!time_left) {
         asked.answer.sentence = "not asked: --budget is spent";
@@ -172,7 +172,7 @@ Result<int> check_probes(const ProbesRequest& request) {
         for (const lab::Probe* probe : *probes) {
             if (interrupt.requested())
                 return Interrupt::k_exit_code;
-            auto asked = ask(*probe, bench, seconds < request.budget);
+            auto asked = ask(*probe, bench, !request.probes.empty(), seconds < request.budget);
             if (!asked)
                 return fail(std::move(asked.error()));
             if (auto kept = keep_picture(request.output, *asked); !kept)

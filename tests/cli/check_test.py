@@ -1,5 +1,6 @@
 """`tidemark check SCENE`: what probes find in scenes with one fault each, and in sound ones."""
 import json
+import shutil
 
 from support.program import ROOT, ProgramTest, main
 
@@ -75,6 +76,17 @@ class Check(ProgramTest):
         self.assertEqual(entries["horizon"]["verdict"], "pass")
         self.assertEqual(entries["camera"]["found"], "left out by the scene: it has none")
 
+    def test_a_probe_asked_for_by_name_is_asked(self):
+        scene = self.write("turn.glsl", FAULTS["camera"])
+        self.write("turn.check.json", '{"skip": {"camera": "it has none"}}')
+        self.assertEqual(self.verdicts(scene, "--probe", "camera")["camera"]["verdict"], "fail")
+
+    def test_our_scenes_keep_what_they_promise(self):
+        for scene in sorted((ROOT / "shaders").glob("*.glsl")):
+            with self.subTest(scene.name):
+                for probe, entry in self.verdicts(scene).items():
+                    self.assertNotEqual(entry["verdict"], "fail", probe + ": " + entry["found"])
+
     def test_a_wrong_promise_is_an_error(self):
         scene = self.write("late.glsl", SOUND)
         file = self.write("late.check.json", '{"time_horizont": 1}')
@@ -83,7 +95,9 @@ class Check(ProgramTest):
         self.assertIn(f"{file}: 'time_horizont' is nothing that a scene can promise", result.stderr)
 
     def test_the_documents_own_marching_has_its_known_faults(self):
-        entries = self.verdicts(ROOT / "shaders" / "water_surface.glsl", "--define", "DOCUMENT=1")
+        shutil.copytree(ROOT / "shaders", self.folder / "shaders", ignore=shutil.ignore_patterns("*.check.json"))
+        scene = self.folder / "shaders" / "water_surface.glsl"
+        entries = self.verdicts(scene, "--define", "DOCUMENT=1")
         for probe in ("jumps", "camera", "witnesses", "horizon", "budget"):
             self.assertEqual(entries[probe]["verdict"], "fail", entries[probe]["found"])
         self.assertIn("62.83 s", entries["jumps"]["found"])

@@ -32,7 +32,7 @@ class Scene(ProgramTest):
             {"name": "height", "type": "float", "value": [1.25], "low": [0], "high": [2]},
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
         self.assertEqual(facts["left_out"], [
-            "uniforms: iResolution, iTimeDelta, iFrame, iFrameRate, iMouse, iDate, iSampleRate, iChannelTime, "
+            "uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, iChannelTime, "
             "iChannelResolution, iCamera",
             "knobs: tint", "channels: iChannel0, iChannel2, iChannel3"])
 
@@ -43,7 +43,7 @@ class Scene(ProgramTest):
         self.assertEqual(lines[3:], [
             "  iChannel1 noise", "  knob      float height = 0.5 in { 0, 2 }",
             "  knob      color3 tint = vec3(1, 0.5, 0)",
-            "  left out  uniforms: iResolution, iTimeDelta, iFrame, iFrameRate, iMouse, iDate, iSampleRate, "
+            "  left out  uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, "
             "iChannelTime, iChannelResolution, iCamera",
             "  left out  knobs: tint", "  left out  channels: iChannel0, iChannel2, iChannel3"])
 
