@@ -9,6 +9,7 @@
 #include "image/cubemap_file.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -19,19 +20,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Blocks of up to so many bytes are kept by the process: a frame of 4K in bytes.
+constexpr int k_kept_bytes = 32 << 20;
+
 double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 /// Rows from the top down, RGB, as video tools take raw frames.
 Result<void> put_raw(const image::Image& image) {
-    const image::Image upright = image::flipped(image);
-    const auto samples = upright.u8();
-    std::vector<std::byte> rgb;
-    rgb.reserve(image.extent.pixels() * 3);
-    for (size_t pixel = 0; pixel < image.extent.pixels(); ++pixel)
-        for (size_t channel = 0; channel < 3; ++channel)
-            rgb.push_back(std::byte(samples[pixel * 4 + channel]));
+    std::vector<std::byte> rgb(image.extent.pixels() * 3);
+    std::byte* to = rgb.data();
+    for (size_t row = size_t(image.extent.height); row-- > 0;) {
+        const std::byte* from = &image.bytes[row * image.row_bytes()];
+        for (int x = 0; x < image.extent.width; ++x, from += 4, to += 3)
+            std::copy_n(from, 3, to);
+    }
     return put(rgb);
 }
 
@@ -53,6 +57,9 @@ render::FrameInputs Capture::inputs_at(int frame) {
 }
 
 Result<bool> Capture::run(Interrupt& interrupt) {
+    // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
+    ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
+    ::mallopt(M_TRIM_THRESHOLD, k_kept_bytes);
     if (auto opened = open_output(); !opened)
         return fail(std::move(opened.error()));
     prepare(interrupt);
