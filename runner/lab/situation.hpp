@@ -16,12 +16,12 @@ namespace tidemark::lab {
 
 struct Situation {
     Extent extent{64, 36};
-    double time = 1;                 ///< iTime, seconds
-    std::optional<glm::ivec2> mouse; ///< the pixel that was clicked; none: never touched
-    bool down = false;               ///< in the frame of the click
-    std::vector<Setting> settings;
-    std::vector<std::string> channels; ///< `0=none`, as --channel has them
-    std::string pass;                  ///< empty: Image
+    double time = 1;                   ///< iTime, seconds
+    std::optional<glm::ivec2> mouse{}; ///< the pixel that was clicked; none: never touched
+    bool down = false;                 ///< in the frame of the click
+    std::vector<Setting> settings{};
+    std::vector<std::string> channels{}; ///< `0=none`, as --channel has them
+    std::string pass{};                  ///< empty: Image
 };
 
 /// iFrame is the one at 60 frames a second; before the start it is 0.
