@@ -5,8 +5,11 @@
 #include "glsl/overrides.hpp"
 #include "glsl/preprocess.hpp"
 #include "image/census.hpp"
+#include "image/picture_file.hpp"
 #include "lab/certified_march.hpp"
+#include "lab/knob_reader.hpp"
 #include "lab/reference.hpp"
+#include "lab/value_noise.hpp"
 #include "text/tokens.hpp"
 
 #include <algorithm>
@@ -39,6 +42,7 @@ protected:
         auto text = read_file(k_shaders / (name + ".glsl"));
         EXPECT_TRUE(text);
         replace_all(*text, "\"lib/", "\"" + (k_shaders / "lib/").string());
+        replace_all(*text, "\"../textures/", "\"" + (k_shaders / "../textures/").string());
         replace_all(*text, "void mainImage(", "void itsImage(");
         *text =
             "#define TIDEMARK_HIT 1\n" + *text + "\nvoid mainImage(out vec4 c, in vec2 p) {\n" + body + "}\n";
@@ -100,6 +104,70 @@ TEST_F(Waters, FieldsAreThoseOfTheReferencesAtAnyTime) {
                 }
             EXPECT_LT(worst, 3e-5) << water.scene << " at " << time;
         }
+    }
+}
+
+/// What stylized_waves computes at a place, from what is baked there: its formulas in double.
+struct StylizedWave {
+    double phase = 0, mask = 0, height = 0;
+};
+StylizedWave stylized_wave(const scene::Scene& scene, const image::Image& ramps, const glm::dvec4& baked,
+                           const glm::dvec2& at, double time) {
+    lab::KnobReader knobs(scene.knobs);
+    const auto smoothstep = [](double low, double high, double x) {
+        const double s = std::clamp((x - low) / (high - low), 0.0, 1.0);
+        return s * s * (3.0 - 2.0 * s);
+    };
+    constexpr double k_circle = 30.0;
+    const double bent =
+        knobs.number("bend") * (lab::value_noise(lab::IntegerLattice{}, 0.13 * at + 7.3) - 0.5);
+    const double path = baked.x - knobs.number("coast_delay") * std::exp(-0.8 * baked.z);
+    const double turns = path / knobs.number("wave_length") + time / knobs.number("wave_speed") + bent;
+    StylizedWave wave;
+    wave.phase = turns - std::floor(turns);
+    const double grown = smoothstep(knobs.number("shallow_water"), knobs.number("deep_water"), baked.z);
+    wave.mask = std::clamp(baked.y, 0.0, 1.0) * glm::mix(1.0, knobs.number("offshore_height"), grown) *
+                glm::mix(1.0, knobs.number("swash"), smoothstep(-0.9, 0.15, baked.w)) *
+                (1.0 - smoothstep(k_circle, 2.5 * k_circle, glm::length(at)));
+    const double column = wave.phase * ramps.extent.width - 0.5;
+    const auto ramp = [&](double i) {
+        const int wrapped = (int(i) + ramps.extent.width) % ramps.extent.width;
+        return double(ramps.f32()[size_t(wrapped) * size_t(ramps.channels)]);
+    };
+    const double first = std::floor(column);
+    wave.height =
+        knobs.number("wave_height") * wave.mask * glm::mix(ramp(first), ramp(first + 1), column - first);
+    return wave;
+}
+
+TEST_F(Waters, StylizedWavesAreTheirFormulasInDouble) {
+    const scene::Scene scene =
+        asked("stylized_waves", "vec2 at = 1.25 * (p - vec2(32.0, 18.0));\n"
+                                "vec4 field = vec4(0.375 * p.x, 0.03125 * p.y, 0.125 * p.x, "
+                                "0.5 - 0.0625 * p.y);\n"
+                                "turns = fract_of_product(iTime, 1.0 / wave_speed);\n"
+                                "c = vec4(phase_of(field, at), wave_mask(field, at), "
+                                "water_height(field, at), 1.0);");
+    const auto ramps = image::read_picture(k_shaders / "../textures/wave_ramps.png");
+    ASSERT_TRUE(ramps) << to_string(ramps.error());
+    Renderer drawing = renderer(scene, k_small);
+    for (const double time : {0.0, 10.0, 1000.0, 1000000.0}) {
+        const image::Image image = frame(drawing, at(time, 0, 0));
+        double phase = 0, mask = 0, height = 0;
+        for (int y = 0; y < k_small.height; ++y)
+            for (int x = 0; x < k_small.width; ++x) {
+                const glm::dvec2 p(x + 0.5, y + 0.5);
+                const StylizedWave truth = stylized_wave(
+                    scene, *ramps, {0.375 * p.x, 0.03125 * p.y, 0.125 * p.x, 0.5 - 0.0625 * p.y},
+                    1.25 * (p - glm::dvec2(32, 18)), time);
+                const Floats4 found = floats_at(image, x, y);
+                phase = std::max(phase, 0.5 - std::abs(std::abs(found[0] - truth.phase) - 0.5));
+                mask = std::max(mask, std::abs(found[1] - truth.mask));
+                height = std::max(height, std::abs(found[2] - truth.height));
+            }
+        EXPECT_LT(phase, 3e-6) << "at " << time;
+        EXPECT_LT(mask, 1e-6) << "at " << time;
+        EXPECT_LT(height, 3e-4) << "at " << time;
     }
 }
 
