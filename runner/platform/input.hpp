@@ -97,7 +97,7 @@ struct ButtonPressed {
 
 struct ButtonReleased {
     Button button = Button::left;
-    PointerPosition at;
+    PointerPosition at{};
     bool operator==(const ButtonReleased&) const = default;
 };
 
