@@ -17,7 +17,6 @@ struct Container {
 };
 
 /// The filters that make rows go from the top down and, for video, say by which matrix colours were coded.
-constexpr const char* k_upright = "vflip";
 constexpr const char* k_upright_bt709 = "vflip,scale=out_color_matrix=bt709:out_range=tv";
 constexpr const char* k_upright_palette =
     "vflip,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";

@@ -73,7 +73,7 @@ public:
     }
 
     Result<Loaded> operator()(const scene::PassOutput&) const {
-        assert(!"what a pass draws is the renderer's");
+        assert(false && "what a pass draws is the renderer's");
         return flat(Image({1, 1}, 4, SampleType::u8));
     }
 

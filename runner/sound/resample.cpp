@@ -17,8 +17,7 @@ constexpr int64_t k_most_phases = 4096;
 class Kernel {
 public:
     Kernel(int64_t phases, double step)
-        : phases_(phases), reach_(int(std::ceil(k_crossings * std::max(1.0, step)))),
-          weights_(size_t(phases) * taps()) {
+        : reach_(int(std::ceil(k_crossings * std::max(1.0, step)))), weights_(size_t(phases) * taps()) {
         const double cutoff = std::min(1.0, 1.0 / step);
         for (int64_t phase = 0; phase < phases; ++phase) {
             float* weights = &weights_[size_t(phase) * taps()];
@@ -45,7 +44,6 @@ private:
         return sinc * (0.42 + 0.5 * std::cos(part) + 0.08 * std::cos(2.0 * part));
     }
 
-    int64_t phases_;
     int reach_;
     std::vector<float> weights_;
 };
