@@ -20,7 +20,7 @@ Result<std::unique_ptr<const glsl::ParsedText>> read(std::string_view text) {
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto parsed = read(text_of(data, size));
     if (!parsed) {
-        REQUIRE(!parsed.error().message.empty());
+        REQUIRE(!to_string(parsed.error()).empty());
         return 0;
     }
     const glsl::SyntaxTree& tree = (*parsed)->tree();
