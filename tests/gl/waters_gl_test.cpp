@@ -476,8 +476,9 @@ TEST_F(Waters, WhatIsOffIsGone) {
             auto scene = scene::load_scene(k_shaders / (std::string(name) + ".glsl"));
             ASSERT_TRUE(scene);
             define(*scene, fmt::format("{}={}", feature, on ? 1 : 0));
-            if (*function)
+            if (*function) {
                 EXPECT_EQ(names_in(*scene).contains(function), on) << name << ' ' << feature;
+            }
             const Renderer drawing = renderer(*scene, {8, 8});
             EXPECT_EQ(drawing.program(0).reflection().has(knob), on) << name << ' ' << feature << ' ' << knob;
         }
