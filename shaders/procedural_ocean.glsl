@@ -75,11 +75,11 @@
 #iUniform float gamma = 0.65 in { 0.2, 1.5 }
 
 #include "lib/camera.glsl"
-#include "lib/fog.glsl"
 #include "lib/fresnel.glsl"
 #include "lib/march.glsl"
 #include "lib/noise.glsl"
 #include "lib/phase.glsl"
+#include "lib/seascape.glsl"
 #include "lib/sky.glsl"
 #include "lib/specular.glsl"
 
@@ -237,15 +237,6 @@ void mainHit(out vec4 hit, in vec2 fragCoord) {
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     float t = look(fragCoord);
-    vec3 color;
-    if (t >= 0.0) {
-        color = surface(t, ray_origin + t * ray_direction);
-#if FOG
-        vec3 level = normalize(vec3(ray_direction.x, 1e-6, ray_direction.z));
-        color = mix(sky_air(sky(), level), color, squared_clearness(t, fog_density));
-#endif
-    } else {
-        color = sky_color(sky(), ray_direction);
-    }
+    vec3 color = seascape(t, ray_origin, ray_direction);
     fragColor = vec4(pow(clamp(color, 0.0, 1.0), vec3(gamma)), 1.0);
 }
