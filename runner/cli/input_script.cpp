@@ -119,7 +119,7 @@ tl::unexpected<Error> refuse(std::string message) {
 Result<TimedEvent> parse_line(std::string_view line) {
     TimedEvent timed;
     std::string_view rest = line;
-    if (!take_number(rest, timed.frame, 0, k_last_frame))
+    if (!take_number(rest, timed.frame, 0, render::k_last_frame))
         return refuse("a line begins with the number of a frame, as in `12 move 100 50`");
     const std::string_view name = take_word(rest);
     const auto* kind = std::find_if(std::begin(k_kinds), std::end(k_kinds),

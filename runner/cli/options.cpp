@@ -104,7 +104,7 @@ Result<FrameRequest> resolve(const FrameOptions& options) {
         return fail(ErrorCode::usage, "--time: give a finite number of seconds");
     request.time = options.time;
     if (options.time)
-        request.frames = {frame_at(*options.time, options.fps)};
+        request.frames = {render::frame_at(*options.time, options.fps)};
     if (options.frames)
         if (auto frames = keep(parse_frames(*options.frames), request.frames); !frames)
             return fail(frames.error());

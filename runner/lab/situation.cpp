@@ -4,24 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace tidemark::lab {
 namespace {
-
-constexpr double k_frames_per_second = 60;
-constexpr double k_last_frame = 1e8;
-
-glm::vec4 mouse_of(const glm::ivec2& pixel, bool down) {
-    render::Mouse mouse;
-    mouse.press(pixel.x, pixel.y);
-    if (!down) {
-        mouse.frame_drawn();
-        mouse.release();
-    }
-    return mouse.uniform();
-}
 
 std::string quoted(const std::string& word) {
     return word.find_first_of(" ()'") == word.npos ? word : fmt::format("\"{}\"", word);
@@ -32,9 +16,9 @@ std::string quoted(const std::string& word) {
 render::FrameInputs inputs_of(const Situation& situation) {
     render::FrameInputs inputs;
     inputs.time = situation.time;
-    inputs.frame = int(std::clamp(std::floor(situation.time * k_frames_per_second), 0.0, k_last_frame));
+    inputs.frame = render::frame_at(situation.time, inputs.frame_rate);
     if (situation.mouse)
-        inputs.mouse = mouse_of(*situation.mouse, situation.down);
+        inputs.mouse = render::Mouse::clicked(situation.mouse->x, situation.mouse->y, situation.down);
     return inputs;
 }
 

@@ -10,7 +10,6 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr double k_frames_per_second = 60;
 constexpr double k_last_time = 1e9; ///< half a lifetime; floats are long done with by then
 
 bool take(std::string_view& text, double& number) {
@@ -31,14 +30,10 @@ bool take(std::string_view& text, char wanted) {
 render::FrameInputs inputs_of(const View& view, Extent extent) {
     render::FrameInputs inputs;
     inputs.time = view.time;
-    inputs.frame = int(std::min(std::floor(view.time * k_frames_per_second), 1e8));
-    if (view.mouse != glm::dvec2(0)) { // a click that is over
-        render::Mouse mouse;
-        mouse.press(view.mouse.x * extent.width, view.mouse.y * extent.height);
-        mouse.frame_drawn();
-        mouse.release();
-        inputs.mouse = mouse.uniform();
-    }
+    inputs.frame = render::frame_at(view.time, inputs.frame_rate);
+    if (view.mouse != glm::dvec2(0)) // a click that is over
+        inputs.mouse =
+            render::Mouse::clicked(view.mouse.x * extent.width, view.mouse.y * extent.height, false);
     inputs.camera = view.camera.value_or(render::OrbitCamera{}).matrix();
     return inputs;
 }

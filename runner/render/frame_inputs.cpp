@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 
 namespace tidemark::render {
@@ -66,6 +68,10 @@ Date local_date() {
     return {local.tm_year + 1900, local.tm_mon, local.tm_mday,
             local.tm_hour * 3600 + local.tm_min * 60 + local.tm_sec +
                 double(since_epoch.count() % 1000) / 1000};
+}
+
+int frame_at(double time, double fps) {
+    return int(std::clamp(std::floor(time * fps), 0.0, double(k_last_frame)));
 }
 
 FrameInputs inputs_of_frame(int frame, double fps) {

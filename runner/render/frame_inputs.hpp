@@ -41,6 +41,12 @@ struct FrameInputs {
 
 inline constexpr double k_sample_rate = 44100; ///< iSampleRate
 
+/// No recording is longer: iFrame is an int, and a day at 60 frames a second is five million.
+inline constexpr int k_last_frame = 100'000'000;
+
+/// The frame that a time falls in.
+int frame_at(double time, double fps);
+
 /// Frame N of a recording at `fps` frames a second: iTime = N / fps, computed in double.
 FrameInputs inputs_of_frame(int frame, double fps);
 

@@ -22,4 +22,14 @@ glm::vec4 Mouse::uniform() const {
             clicked_ ? pressed_at_.y : 0 - pressed_at_.y};
 }
 
+glm::vec4 Mouse::clicked(double x, double y, bool now) {
+    Mouse mouse;
+    mouse.press(x, y);
+    if (!now) {
+        mouse.frame_drawn();
+        mouse.release();
+    }
+    return mouse.uniform();
+}
+
 } // namespace tidemark::render

@@ -17,6 +17,8 @@ public:
 
     /// iMouse of the next frame.
     glm::vec4 uniform() const;
+    /// iMouse after a click at that place; `now`: in the very frame of the press.
+    static glm::vec4 clicked(double x, double y, bool now);
     /// To be called when a frame has been drawn: the click is then no longer new.
     void frame_drawn() { clicked_ = false; }
 

@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto again = cli::parse_input_script(cli::to_string(*script), "again.txt");
     REQUIRE(again && *again == *script);
     cli::Replay replay(*script, {});
-    for (const int frame : {0, 7, 3, cli::k_last_frame}) {
+    for (const int frame : {0, 7, 3, render::k_last_frame}) {
         render::FrameInputs inputs;
         inputs.frame = frame;
         replay.fill(inputs, 100);

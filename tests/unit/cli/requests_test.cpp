@@ -118,11 +118,11 @@ TEST(InputsOf, a_time_falls_in_a_frame_and_the_frames_before_lead_to_it) {
 }
 
 TEST(FrameAt, is_the_frame_that_a_time_falls_in) {
-    EXPECT_EQ(frame_at(0, 60), 0);
-    EXPECT_EQ(frame_at(2, 60), 120);
-    EXPECT_EQ(frame_at(1.999, 60), 119);
-    EXPECT_EQ(frame_at(-5, 60), 0);
-    EXPECT_EQ(frame_at(1e300, 60), k_last_frame);
+    EXPECT_EQ(render::frame_at(0, 60), 0);
+    EXPECT_EQ(render::frame_at(2, 60), 120);
+    EXPECT_EQ(render::frame_at(1.999, 60), 119);
+    EXPECT_EQ(render::frame_at(-5, 60), 0);
+    EXPECT_EQ(render::frame_at(1e300, 60), render::k_last_frame);
 }
 
 TEST(Load, carries_out_every_option) {
