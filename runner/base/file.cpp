@@ -161,4 +161,13 @@ Result<void> write_file(const fs::path& path, std::string_view text) {
     return write_file(path, std::as_bytes(std::span(text)));
 }
 
+Result<void> make_folder(const fs::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        return fail(ErrorCode::write,
+                    fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+    return {};
+}
+
 } // namespace tidemark

@@ -46,4 +46,7 @@ private:
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Makes the folder and those above it, where they are missing (ErrorCode::write, naming it and the reason).
+Result<void> make_folder(const std::filesystem::path& folder);
+
 } // namespace tidemark

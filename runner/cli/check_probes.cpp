@@ -46,11 +46,9 @@ Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::stri
     return chosen;
 }
 
-/// `waves.check.json` beside `waves.glsl`; `check.json` in a folder.
 Result<lab::Promises> promises_of(const fs::path& scene) {
+    const fs::path file = file_beside(scene, "check.json");
     std::error_code ignored;
-    const fs::path file = fs::is_directory(scene, ignored) ? scene / "check.json"
-                                                           : fs::path(scene).replace_extension(".check.json");
     if (!fs::exists(file, ignored))
         return lab::Promises{};
     const auto text = read_text_file(file);
@@ -75,11 +73,8 @@ std::string reproduction(const ProbesRequest& request, const lab::Situation& sit
 Result<void> keep_picture(const fs::path& folder, Asked& asked) {
     if (folder.empty() || !asked.answer.picture)
         return {};
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        return fail(ErrorCode::write,
-                    fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+    if (auto made = make_folder(folder); !made)
+        return made;
     asked.picture = folder / fmt::format("{}.png", asked.probe->name);
     return image::write_picture(asked.picture, *asked.answer.picture);
 }

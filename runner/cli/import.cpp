@@ -62,11 +62,9 @@ bool is_as_written(const fs::path& file, const Receipt& receipt) {
 
 /// The folder is there and may be written into.
 Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool force) {
+    if (auto made = make_folder(folder); !made)
+        return made;
     std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        return fail(ErrorCode::write,
-                    fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
     for (fs::directory_iterator entry(folder, error), end; !error && !force && entry != end;
          entry.increment(error))
         if (entry->path().filename() != k_receipt && !is_as_written(entry->path(), receipt))

@@ -38,11 +38,11 @@ bool take(std::string_view& text, char wanted) {
 /// One of the ranges between commas: `7`, `1-10`, `1-10x3`.
 bool take_range(std::string_view& text, std::vector<int>& frames) {
     int first = 0;
-    if (!take(text, first) || first < 0 || first > k_last_frame)
+    if (!take(text, first) || first < 0 || first > render::k_last_frame)
         return false;
     int last = first;
     int step = 1;
-    if (take(text, '-') && (!take(text, last) || last < 0 || last > k_last_frame))
+    if (take(text, '-') && (!take(text, last) || last < 0 || last > render::k_last_frame))
         return false;
     if (take(text, 'x') && (!take(text, step) || step < 1))
         return false;
@@ -77,6 +77,13 @@ Result<scene::Scene> load(const SceneRequest& request) {
     return scene;
 }
 
+std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(scene, ignored)
+               ? scene / name
+               : std::filesystem::path(scene).replace_extension(name);
+}
+
 glsl::Precision precision_of(const SceneRequest& request) {
     return !request.doubles        ? glsl::Precision::single
            : request.double_hashes ? glsl::Precision::promoted_whole
@@ -86,15 +93,11 @@ glsl::Precision precision_of(const SceneRequest& request) {
 render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
     render::FrameInputs inputs = render::inputs_of_frame(frame, request.fps);
     if (request.time) // the frames that lead to it go before it
-        inputs.time = *request.time - (frame_at(*request.time, request.fps) - frame) / request.fps;
+        inputs.time = *request.time - (render::frame_at(*request.time, request.fps) - frame) / request.fps;
     inputs.mouse = request.mouse;
     inputs.date = request.date;
     inputs.camera = request.camera.matrix();
     return inputs;
-}
-
-int frame_at(double time, double fps) {
-    return int(std::clamp(std::floor(time * fps), 0.0, double(k_last_frame)));
 }
 
 Result<Extent> parse_size(std::string_view text) {
@@ -130,13 +133,7 @@ Result<glm::vec4> parse_mouse(std::string_view text) {
     if (!good || (!rest.empty() && rest != ",down"))
         return fail(ErrorCode::usage,
                     fmt::format("--mouse {}: give x,y or x,y,down in pixels from the bottom left", text));
-    render::Mouse mouse;
-    mouse.press(x, y);
-    if (rest.empty()) {
-        mouse.frame_drawn();
-        mouse.release();
-    }
-    return mouse.uniform();
+    return render::Mouse::clicked(x, y, !rest.empty());
 }
 
 } // namespace tidemark::cli

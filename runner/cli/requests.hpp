@@ -34,11 +34,12 @@ struct SceneRequest {
 
 glsl::Precision precision_of(const SceneRequest& request);
 
+/// What is said of a scene in a file of its own: `waves.check.json` beside `waves.glsl`, `check.json` in a
+/// folder. It need not exist.
+std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name);
+
 /// Prints the scene's warnings.
 Result<scene::Scene> load(const SceneRequest& request);
-
-/// No recording is longer: iFrame is an int, and a day at 60 frames a second is five million.
-inline constexpr int k_last_frame = 100'000'000;
 
 /// Which frames, and what they see.
 struct FrameRequest {
@@ -55,9 +56,6 @@ struct FrameRequest {
 /// The inputs of one of the request's frames; depends on nothing else, so that a frame asked for alone
 /// equals the same frame of a sequence.
 render::FrameInputs inputs_of(const FrameRequest& request, int frame);
-
-/// The frame that a time falls in.
-int frame_at(double time, double fps);
 
 /// `640x360`.
 Result<Extent> parse_size(std::string_view text);

@@ -40,13 +40,6 @@ struct StudyOptions {
     bool json = false;
 };
 
-/// `water_surface.study.json` beside `water_surface.glsl`; `study.json` in a folder.
-fs::path study_file_of(const fs::path& scene) {
-    std::error_code ignored;
-    return fs::is_directory(scene, ignored) ? scene / "study.json"
-                                            : fs::path(scene).replace_extension(".study.json");
-}
-
 Result<lab::Study> read_study(const fs::path& path) {
     const auto text = read_text_file(path);
     if (!text)
@@ -59,7 +52,7 @@ Result<lab::Study> base_study(const StudyOptions& options) {
     std::error_code ignored;
     if (!options.file.empty())
         return read_study(options.file);
-    const fs::path beside = study_file_of(options.scene.path);
+    const fs::path beside = file_beside(options.scene.path, "study.json");
     const bool exists = fs::exists(beside, ignored);
     if (!exists && options.vary.empty())
         return fail(ErrorCode::usage, fmt::format("there is no '{}': say what to turn with --vary NAME=a,b,c",
@@ -166,12 +159,9 @@ void note_circumstances(lab::Circumstances& facts, const scene::Scene& scene) {
 }
 
 /// The folder is made before anything is measured, so that an hour's work has a place to go.
-Result<void> make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        return fail(ErrorCode::write,
-                    fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+Result<void> prepare_folder(const fs::path& folder) {
+    if (auto made = make_folder(folder); !made)
+        return made;
     return write_file(folder / "study.json", "{\"complete\": false}\n");
 }
 
@@ -204,7 +194,7 @@ Result<int> study(const StudyOptions& options) {
     const auto baseline = options.baseline.empty() ? Result<std::string>() : read_text_file(options.baseline);
     if (!baseline)
         return fail(baseline.error());
-    if (auto made = make_folder(folder); !made)
+    if (auto made = prepare_folder(folder); !made)
         return fail(std::move(made.error()));
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)

@@ -105,11 +105,8 @@ private:
     }
 
     Result<void> write_maps() {
-        std::error_code error;
-        fs::create_directories(folder_ / "maps", error);
-        if (error)
-            return fail(ErrorCode::write, fmt::format("cannot make the folder '{}': {}",
-                                                      (folder_ / "maps").string(), error.message()));
+        if (auto made = make_folder(folder_ / "maps"); !made)
+            return made;
         if (evidence_.reference.empty())
             return {};
         const size_t view = shown_view();
