@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/inspect_savings.hpp"
 #include "cli/omissions.hpp"
 #include "cli/options.hpp"
 #include "cli/precision_report.hpp"
@@ -14,6 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace tidemark::cli {
 namespace {
@@ -24,6 +27,9 @@ struct InspectOptions {
     SceneRequest scene;
     std::string device = "auto";
     std::string pass;
+    std::string size = "640x360";
+    std::vector<std::string> with;
+    double budget = 20;
     bool devices = false;
     bool source = false;
     bool json = false;
@@ -215,6 +221,21 @@ void add_inspect(CLI::App& app, Action& chosen) {
     command->add_flag("--devices", options->devices, "Lists where OpenGL contexts can be had, and no scene");
     command->add_flag("--source", options->source,
                       "Prints the text that the driver compiles, and nothing else");
+    const auto things = things_left_out();
+    command
+        ->add_option("--with", options->with,
+                     fmt::format("Puts back what was left out and measures what that costs: {}",
+                                 fmt::join(things, ", ")))
+        ->type_name("THING[,…]")
+        ->delimiter(',')
+        ->check(CLI::IsMember(things));
+    command->add_option("--size", options->size, "With --with: the picture's size")
+        ->type_name("WxH")
+        ->capture_default_str();
+    command->add_option("--budget", options->budget, "With --with: seconds to measure for")
+        ->type_name("S")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] {
         chosen = [options]() -> Result<int> {
@@ -222,6 +243,9 @@ void add_inspect(CLI::App& app, Action& chosen) {
                 return inspect_devices(options->json);
             if (options->scene.path.empty())
                 return fail(ErrorCode::usage, "inspect: give a SCENE, or --devices");
+            if (!options->with.empty())
+                return inspect_savings({options->scene, options->size, options->pass, options->device,
+                                        options->with, options->budget, options->json});
             return inspect_scene(*options);
         };
     });

@@ -44,6 +44,23 @@ void upload(const Texture& texture, int layer, GLenum format, GLenum type,
                             pixels.data());
 }
 
+size_t bytes_of(const Texture& texture) {
+    GLint bits = 0;
+    for (const GLenum part :
+         {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE}) {
+        GLint size = 0;
+        glGetTextureLevelParameteriv(texture.id(), 0, part, &size);
+        bits += size;
+    }
+    size_t texels = 0;
+    for (int level = 0; level < texture.levels; ++level) {
+        const int depth = texture.target == GL_TEXTURE_3D ? texture.depth >> level : texture.depth;
+        texels += size_t(std::max(1, texture.extent.width >> level)) *
+                  size_t(std::max(1, texture.extent.height >> level)) * size_t(std::max(1, depth));
+    }
+    return texels * size_t(bits) / 8;
+}
+
 void make_mipmaps(const Texture& texture) {
     if (texture.levels > 1)
         glGenerateTextureMipmap(texture.id());

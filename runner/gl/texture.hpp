@@ -29,6 +29,9 @@ Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, in
 /// levels are left to `make_mipmaps`.
 void upload(const Texture& texture, int layer, GLenum format, GLenum type, std::span<const std::byte> pixels);
 
+/// What the driver keeps of it, levels included.
+size_t bytes_of(const Texture& texture);
+
 /// Makes all levels from level 0, where there are any.
 void make_mipmaps(const Texture& texture);
 

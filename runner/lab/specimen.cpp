@@ -4,32 +4,11 @@
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
-#include <chrono>
 #include <set>
 
 namespace tidemark::lab {
 namespace {
-
-/// The clock on the wall and the CPU time of all threads, read together.
-struct Moment {
-    std::chrono::steady_clock::time_point wall;
-    double cpu; ///< milliseconds
-};
-
-Moment now() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto milliseconds = [](const timeval& t) {
-        return double(t.tv_sec) * 1e3 + double(t.tv_usec) * 1e-3;
-    };
-    return {std::chrono::steady_clock::now(), milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime)};
-}
-
-Specimen::Cost between(const Moment& from, const Moment& to) {
-    return {std::chrono::duration<double, std::milli>(to.wall - from.wall).count(), to.cpu - from.cpu};
-}
 
 /// Leaves the frame of the view in the renderer's target.
 void draw(render::Renderer& renderer, const View& view) {
@@ -56,22 +35,22 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
     specimen.extent_ = extent;
     specimen.precision_ = recipe.precision;
     specimen.hit_scene_ = glsl::hit_scene(*set);
-    const Moment start = now();
+    const Stopwatch watch;
     auto renderer =
         render::Renderer::create(*std::move(set), {extent, image::SampleType::f32, "", recipe.precision});
     if (!renderer)
         return fail(std::move(renderer.error()));
-    specimen.compile_milliseconds_ = between(start, now()).wall;
+    specimen.compile_milliseconds_ = watch.elapsed().wall;
     specimen.renderer_ = *std::move(renderer);
     return specimen;
 }
 
 image::Image Specimen::picture(const View& view) {
-    const Moment start = now();
+    const Stopwatch watch;
     draw(*renderer_, view);
     glFinish();
     if (!drawn_)
-        first_draw_milliseconds_ = between(start, now()).wall;
+        first_draw_milliseconds_ = watch.elapsed().wall;
     drawn_ = true;
     return image::without_alpha(renderer_->read_back());
 }
@@ -96,13 +75,13 @@ std::vector<std::string> Specimen::kept_hashes() const {
     return {names.begin(), names.end()};
 }
 
-Specimen::Cost Specimen::time(const View& view) {
+Elapsed Specimen::time(const View& view) {
     const render::FrameInputs inputs = inputs_of(view, extent_);
     glFinish();
-    const Moment start = now();
+    const Stopwatch watch;
     renderer_->draw(inputs);
     glFinish();
-    return between(start, now());
+    return watch.elapsed();
 }
 
 } // namespace tidemark::lab

@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 #include "lab/hits.hpp"
 #include "lab/setting.hpp"
+#include "lab/stopwatch.hpp"
 #include "lab/view.hpp"
 #include "render/renderer.hpp"
 
@@ -31,11 +32,7 @@ public:
 
     /// Milliseconds on the wall and of this process's CPU for one more picture of that view, from idle to
     /// idle.
-    struct Cost {
-        double wall = 0;
-        double cpu = 0;
-    };
-    Cost time(const View& view);
+    Elapsed time(const View& view);
 
     /// What computes in floats although the recipe says double: hashes, by the names of their functions.
     std::vector<std::string> kept_hashes() const;

@@ -49,7 +49,7 @@ public:
                 continue;
             if (!watch_.keep_going())
                 return false;
-            const Specimen::Cost cost = specimens_[index]->time(set_.study.views[view]);
+            const Elapsed cost = specimens_[index]->time(set_.study.views[view]);
             if (keep) {
                 point.wall[view].back() = cost.wall;
                 point.cpu[view].back() = cost.cpu;

@@ -269,6 +269,13 @@ ChannelFact ChannelTextures::fact(Index index, const FrameInputs& inputs) const 
     return fact;
 }
 
+size_t ChannelTextures::bytes() const {
+    size_t bytes = 0;
+    for (const Entry& entry : entries_)
+        bytes += gl::bytes_of(entry.texture);
+    return bytes;
+}
+
 gl::SamplerHandle make_sampler(const scene::Sampling& sampling) {
     using scene::Filter;
     using scene::Mipmaps;

@@ -34,6 +34,7 @@ public:
 
     const gl::Texture& texture(Index index) const { return entries_[size_t(index)].texture; }
     ChannelFact fact(Index index, const FrameInputs& inputs) const;
+    size_t bytes() const;
 
 private:
     struct Entry {

@@ -22,19 +22,25 @@ bool needs_texture(const scene::Channel& channel, int number, const gl::Reflecti
 
 class Planner {
 public:
-    Planner(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections)
-        : scene_(scene), reflections_(reflections), needed_(scene.passes.size(), false) {
+    Planner(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
+            const Extras& extras)
+        : scene_(scene), reflections_(reflections), extras_(extras), needed_(scene.passes.size(), false) {
         plan_.targets.resize(scene.passes.size());
     }
 
     FramePlan plan(size_t shown) {
         need(shown);
+        for (size_t pass = 0; extras_.passes && pass < needed_.size(); ++pass)
+            need(pass);
         for (size_t pass = 0; pass < needed_.size(); ++pass)
             if (needed_[pass])
                 plan_.passes.push_back({pass, channels_of(pass), reflections_[pass]->has("iKeyboard")});
         for (const PlannedPass& planned : plan_.passes)
             for (const int channel : planned.channels)
                 plan_read(planned.pass, scene_.passes[planned.pass].channels[size_t(channel)]);
+        for (const PlannedPass& planned : plan_.passes)
+            if (scene_.passes[planned.pass].kind != scene::PassKind::image)
+                add_extras(plan_.targets[planned.pass]);
         return std::move(plan_);
     }
 
@@ -42,7 +48,8 @@ private:
     std::vector<int> channels_of(size_t pass) const {
         std::vector<int> channels;
         for (int number = 0; number < scene::k_channel_count; ++number)
-            if (needs_texture(scene_.passes[pass].channels[size_t(number)], number, *reflections_[pass]))
+            if (extras_.channels ||
+                needs_texture(scene_.passes[pass].channels[size_t(number)], number, *reflections_[pass]))
                 channels.push_back(number);
         return channels;
     }
@@ -69,8 +76,14 @@ private:
         plan_.feedback = plan_.feedback || frame_ref(reader, output->pass) == FrameRef::previous;
     }
 
+    void add_extras(TargetPlan& target) const {
+        target.mipmaps = target.mipmaps || extras_.mipmaps;
+        target.two_textures = target.two_textures || extras_.second_textures;
+    }
+
     const scene::Scene& scene_;
     const std::vector<std::optional<gl::Reflection>>& reflections_;
+    const Extras extras_;
     std::vector<bool> needed_;
     FramePlan plan_;
 };
@@ -88,8 +101,8 @@ FrameRef frame_ref(size_t reader, size_t source) {
 }
 
 FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
-                     size_t shown) {
-    return Planner(scene, reflections).plan(shown);
+                     size_t shown, const Extras& extras) {
+    return Planner(scene, reflections, extras).plan(shown);
 }
 
 } // namespace tidemark::render

@@ -10,6 +10,15 @@
 
 namespace tidemark::render {
 
+/// What a scene does not need and gets all the same, to measure what leaving it out saves. The picture stays.
+struct Extras {
+    bool passes = false;          ///< are drawn although nobody reads them
+    bool channels = false;        ///< are loaded although the program reads nothing of them
+    bool mipmaps = false;         ///< of buffers, although nobody filters between them
+    bool second_textures = false; ///< of buffers that do not read themselves
+    bool uniforms = false;        ///< are handed over although the program has none of that name
+};
+
 /// Whether a read of a pass sees what was drawn in this frame or in the last one.
 enum class FrameRef { current, previous };
 
@@ -40,6 +49,6 @@ FrameRef frame_ref(size_t reader, size_t source);
 /// The passes that `shown` needs, itself included. `reflections` has one entry for each pass of the scene;
 /// those without (not linked) are not drawn.
 FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
-                     size_t shown);
+                     size_t shown, const Extras& extras = {});
 
 } // namespace tidemark::render

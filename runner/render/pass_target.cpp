@@ -52,6 +52,13 @@ void PassTarget::clear() {
         gl::clear(surface);
 }
 
+size_t PassTarget::bytes() const {
+    size_t bytes = 0;
+    for (const gl::RenderTarget& surface : surfaces_)
+        bytes += gl::bytes_of(surface.texture);
+    return bytes;
+}
+
 Result<PassTarget> PassTarget::resized(Extent extent) const {
     auto fresh = create(extent, latest().texture.internal_format, plan_);
     if (fresh) {

@@ -28,6 +28,7 @@ public:
     void flip();
 
     void clear();
+    size_t bytes() const;
     /// A target of another size with the overlap of the old picture in its bottom left corner.
     Result<PassTarget> resized(Extent extent) const;
 

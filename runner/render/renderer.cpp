@@ -47,6 +47,7 @@ Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& optio
     renderer.samples_ = options.samples;
     renderer.extent_ = options.extent;
     renderer.precision_ = options.precision;
+    renderer.extras_ = options.extras;
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
@@ -79,6 +80,9 @@ Result<void> Renderer::choose_pass(const std::string& name) {
 std::vector<bool> Renderer::reachable() const {
     std::vector<bool> found(scene_.passes.size(), false);
     std::vector<size_t> open{shown_};
+    for (size_t pass = 0; extras_.passes && pass < scene_.passes.size(); ++pass)
+        if (scene_.passes[pass].kind != PassKind::sound)
+            open.push_back(pass);
     while (!open.empty()) {
         const size_t pass = open.back();
         open.pop_back();
@@ -106,11 +110,11 @@ Result<void> Renderer::compile() {
         passes_[i].dialect = linked->dialect;
         gl::Program& program = linked->program;
         reflections[i] = program.reflection();
-        passes_[i].uniforms = UniformTable(program.reflection(), scene_.knobs);
+        passes_[i].uniforms = UniformTable(program.reflection(), scene_.knobs, extras_.uniforms);
         passes_[i].program = std::move(program);
         passes_[i].hashes = std::move(linked->hashes);
     }
-    plan_ = plan_frame(scene_, reflections, shown_);
+    plan_ = plan_frame(scene_, reflections, shown_, extras_);
     return {};
 }
 
@@ -272,6 +276,17 @@ void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& int
     glUseProgram(program.id());
     glBindVertexArray(no_vertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+FrameWork Renderer::work() const {
+    FrameWork work{0, 0, 0, textures_.bytes()};
+    for (const PlannedPass& planned : plan_.passes) {
+        work.draws += scene_.passes[planned.pass].kind == PassKind::cubemap ? 6 : 1;
+        work.uniforms += passes_[planned.pass].uniforms.size();
+        work.channels += passes_[planned.pass].channels.size();
+        work.texture_bytes += targets_[planned.pass].bytes();
+    }
+    return work;
 }
 
 Image Renderer::read_back(size_t pass) const {

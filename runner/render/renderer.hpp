@@ -31,6 +31,17 @@ struct RenderOptions {
     /// Textures and targets hold what they always hold: in a promoted scene a pass reads floats and writes
     /// floats, and computes in doubles between.
     glsl::Precision precision = glsl::Precision::single;
+    Extras extras{};
+};
+
+/// What a frame takes, in things that can be counted.
+struct FrameWork {
+    size_t draws = 0;
+    size_t uniforms = 0; ///< handed over
+    size_t channels = 0; ///< with a texture
+    size_t texture_bytes = 0;
+
+    bool operator==(const FrameWork&) const = default;
 };
 
 class Renderer {
@@ -74,6 +85,7 @@ public:
     /// limit and leaves the old ones.
     Result<void> resize(Extent extent);
 
+    FrameWork work() const;
     Extent extent() const { return extent_; }
     const gl::RenderTarget& target() const { return targets_[shown_].latest(); }
     const scene::Scene& scene() const { return scene_; }
@@ -116,6 +128,7 @@ private:
     Extent extent_;
     image::SampleType samples_ = image::SampleType::u8;
     glsl::Precision precision_ = glsl::Precision::single;
+    Extras extras_;
     size_t shown_ = 0;
     gl::VertexArrayHandle no_vertices_;
     std::vector<CompiledPass> passes_; ///< one for each of the scene's

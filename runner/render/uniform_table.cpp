@@ -45,7 +45,8 @@ private:
 
 } // namespace
 
-UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<scene::Knob>& knobs) {
+UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<scene::Knob>& knobs,
+                           bool absent_too) {
     constexpr std::pair<std::string_view, Source> k_names[] = {
         {"iResolution", Source::resolution},
         {"iTime", Source::time},
@@ -78,6 +79,17 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
             if (const auto source = struct_member(uniform.name, i))
                 entries_.push_back({uniform, *source, i});
     }
+    if (!absent_too)
+        return;
+    const auto absent = [&](std::string_view name, Source source, size_t index = 0) {
+        const GLenum type = source == Source::camera ? GL_FLOAT_MAT4 : GL_FLOAT_VEC4;
+        if (!reflection.has(name)) // GL ignores what is set at location -1
+            entries_.push_back({{std::string(name), type, 1, -1}, source, index});
+    };
+    for (const auto& [name, source] : k_names)
+        absent(name, source);
+    for (size_t i = 0; i < knobs.size(); ++i)
+        absent(knobs[i].name, Source::knob, i);
 }
 
 /// Whatever an author makes of our numbers: a number may be of any type, but a matrix is no vector and none

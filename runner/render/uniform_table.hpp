@@ -16,7 +16,11 @@ namespace tidemark::render {
 class UniformTable {
 public:
     UniformTable() = default;
-    UniformTable(const gl::Reflection& reflection, const std::vector<scene::Knob>& knobs);
+    /// `absent_too`: hands over what the program has no uniform for as well, to measure what that would cost.
+    UniformTable(const gl::Reflection& reflection, const std::vector<scene::Knob>& knobs,
+                 bool absent_too = false);
+
+    size_t size() const { return entries_.size(); }
 
     /// Uploads the active uniforms and nothing else.
     void upload(const gl::Program& program, const FrameInputs& inputs, Extent resolution,

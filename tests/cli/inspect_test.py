@@ -65,6 +65,63 @@ class Scene(ProgramTest):
         self.assertEqual(done.returncode, 4)
 
 
+class With(ProgramTest):
+    """What was left out is put back, measured, and changes nothing."""
+
+    def savings(self, scene, *things):
+        done = self.succeed("inspect", scene, "--with", ",".join(things), "--size", "16x9", "--budget", "0.1", "--json")
+        report = json.loads(done.stdout)
+        return {row["with"]: row for row in report["savings"]}, report["libraries"]
+
+    def project(self):
+        self.write("p/image.glsl", '#iChannel0 "buffer_b.glsl"\n'
+                   "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + fract(iTime); }\n")
+        self.write("p/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 1); }\n")
+        self.write("p/buffer_b.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.25); }\n")
+
+    def test_each_thing_adds_its_work_and_no_pixel_changes(self):
+        self.project()
+        rows, _ = self.savings("p", "passes", "frames", "uniforms", "mipmaps", "second-textures")
+        size = 16 * 9 * 16  # of a buffer
+        for thing, key, without, with_it in (("passes", "draws", 2, 3), ("frames", "draws", 2, 22)):
+            self.assertEqual((rows[thing]["without"][key], rows[thing]["with_it"][key]), (without, with_it), thing)
+        more = {thing: row["with_it"]["texture_bytes"] - row["without"]["texture_bytes"] for thing, row in rows.items()}
+        self.assertEqual(more, {"passes": size, "frames": 0, "uniforms": 0, "second-textures": size,
+                                "mipmaps": 16 * (8 * 4 + 4 * 2 + 2 + 1)})
+        self.assertGreater(rows["uniforms"]["with_it"]["uniforms"], rows["uniforms"]["without"]["uniforms"])
+        for row in rows.values():
+            self.assertTrue(row["same_pixels"])
+            for time in (row["start"], row["frame"]):
+                self.assertGreater(time["wall_ms"]["without"], 0)
+                self.assertLessEqual(time["wall_ms"]["low"], time["wall_ms"]["high"])
+
+    def test_what_a_scene_needs_is_not_left_out(self):
+        self.write("self.glsl", '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) '
+                                "{ c = texelFetch(iChannel0, ivec2(p), 0) + 0.125; }\n")
+        rows, _ = self.savings("self.glsl", "frames", "passes")
+        self.assertEqual([row["left_out"] for row in rows.values()], [False, False])
+
+    def test_all_is_everything_alone_and_together_and_the_libraries(self):
+        self.project()
+        rows, libraries = self.savings("p", "all")
+        self.assertEqual(list(rows)[-1], "all")
+        self.assertEqual(rows["all"]["with_it"]["draws"], 33)
+        self.assertTrue(rows["all"]["same_pixels"])
+        self.assertEqual([(library["name"], library["left_out"]) for library in libraries],
+                         [("OpenImageIO", True), ("libsndfile", True)])
+        self.assertGreater(libraries[0]["wall_ms"], 0)
+
+    def test_a_table_for_people(self):
+        self.project()
+        text = self.succeed("inspect", "p", "--with", "passes", "--size", "16x9", "--budget", "0.1").stdout.decode()
+        self.assertRegex(text, r"passes +[\d.]+ [+-][\d.]+ \[.+\] .+ 2 -> 3 .+ the same\n")
+
+    def test_a_thing_that_there_is_not(self):
+        done = self.run_program("inspect", "p", "--with", "wings")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("second-textures", done.stderr)
+
+
 class Devices(ProgramTest):
     def test_lists_what_capture_takes(self):
         devices = json.loads(self.succeed("inspect", "--devices", "--json").stdout)["devices"]

@@ -109,5 +109,28 @@ TEST(FrameRef, what_stands_before_is_this_frame_s) {
     EXPECT_EQ(frame_ref(1, 2), FrameRef::previous);
 }
 
+TEST(PlanFrame, an_extra_pass_is_drawn_although_nobody_reads_it) {
+    const Reflections programs{with({}), with({})};
+    EXPECT_EQ(plan_frame(scene_of(2), programs, 1).passes.size(), 1u);
+    EXPECT_EQ(plan_frame(scene_of(2), programs, 1, {.passes = true}).passes.size(), 2u);
+    EXPECT_EQ(plan_frame(scene_of(2), Reflections{std::nullopt, with({})}, 1, {.passes = true}).passes.size(),
+              1u)
+        << "one that did not link";
+}
+
+TEST(PlanFrame, extra_channels_have_a_texture_although_no_program_reads_them) {
+    const FramePlan plan = plan_frame(scene_of(1), Reflections{with({})}, 0, {.channels = true});
+    EXPECT_THAT(plan.passes[0].channels, ElementsAre(0, 1, 2, 3));
+}
+
+TEST(PlanFrame, extra_textures_and_mipmaps_are_those_of_buffers) {
+    scene::Scene scene = scene_of(2);
+    scene.passes[1].channels[0] = reads(0);
+    const FramePlan plan = plan_frame(scene, Reflections{with({}), with({"iChannel0"})}, 1,
+                                      {.mipmaps = true, .second_textures = true});
+    EXPECT_TRUE(plan.targets[0].two_textures && plan.targets[0].mipmaps);
+    EXPECT_FALSE(plan.targets[1].two_textures || plan.targets[1].mipmaps);
+}
+
 } // namespace
 } // namespace tidemark::render

@@ -1,0 +1,27 @@
+// `tidemark inspect --with`: what leaving a thing out saves, measured by putting it back.
+#pragma once
+
+#include "cli/requests.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+struct SavingsOptions {
+    SceneRequest scene;
+    std::string size = "640x360";
+    std::string pass;
+    std::string device = "auto";
+    std::vector<std::string> things; ///< "all": every one by itself, then all together
+    double budget = 20;              ///< seconds
+    bool json = false;
+};
+
+/// The words that `things` may hold.
+std::vector<std::string> things_left_out();
+
+/// A table, or one JSON object. Exit code 1 where putting a thing back changed a pixel.
+Result<int> inspect_savings(const SavingsOptions& options);
+
+} // namespace tidemark::cli
