@@ -13,50 +13,24 @@ import platform
 import re
 import shutil
 import signal
-import statistics
 import subprocess
-import sys
 import tempfile
 import time
+
+import peer
+import scaling
+from measure import against, run, spread
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "release"
 TIDEMARK = str(BUILD / "tidemark")
 FLOOR = str(BUILD / "tests" / "bench" / "tidemark_floor")
+FRONT_END = str(BUILD / "tests" / "bench" / "tidemark_front_end")
 SCENE = str(ROOT / "shaders" / "water_surface.glsl")
 DOCUMENT = ("--define", "DOCUMENT=1")  # as heavy as the document's own text
 FEEDBACK = str(ROOT / "tests" / "bench" / "feedback" / "feedback.glsl")
 BUFFERS = ("a.glsl", "b.glsl", "c.glsl", "d.glsl")
 SIZE = (640, 360)
-
-
-def run(command):
-    """Wall and CPU seconds and peak memory (MiB) of one process."""
-    start = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    wall = time.perf_counter() - start
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        sys.exit(f"bench: {command} failed with {process.returncode}")
-    return {"wall": wall, "cpu": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss / 1024}
-
-
-def spread(values):
-    return {"median": statistics.median(values), "low": min(values), "high": max(values)}
-
-
-def against(name, ours, floor, rounds):
-    """Interleaved: floor, ours, floor, ours … The first round warms caches and is dropped."""
-    pairs = [(run(floor), run(ours)) for _ in range(rounds + 1)][1:]
-    row = {"name": name}
-    for figure in ("wall", "cpu", "memory"):
-        row[figure] = {
-            "floor": spread([a[figure] for a, _ in pairs]),
-            "ours": spread([b[figure] for _, b in pairs]),
-            "ratio": spread([b[figure] / a[figure] for a, b in pairs]),
-        }
-    return row
 
 
 def inspected(*arguments):
@@ -100,6 +74,16 @@ def capture_rows(folder, rounds):
     buffers = [complete_shader(folder, FEEDBACK, "--pass", name) for name in BUFFERS]
     yield against("four buffers that read themselves, 120 frames, raw", ours(120, "-", FEEDBACK),
                   floor(feedback, 120, buffers), few)
+
+
+def light_rows(folder, rounds):
+    """What a host adds shows most where the shader costs nothing."""
+    light = scaling.light_scene(folder)
+    still = pathlib.Path(folder) / "still.glsl"
+    still.write_text(scaling.LIGHT.replace("iTime", "0.25"))
+    for name, scene in (("120 frames of one line, PNG", light), ("120 frames that stand still, PNG", str(still))):
+        shader = complete_shader(folder, scene)
+        yield against(name, ours(120, f"{folder}/light.%03d.png", scene), floor(shader, 120), rounds)
 
 
 def start_up(rounds):
@@ -155,23 +139,44 @@ def show(row):
               f"   ratio {ratio['median']:.3f} [{ratio['low']:.3f}, {ratio['high']:.3f}]")
 
 
+def show_all(report):
+    print("tidemark --version: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(**report["version_ms"]))
+    for name, figures in (report["reload_ms"] or {}).items():
+        print("reload, {}: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(name, **figures))
+    for row in report["by_size"]:
+        print("{size}: {ns_a_pixel[median]:.2f} ns of CPU a pixel".format(**row))
+    for row in report["by_frames"]:
+        print("{frames} frames: {memory:.0f} MiB".format(**row))
+    for row in report["front_end"]:
+        print("front end, {kilobytes} kB: {ms:.2f} ms".format(**row))
+    for row in report["check"]:
+        print("check {scene}: {check[wall]:.1f} s".format(**row))
+    print("in a browser:", json.dumps(report["browser"]))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("-o", "--output", default=str(ROOT / "build" / "bench.json"))
     options = parser.parse_args()
+    few = max(3, options.rounds // 3)
     report = {"machine": machine(), "rows": []}
     print(f"{report['machine']['processor']}, {report['machine']['cores']} cores, {report['machine']['renderer']}")
     with tempfile.TemporaryDirectory() as folder:
-        for row in capture_rows(folder, options.rounds):
-            report["rows"].append(row)
-            show(row)
+        for rows in (capture_rows(folder, options.rounds), light_rows(folder, few),
+                     scaling.specialised(TIDEMARK, ROOT / "shaders", options.rounds)):
+            for row in rows:
+                report["rows"].append(row)
+                show(row)
         report["version_ms"] = start_up(options.rounds)
-        print("tidemark --version: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(**report["version_ms"]))
         report["reload_ms"] = reload_times(folder, options.rounds)
-        if report["reload_ms"]:
-            for name, figures in report["reload_ms"].items():
-                print("reload, {}: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(name, **figures))
+        report["by_size"] = scaling.by_size(TIDEMARK, folder, few)
+        report["by_frames"] = scaling.by_frames(TIDEMARK, folder)
+        report["front_end"] = scaling.front_end(FRONT_END)
+        report["check"] = scaling.laboratory(TIDEMARK, ROOT / "shaders")
+        shader = complete_shader(folder, SCENE, *DOCUMENT)
+        report["browser"] = peer.in_a_browser(folder, shader, ours(30, "-", SCENE, *DOCUMENT), SIZE, 30, few)
+    show_all(report)
     pathlib.Path(options.output).write_text(json.dumps(report, indent=2) + "\n")
 
 
