@@ -119,6 +119,7 @@ Capture::Outcome Capture::draw(int frame, const Interrupt& interrupt, FrameRecor
     std::optional<Progress> steps;
     Clock::time_point start;
     record.inputs = inputs_at(frame);
+    const size_t drawn_before = renderer_.passes_drawn();
     const bool drawn = stepper_.draw(record.inputs.frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
@@ -132,6 +133,7 @@ Capture::Outcome Capture::draw(int frame, const Interrupt& interrupt, FrameRecor
     });
     if (!drawn)
         return Outcome::interrupted;
+    record.passes_drawn = renderer_.passes_drawn() - drawn_before;
     image = read_back();
     record.milliseconds = milliseconds_since(start);
     record.file = plan_.output.of_frame(frame).string();
@@ -191,6 +193,7 @@ nlohmann::ordered_json Capture::report() const {
                                     {"iTime", record.inputs.time},
                                     {"file", record.file},
                                     {"sha256", record.sha256},
+                                    {"passes_drawn", record.passes_drawn},
                                     {"milliseconds", record.milliseconds}});
     return report;
 }

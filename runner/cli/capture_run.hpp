@@ -36,6 +36,7 @@ struct FrameRecord {
     std::string file;
     std::string sha256;
     double milliseconds = 0;
+    size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
 };
 
 class Capture {

@@ -38,7 +38,7 @@ void copy_overlap(const RenderTarget& from, const RenderTarget& to) {
     const int width = std::min(from.extent().width, to.extent().width);
     const int height = std::min(from.extent().height, to.extent().height);
     glCopyImageSubData(from.texture.id(), from.texture.target, 0, 0, 0, 0, to.texture.id(), to.texture.target,
-                       0, 0, 0, 0, width, height, 1);
+                       0, 0, 0, 0, width, height, from.texture.depth);
 }
 
 void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::span<std::byte> pixels) {

@@ -24,7 +24,8 @@ void select_face(const RenderTarget& target, int face);
 
 void clear(const RenderTarget& target);
 
-/// Copies the overlap of the two from the bottom left corner, pixel for pixel.
+/// Copies the overlap of the two from the bottom left corner, pixel for pixel; of cubes, all faces. They have
+/// one format, and may come from two contexts that share their textures.
 void copy_overlap(const RenderTarget& from, const RenderTarget& to);
 
 /// Copies the target's pixels, bottom row first, tightly packed; waits for the drawing to end. `pixels` must

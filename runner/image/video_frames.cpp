@@ -250,8 +250,12 @@ double VideoFrames::duration() const {
     return state_->times.duration();
 }
 
+size_t VideoFrames::index_at(double seconds) const {
+    return state_->times.frame_at(seconds);
+}
+
 Result<Image> VideoFrames::at(double seconds) {
-    return state_->advance_to(state_->times.frame_at(seconds)).map([&] { return state_->current->image; });
+    return state_->advance_to(index_at(seconds)).map([&] { return state_->current->image; });
 }
 
 } // namespace tidemark::image

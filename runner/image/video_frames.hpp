@@ -30,6 +30,8 @@ public:
     /// From the first frame's appearance to the end of the last one's, in seconds; above 0.
     double duration() const;
 
+    /// Which frame is shown at `seconds` after the start, counted from 0.
+    size_t index_at(double seconds) const;
     /// The frame that is shown at `seconds` after the start: RGBA, u8, row 0 the bottom row. Times beyond the
     /// end and before 0 are taken modulo the duration.
     Result<Image> at(double seconds);

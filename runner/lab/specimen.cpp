@@ -36,8 +36,11 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
     specimen.precision_ = recipe.precision;
     specimen.hit_scene_ = glsl::hit_scene(*set);
     const Stopwatch watch;
-    auto renderer =
-        render::Renderer::create(*std::move(set), {extent, image::SampleType::f32, "", recipe.precision});
+    auto renderer = render::Renderer::create(
+        *std::move(set), {.extent = extent,
+                          .samples = image::SampleType::f32,
+                          .precision = recipe.precision,
+                          .extras = {.unchanged = true}}); // what drawing costs is the question
     if (!renderer)
         return fail(std::move(renderer.error()));
     specimen.compile_milliseconds_ = watch.elapsed().wall;

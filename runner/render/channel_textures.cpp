@@ -16,13 +16,15 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace tidemark::render {
 namespace {
 
 using image::Image;
 using image::SampleType;
-using Update = std::function<void(const gl::Texture&, const FrameInputs&)>;
 
 struct TextureFormat {
     GLenum internal;
@@ -55,8 +57,23 @@ double play_time(double time, double duration) {
 /// What `load` makes of an input.
 struct Loaded {
     gl::Texture texture;
-    Update update{};
+    TextureUpdate update{};
     double duration = 0; ///< of what plays
+};
+
+/// Fills a texture of one channel with `bytes`, unless they are those of last time.
+class ByteUpload {
+public:
+    bool operator()(const gl::Texture& texture, std::span<const std::byte> bytes) {
+        if (std::ranges::equal(bytes, last_))
+            return false;
+        gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE, bytes);
+        last_.assign(bytes.begin(), bytes.end());
+        return true;
+    }
+
+private:
+    std::vector<std::byte> last_; ///< empty before the first time
 };
 
 /// Makes the texture of each kind of input. One object a channel.
@@ -128,10 +145,9 @@ public:
 
     Result<Loaded> operator()(const scene::Keyboard& keyboard) const {
         return Loaded{gl::make_texture({256, keyboard.rows}, GL_R8, 1),
-                      [](const gl::Texture& texture, const FrameInputs& inputs) {
+                      [upload = ByteUpload()](const gl::Texture& texture, const FrameInputs& inputs) mutable {
                           const auto texels = std::as_bytes(std::span(inputs.keyboard));
-                          gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE,
-                                     texels.first(texture.extent.pixels()));
+                          return upload(texture, texels.first(texture.extent.pixels()));
                       }};
     }
 
@@ -143,14 +159,14 @@ public:
                 return fail(sound.error());
             spectrum = std::make_shared<sound::Spectrum>(*sound);
         }
-        return Loaded{gl::make_texture({sound::k_signal_width, 2}, GL_R8, 1),
-                      [spectrum](const gl::Texture& texture, const FrameInputs& inputs) {
-                          const auto bytes = spectrum
-                                                 ? spectrum->at(play_time(inputs.time, spectrum->duration()))
-                                                 : sound::silent_signal(inputs.time);
-                          gl::upload(texture, 0, GL_RED, GL_UNSIGNED_BYTE, std::as_bytes(std::span(bytes)));
-                      },
-                      spectrum ? spectrum->duration() : 0};
+        return Loaded{
+            gl::make_texture({sound::k_signal_width, 2}, GL_R8, 1),
+            [spectrum, upload = ByteUpload()](const gl::Texture& texture, const FrameInputs& inputs) mutable {
+                const auto bytes = spectrum ? spectrum->at(play_time(inputs.time, spectrum->duration()))
+                                            : sound::silent_signal(inputs.time);
+                return upload(texture, std::as_bytes(std::span(bytes)));
+            },
+            spectrum ? spectrum->duration() : 0};
     }
 
     Result<Loaded> operator()(const scene::Video& video) const {
@@ -160,17 +176,22 @@ public:
         if (auto fits = check_size(opened->extent(), video.file); !fits)
             return fail(std::move(fits.error()));
         const auto frames = std::make_shared<image::VideoFrames>(*std::move(opened));
-        return Loaded{
-            gl::make_texture(frames->extent(), GL_RGBA8, levels_),
-            [frames, vflip = sampling_.vflip](const gl::Texture& texture, const FrameInputs& inputs) {
-                const auto frame = frames->at(inputs.time);
-                if (!frame) // the last picture stays
-                    return;
-                const Image image = vflip ? *frame : image::flipped(*frame);
-                gl::upload(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.bytes);
-                gl::make_mipmaps(texture);
-            },
-            frames->duration()};
+        return Loaded{gl::make_texture(frames->extent(), GL_RGBA8, levels_),
+                      [frames, vflip = sampling_.vflip, shown = std::optional<size_t>()](
+                          const gl::Texture& texture, const FrameInputs& inputs) mutable {
+                          const size_t index = frames->index_at(inputs.time);
+                          if (shown == index)
+                              return false;
+                          const auto frame = frames->at(inputs.time);
+                          if (!frame) // the last picture stays
+                              return false;
+                          shown = index;
+                          const Image image = vflip ? *frame : image::flipped(*frame);
+                          gl::upload(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.bytes);
+                          gl::make_mipmaps(texture);
+                          return true;
+                      },
+                      frames->duration()};
     }
 
 private:
@@ -248,9 +269,16 @@ Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& ch
 }
 
 void ChannelTextures::update(const FrameInputs& inputs) {
-    for (const Entry& entry : entries_)
-        if (entry.update)
-            entry.update(entry.texture, inputs);
+    for (Entry& entry : entries_)
+        if (entry.update && entry.update(entry.texture, inputs))
+            ++entry.edition;
+}
+
+bool ChannelTextures::follow_clock() const {
+    return std::ranges::any_of(entries_, [](const Entry& entry) {
+        return std::holds_alternative<scene::Music>(entry.input) ||
+               std::holds_alternative<scene::Video>(entry.input);
+    });
 }
 
 ChannelFact ChannelTextures::fact(Index index, const FrameInputs& inputs) const {

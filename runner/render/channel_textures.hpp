@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 #include "gl/texture.hpp"
 #include "render/frame_inputs.hpp"
+#include "render/last_drawing.hpp"
 #include "scene/channel.hpp"
 
 #include <array>
@@ -21,6 +22,9 @@ struct ChannelFact {
 };
 using ChannelFacts = std::array<ChannelFact, scene::k_channel_count>;
 
+/// Brings a texture up to date; true when its content is another now. Empty: it never is.
+using TextureUpdate = std::function<bool(const gl::Texture&, const FrameInputs&)>;
+
 class ChannelTextures {
 public:
     enum class Index : size_t {};
@@ -33,6 +37,9 @@ public:
     void update(const FrameInputs& inputs);
 
     const gl::Texture& texture(Index index) const { return entries_[size_t(index)].texture; }
+    Edition edition(Index index) const { return entries_[size_t(index)].edition; }
+    /// Whether `update` may change something although nobody did anything: music and videos play.
+    bool follow_clock() const;
     ChannelFact fact(Index index, const FrameInputs& inputs) const;
     size_t bytes() const;
 
@@ -42,8 +49,9 @@ private:
         bool vflip = true;
         bool mipmaps = false;
         gl::Texture texture;
-        std::function<void(const gl::Texture&, const FrameInputs&)> update; ///< empty: never changes
+        TextureUpdate update;
         double duration = 0; ///< of what plays; 0: nothing does
+        Edition edition = 0;
     };
 
     Result<Entry> make_entry(const scene::Channel& channel) const;

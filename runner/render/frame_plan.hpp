@@ -17,6 +17,7 @@ struct Extras {
     bool mipmaps = false;         ///< of buffers, although nobody filters between them
     bool second_textures = false; ///< of buffers that do not read themselves
     bool uniforms = false;        ///< are handed over although the program has none of that name
+    bool unchanged = false;       ///< passes are drawn although they read what they read the last time
 };
 
 /// Whether a read of a pass sees what was drawn in this frame or in the last one.

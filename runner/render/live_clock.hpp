@@ -7,8 +7,8 @@
 namespace tidemark::render {
 
 /// ShaderToy's rules: pause freezes iTime, but a frame that is drawn meanwhile still counts in iFrame; the
-/// first frame after a start, restart, resume or step has iTimeDelta = 1/60; iFrameRate is a mean over at
-/// least half a second and starts at 60. `now` is in seconds from any origin and never runs backwards.
+/// first frame after a start, restart, resume, step or rest has iTimeDelta = 1/60; iFrameRate is a mean over
+/// at least half a second and starts at 60. `now` is in seconds from any origin and never runs backwards.
 class LiveClock {
 public:
     explicit LiveClock(double now) : resumed_at_(now), window_start_(now) {}
@@ -18,6 +18,9 @@ public:
     void restart(double now);
     /// Pauses and moves by so many frames of 1/fps; never before frame 0 or time 0.
     void step(int frames, double fps, double now);
+
+    /// No frame is drawn for a while, which is no frame's iTimeDelta.
+    void rest() { fresh_ = true; }
 
     /// The frame to draw now. Counts it.
     FrameInputs next_frame(double now);
@@ -35,7 +38,7 @@ private:
     double drawn_at_ = 0;
     int next_frame_ = 0;
     bool paused_ = false;
-    bool fresh_ = true; ///< nothing drawn since start, restart, resume or step
+    bool fresh_ = true; ///< nothing drawn since start, restart, resume, step or rest
     double window_start_;
     int window_frames_ = 0;
     double frame_rate_ = 60;

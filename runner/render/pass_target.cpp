@@ -44,12 +44,20 @@ Result<PassTarget> PassTarget::create_cube(const TargetPlan& plan) {
 
 void PassTarget::flip() {
     latest_ = next_index();
+    ++edition_;
     gl::make_mipmaps(latest().texture);
 }
 
 void PassTarget::clear() {
     for (const gl::RenderTarget& surface : surfaces_)
         gl::clear(surface);
+    ++edition_;
+}
+
+void PassTarget::continue_from(const PassTarget& other) {
+    gl::copy_overlap(other.latest(), latest());
+    gl::make_mipmaps(latest().texture);
+    edition_ = other.edition_ + 1;
 }
 
 size_t PassTarget::bytes() const {
@@ -60,11 +68,9 @@ size_t PassTarget::bytes() const {
 }
 
 Result<PassTarget> PassTarget::resized(Extent extent) const {
-    auto fresh = create(extent, latest().texture.internal_format, plan_);
-    if (fresh) {
-        gl::copy_overlap(latest(), fresh->latest());
-        gl::make_mipmaps(fresh->latest().texture);
-    }
+    auto fresh = create(extent, internal_format(), plan_);
+    if (fresh)
+        fresh->continue_from(*this);
     return fresh;
 }
 

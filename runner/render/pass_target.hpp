@@ -4,6 +4,7 @@
 #include "base/result.hpp"
 #include "gl/render_target.hpp"
 #include "render/frame_plan.hpp"
+#include "render/last_drawing.hpp"
 
 #include <vector>
 
@@ -29,6 +30,11 @@ public:
 
     void clear();
     size_t bytes() const;
+    GLenum internal_format() const { return latest().texture.internal_format; }
+    /// Of the picture in `latest`.
+    Edition edition() const { return edition_; }
+    /// Shows what `other` shows, as far as it reaches; of the same format.
+    void continue_from(const PassTarget& other);
     /// A target of another size with the overlap of the old picture in its bottom left corner.
     Result<PassTarget> resized(Extent extent) const;
 
@@ -37,6 +43,7 @@ private:
 
     std::vector<gl::RenderTarget> surfaces_;
     size_t latest_ = 0;
+    Edition edition_ = 0;
     TargetPlan plan_;
 };
 

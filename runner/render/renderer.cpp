@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace tidemark::render {
 namespace {
 
@@ -161,6 +163,8 @@ Result<void> Renderer::bind_channels() {
 }
 
 Result<void> Renderer::resize(Extent extent) {
+    if (extent == extent_)
+        return {};
     std::vector<PassTarget> fresh(targets_.size());
     for (const PlannedPass& planned : plan_.passes) {
         if (scene_.passes[planned.pass].kind == PassKind::cubemap)
@@ -180,6 +184,19 @@ Result<void> Renderer::resize(Extent extent) {
 void Renderer::reset() {
     for (const PlannedPass& planned : plan_.passes)
         targets_[planned.pass].clear();
+}
+
+void Renderer::continue_from(const Renderer& before) {
+    for (const PlannedPass& planned : plan_.passes)
+        for (const PlannedPass& known : before.plan_.passes) {
+            const scene::Pass& pass = scene_.passes[planned.pass];
+            const scene::Pass& old = before.scene_.passes[known.pass];
+            PassTarget& target = targets_[planned.pass];
+            const PassTarget& from = before.targets_[known.pass];
+            if (pass.kind == old.kind && pass.name == old.name &&
+                target.internal_format() == from.internal_format())
+                target.continue_from(from);
+        }
 }
 
 void Renderer::warm_up(const FrameInputs& inputs) {
@@ -234,20 +251,40 @@ void Renderer::draw_before(size_t pass, const FrameInputs& inputs) {
     }
 }
 
-/// All that a program reads.
-void Renderer::bind(size_t index, const gl::Program& program, const UniformTable& uniforms,
-                    const FrameInputs& inputs, Extent extent) const {
-    const CompiledPass& pass = passes_[index];
-    uniforms.upload(program, inputs, extent, facts_of(pass, scene_.passes[index].kind, inputs), scene_.knobs);
+Edition Renderer::edition_of(const BoundChannel& channel) const {
+    const auto* output = std::get_if<scene::PassOutput>(&channel.source);
+    return output ? targets_[output->pass].edition()
+                  : textures_.edition(std::get<ChannelTextures::Index>(channel.source));
+}
+
+UniformValues Renderer::uniforms_of(size_t index, const UniformTable& table, const FrameInputs& inputs,
+                                    Extent extent) const {
+    const ChannelFacts facts = facts_of(passes_[index], scene_.passes[index].kind, inputs);
+    return table.values(inputs, extent, facts, scene_.knobs);
+}
+
+void Renderer::bind_textures(const CompiledPass& pass) const {
     for (const BoundChannel& channel : pass.channels)
         render::bind(channel, texture_of(channel));
 }
 
+bool Renderer::follows_clock() const {
+    return textures_.follow_clock() || std::ranges::any_of(plan_.passes, [&](const PlannedPass& planned) {
+               return passes_[planned.pass].uniforms.follows_clock();
+           });
+}
+
 void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
-    const CompiledPass& pass = passes_[index];
+    CompiledPass& pass = passes_[index];
     PassTarget& target = targets_[index];
     const gl::RenderTarget& into = target.next();
-    bind(index, *pass.program, pass.uniforms, inputs, into.extent());
+    PassInputs reads{uniforms_of(index, pass.uniforms, inputs, into.extent()), {}};
+    for (const BoundChannel& channel : pass.channels)
+        reads.channels.push_back(edition_of(channel));
+    if (!extras_.unchanged && pass.drawn.holds(reads, target.edition()))
+        return;
+    pass.uniforms.upload(*pass.program, reads.uniforms);
+    bind_textures(pass);
     if (scene_.passes[index].kind != PassKind::cubemap) {
         draw_face(*pass.program, into);
     } else {
@@ -258,6 +295,8 @@ void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
         }
     }
     target.flip();
+    pass.drawn.drew(std::move(reads), target.edition());
+    ++passes_drawn_;
 }
 
 void Renderer::draw_stand_in(size_t index, const gl::Program& program, const FrameInputs& inputs,
@@ -265,7 +304,9 @@ void Renderer::draw_stand_in(size_t index, const gl::Program& program, const Fra
     for (const BoundChannel& channel : passes_[index].channels)
         point_samplers(program, channel.unit);
     set_face(program, face);
-    bind(index, program, UniformTable(program.reflection(), scene_.knobs), inputs, into.extent());
+    const UniformTable table(program.reflection(), scene_.knobs);
+    table.upload(program, uniforms_of(index, table, inputs, into.extent()));
+    bind_textures(passes_[index]);
     draw_face(program, into);
 }
 

@@ -11,6 +11,7 @@
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/frame_plan.hpp"
+#include "render/last_drawing.hpp"
 #include "render/pass_target.hpp"
 #include "render/uniform_table.hpp"
 #include "scene/scene.hpp"
@@ -53,8 +54,14 @@ public:
     /// Has the driver finish what it puts off until the first draw, without drawing anything.
     void warm_up(const FrameInputs& inputs);
 
-    /// One frame. Buffers keep their content for the next one.
+    /// One frame. Buffers keep their content for the next one. A pass that reads what it read the last time
+    /// is not drawn again.
     void draw(const FrameInputs& inputs);
+    /// How many passes have been drawn in all frames so far.
+    size_t passes_drawn() const { return passes_drawn_; }
+    /// Whether the next frame may be another one although nobody turns, moves or presses anything. Buffers
+    /// that are not at rest yet do not count.
+    bool follows_clock() const;
 
     /// The passes in front of `pass` alone. What draw_stand_in then sees is what `pass` would see in this
     /// frame.
@@ -66,6 +73,11 @@ public:
 
     /// Buffers back to zero, as before frame 0.
     void reset();
+
+    /// Buffers take over what they hold in another Renderer of the scene as it was before: each from the pass
+    /// of its name. The two may live in two contexts that share their textures; the other one is done
+    /// drawing.
+    void continue_from(const Renderer& before);
 
     /// The pixels of the shown pass. A buffer that is shown in bytes is clamped; of a cube, face +x.
     image::Image read_back() const { return read_back(shown_); }
@@ -107,6 +119,7 @@ private:
         UniformTable uniforms;
         std::vector<BoundChannel> channels;
         std::vector<glsl::KeptHash> hashes;
+        LastDrawing drawn;
     };
 
     Result<void> choose_pass(const std::string& name);
@@ -119,8 +132,10 @@ private:
     GLenum format_of(size_t pass) const;
 
     void draw_pass(size_t pass, const FrameInputs& inputs);
-    void bind(size_t pass, const gl::Program& program, const UniformTable& uniforms,
-              const FrameInputs& inputs, Extent extent) const;
+    UniformValues uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
+                              Extent extent) const;
+    Edition edition_of(const BoundChannel& channel) const;
+    void bind_textures(const CompiledPass& pass) const;
     void draw_face(const gl::Program& program, const gl::RenderTarget& into) const;
     ChannelFacts facts_of(const CompiledPass& pass, scene::PassKind kind, const FrameInputs& inputs) const;
 
@@ -135,6 +150,7 @@ private:
     FramePlan plan_;
     ChannelTextures textures_;
     std::vector<PassTarget> targets_; ///< one for each of the scene's; empty where nothing is drawn
+    size_t passes_drawn_ = 0;
 };
 
 } // namespace tidemark::render

@@ -70,7 +70,7 @@ std::vector<int16_t> SoundRenderer::draw(int first) {
 std::vector<int16_t> SoundRenderer::draw_rows(int first, int rows) {
     const int block = first - first % block_samples();
     const int row = (first - block) / glsl::k_sound_tile;
-    uniforms_.upload(program_, inputs_, target_.extent(), facts(), knobs_);
+    uniforms_.upload(program_, uniforms_.values(inputs_, target_.extent(), facts(), knobs_));
     const auto set = [&](std::string_view name, double value) {
         if (const gl::Uniform* uniform = program_.reflection().find(name))
             gl::set_uniform(program_, *uniform, {&value, 1});

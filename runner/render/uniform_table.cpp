@@ -10,38 +10,25 @@
 namespace tidemark::render {
 namespace {
 
-/// The numbers of one uniform, in the order GL takes them.
-class Numbers {
-public:
-    Numbers(std::initializer_list<double> values) { append(values.begin(), values.end()); }
-    explicit Numbers(const scene::KnobValue& value) { append(value.begin(), value.end()); }
-    explicit Numbers(const glm::mat4& matrix) { append(&matrix[0][0], &matrix[0][0] + 16); }
-    static Numbers resolutions(const ChannelFacts& channels) {
-        Numbers numbers{};
-        for (const ChannelFact& channel : channels)
-            numbers.append(channel.resolution.begin(), channel.resolution.end());
-        return numbers;
-    }
-    static Numbers times(const ChannelFacts& channels) {
-        Numbers numbers{};
-        for (const ChannelFact& channel : channels)
-            numbers.append(&channel.time, &channel.time + 1);
-        return numbers;
-    }
-    explicit Numbers(const std::array<double, 3>& values) { append(values.begin(), values.end()); }
+UniformNumbers resolutions_of(const ChannelFacts& channels) {
+    UniformNumbers numbers{};
+    for (const ChannelFact& channel : channels)
+        numbers.append(channel.resolution.begin(), channel.resolution.end());
+    return numbers;
+}
 
-    operator std::span<const double>() const { return {values_.data(), count_}; }
+UniformNumbers times_of(const ChannelFacts& channels) {
+    UniformNumbers numbers{};
+    for (const ChannelFact& channel : channels)
+        numbers.append(&channel.time, &channel.time + 1);
+    return numbers;
+}
 
-private:
-    template <class Iterator>
-    void append(Iterator begin, Iterator end) {
-        for (; begin != end; ++begin)
-            values_[count_++] = double(*begin);
-    }
-
-    std::array<double, 16> values_{};
-    size_t count_ = 0;
-};
+UniformNumbers elements_of(const glm::mat4& matrix) {
+    UniformNumbers numbers{};
+    numbers.append(&matrix[0][0], &matrix[0][0] + 16);
+    return numbers;
+}
 
 } // namespace
 
@@ -115,9 +102,9 @@ std::optional<UniformTable::Source> UniformTable::struct_member(std::string_view
     return std::nullopt;
 }
 
-void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs, Extent resolution,
-                          const ChannelFacts& channels, const std::vector<scene::Knob>& knobs) const {
-    const auto numbers_of = [&](const Entry& entry) -> Numbers {
+UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution, const ChannelFacts& channels,
+                                   const std::vector<scene::Knob>& knobs) const {
+    const auto numbers_of = [&](const Entry& entry) -> UniformNumbers {
         switch (entry.source) {
         case Source::resolution: return {double(resolution.width), double(resolution.height), 1};
         case Source::time: return {inputs.time};
@@ -132,27 +119,49 @@ void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs,
             return {double(inputs.date.year), double(inputs.date.month), double(inputs.date.day),
                     inputs.date.seconds};
         case Source::sample_rate: return {k_sample_rate};
-        case Source::channel_time: return Numbers::times(channels);
-        case Source::channel_resolution: return Numbers::resolutions(channels);
-        case Source::camera: return Numbers(inputs.camera);
-        case Source::struct_size: return Numbers(channels[entry.index].resolution);
+        case Source::channel_time: return times_of(channels);
+        case Source::channel_resolution: return resolutions_of(channels);
+        case Source::camera: return elements_of(inputs.camera);
+        case Source::struct_size: return UniformNumbers(channels[entry.index].resolution);
         case Source::struct_time: return {channels[entry.index].time};
         case Source::struct_loaded: return {channels[entry.index].loaded ? 1.0 : 0.0};
-        case Source::knob: return Numbers(knobs[entry.index].value);
+        case Source::knob: return UniformNumbers(knobs[entry.index].value);
         }
         return {};
     };
+    UniformValues values;
+    values.reserve(entries_.size());
+    for (const Entry& entry : entries_)
+        values.push_back(numbers_of(entry));
+    return values;
+}
+
+void UniformTable::upload(const gl::Program& program, const UniformValues& values) const {
     // As wide as ShaderToy declares them, whatever the author made of that.
     const auto width_of = [](const Entry& entry, size_t all) -> size_t {
         return entry.source == Source::channel_time         ? 1
                : entry.source == Source::channel_resolution ? 3
                                                             : all;
     };
-    for (const Entry& entry : entries_) {
-        const Numbers numbers = numbers_of(entry);
-        const std::span<const double> all = numbers;
-        gl::set_uniform(program, entry.uniform, all, width_of(entry, all.size()));
+    for (size_t i = 0; i < entries_.size(); ++i) {
+        const std::span<const double> all = values[i];
+        gl::set_uniform(program, entries_[i].uniform, all, width_of(entries_[i], all.size()));
     }
+}
+
+bool UniformTable::follows_clock() const {
+    return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
+        switch (entry.source) {
+        case Source::time:
+        case Source::time_delta:
+        case Source::frame:
+        case Source::frame_rate:
+        case Source::date:
+        case Source::channel_time:
+        case Source::struct_time: return true;
+        default: return false;
+        }
+    });
 }
 
 } // namespace tidemark::render

@@ -5,6 +5,7 @@
 #include "gl/program.hpp"
 #include "render/channel_textures.hpp"
 #include "render/frame_inputs.hpp"
+#include "render/uniform_numbers.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>
@@ -22,9 +23,13 @@ public:
 
     size_t size() const { return entries_.size(); }
 
-    /// Uploads the active uniforms and nothing else.
-    void upload(const gl::Program& program, const FrameInputs& inputs, Extent resolution,
-                const ChannelFacts& channels, const std::vector<scene::Knob>& knobs) const;
+    /// Of the active uniforms and no others.
+    UniformValues values(const FrameInputs& inputs, Extent resolution, const ChannelFacts& channels,
+                         const std::vector<scene::Knob>& knobs) const;
+    void upload(const gl::Program& program, const UniformValues& values) const;
+
+    /// Whether some uniform may have another value in the next frame although nobody did anything.
+    bool follows_clock() const;
 
 private:
     enum class Source {

@@ -101,10 +101,10 @@ void expect_sound(const scene::Scene& scene, const Json& samples) {
 
 class Conformance : public testing::TestWithParam<std::string> {
 protected:
-    void expect_pixels_of_the_convention(glsl::Precision precision) const;
+    void expect_pixels_of_the_convention(glsl::Precision precision, bool unchanged_too = false) const;
 };
 
-void Conformance::expect_pixels_of_the_convention(glsl::Precision precision) const {
+void Conformance::expect_pixels_of_the_convention(glsl::Precision precision, bool unchanged_too) const {
     const fs::path folder = k_cases / GetParam();
     const auto text = read_file(folder / "expected.json");
     ASSERT_TRUE(text) << to_string(text.error());
@@ -125,7 +125,8 @@ void Conformance::expect_pixels_of_the_convention(glsl::Precision precision) con
     const Json& size = expected.at("size");
     const SampleType samples =
         expected.value("target", "bytes") == "floats" ? SampleType::f32 : SampleType::u8;
-    auto renderer = Renderer::create(*std::move(scene), {{size.at(0), size.at(1)}, samples, {}, precision});
+    auto renderer = Renderer::create(
+        *std::move(scene), {{size.at(0), size.at(1)}, samples, {}, precision, {.unchanged = unchanged_too}});
     ASSERT_TRUE(renderer) << to_string(renderer.error());
 
     Mouse mouse;
@@ -153,6 +154,10 @@ TEST_P(Conformance, pixels_are_those_of_the_convention) {
 
 TEST_P(Conformance, and_in_double_precision_too) {
     expect_pixels_of_the_convention(glsl::Precision::promoted);
+}
+
+TEST_P(Conformance, and_when_all_passes_are_drawn_in_all_frames) {
+    expect_pixels_of_the_convention(glsl::Precision::single, true);
 }
 
 INSTANTIATE_TEST_SUITE_P(cases, Conformance, testing::ValuesIn(case_names()),

@@ -91,6 +91,13 @@ protected:
                       image::SampleType samples = image::SampleType::f32) const {
         return renderer(scene_of(text), extent, samples);
     }
+    /// One that draws a picture again although it has it.
+    Renderer diligent_renderer(const std::string& text, Extent extent, image::SampleType samples) const {
+        auto made = Renderer::create(scene_of(text),
+                                     {.extent = extent, .samples = samples, .extras = {.unchanged = true}});
+        EXPECT_TRUE(made) << to_string(made.error());
+        return *std::move(made);
+    }
     static image::Image frame(Renderer& renderer, const FrameInputs& inputs = {}) {
         renderer.draw(inputs);
         return renderer.read_back();

@@ -52,7 +52,7 @@ TEST_F(RendererTest, row_0_is_the_bottom_and_pixels_are_told_their_centres) {
 
 TEST_F(RendererTest, same_frame_twice_gives_the_same_bytes) {
     for (const SampleType samples : {SampleType::u8, SampleType::f32}) {
-        Renderer drawing = renderer(k_moving, {64, 48}, samples);
+        Renderer drawing = diligent_renderer(k_moving, {64, 48}, samples);
         const Image first = frame(drawing, inputs_of_frame(5, 60));
         EXPECT_EQ(frame(drawing, inputs_of_frame(5, 60)), first);
         EXPECT_NE(frame(drawing, inputs_of_frame(6, 60)), first);
@@ -147,7 +147,7 @@ TEST_F(RendererTest, resize_that_fails_leaves_the_old_target) {
 }
 
 TEST_F(RendererTest, two_renderers_do_not_disturb_each_other) {
-    Renderer first = renderer(k_places, {8, 8}, SampleType::u8);
+    Renderer first = diligent_renderer(k_places, {8, 8}, SampleType::u8);
     const Image alone = frame(first);
     Renderer second = renderer(k_moving, {33, 7});
     frame(second, inputs_of_frame(4, 60));
@@ -163,8 +163,8 @@ TEST_F(RendererTest, one_that_is_replaced_by_another_draws_the_other) {
 
 TEST_F(RendererTest, draw_needs_no_state_from_before) {
     Renderer drawing =
-        renderer("void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / 256.0); }", {8, 8},
-                 SampleType::u8);
+        diligent_renderer("void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / 256.0); }",
+                          {8, 8}, SampleType::u8);
     const Image undisturbed = frame(drawing);
     glViewport(3, 3, 1, 1);
     glUseProgram(0);

@@ -60,6 +60,18 @@ TEST(LiveClock, resumes_where_it_stood) {
     EXPECT_EQ(clock.next_frame(100.75).time_delta, 0.25);
 }
 
+TEST(LiveClock, a_rest_is_no_frames_delta) {
+    LiveClock clock(0);
+    (void)clock.next_frame(1);
+    clock.rest();
+    const FrameInputs woken = clock.next_frame(9);
+    EXPECT_EQ(woken.time, 9) << "time goes on";
+    EXPECT_EQ(woken.frame, 1);
+    EXPECT_EQ(woken.time_delta, k_delta);
+    EXPECT_EQ(woken.frame_rate, 60);
+    EXPECT_EQ(clock.next_frame(9.25).time_delta, 0.25);
+}
+
 TEST(LiveClock, restart_begins_anew) {
     LiveClock clock(0);
     (void)clock.next_frame(1);

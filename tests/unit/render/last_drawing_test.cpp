@@ -1,0 +1,68 @@
+#include "render/last_drawing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace tidemark::render {
+namespace {
+
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+
+PassInputs reads(double number, std::vector<Edition> channels = {}) {
+    return {{UniformNumbers{number}}, std::move(channels)};
+}
+
+LastDrawing drawn_from(PassInputs inputs, Edition edition) {
+    LastDrawing last;
+    last.drew(std::move(inputs), edition);
+    return last;
+}
+
+TEST(LastDrawing, before_the_first_frame_nothing_is_there) {
+    EXPECT_FALSE(LastDrawing().holds({}, 0));
+    EXPECT_FALSE(LastDrawing().holds(reads(1), 0));
+}
+
+TEST(LastDrawing, what_reads_nothing_is_drawn_once) {
+    EXPECT_TRUE(drawn_from({}, 1).holds({}, 1));
+}
+
+TEST(LastDrawing, holds_while_uniforms_and_channels_are_the_same) {
+    const LastDrawing last = drawn_from(reads(1.5, {3, 7}), 4);
+    EXPECT_TRUE(last.holds(reads(1.5, {3, 7}), 4));
+    EXPECT_FALSE(last.holds(reads(std::nextafter(1.5, 2), {3, 7}), 4));
+    EXPECT_FALSE(last.holds(reads(1.5, {3, 8}), 4));
+    EXPECT_FALSE(last.holds(reads(1.5, {4, 7}), 4));
+}
+
+TEST(LastDrawing, a_target_that_was_cleared_or_made_anew_holds_nothing) {
+    EXPECT_FALSE(drawn_from(reads(1), 4).holds(reads(1), 5));
+}
+
+TEST(LastDrawing, a_pass_that_reads_itself_is_never_done) {
+    // It reads edition 4 of its own target and makes edition 5, which it reads next.
+    EXPECT_FALSE(drawn_from(reads(1, {4}), 5).holds(reads(1, {5}), 5));
+}
+
+TEST(LastDrawing, a_nan_is_the_same_number_as_long_as_its_bits_are) {
+    EXPECT_TRUE(drawn_from(reads(k_nan), 1).holds(reads(k_nan), 1));
+    EXPECT_FALSE(drawn_from(reads(k_nan), 1).holds(reads(-k_nan), 1));
+    EXPECT_FALSE(drawn_from(reads(k_nan), 1).holds(reads(0), 1));
+}
+
+TEST(LastDrawing, zero_has_a_sign) {
+    EXPECT_TRUE(drawn_from(reads(-0.0), 1).holds(reads(-0.0), 1));
+    EXPECT_FALSE(drawn_from(reads(0.0), 1).holds(reads(-0.0), 1)); // 1 / x tells them apart
+}
+
+TEST(LastDrawing, numbers_are_compared_one_by_one) {
+    const PassInputs two{{UniformNumbers{1, 2}}, {}};
+    EXPECT_FALSE(drawn_from(two, 1).holds({{UniformNumbers{1, 3}}, {}}, 1));
+    EXPECT_FALSE(drawn_from(two, 1).holds(reads(1), 1));
+    EXPECT_FALSE(drawn_from(two, 1).holds({{UniformNumbers{1}, UniformNumbers{2}}, {}}, 1));
+}
+
+} // namespace
+} // namespace tidemark::render
