@@ -2,6 +2,7 @@
 
 #include "cli/console.hpp"
 #include "cli/wall_clock.hpp"
+#include "scene/folder_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,8 @@ void keep_turned_knobs(const std::vector<scene::Knob>& before, scene::Scene& fre
 
 LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher, const scene::Scene& scene)
     : request_(std::move(request)), watcher_(std::move(watcher)), name_(scene.name()), files_(scene.files),
-      knobs_(scene.knobs), builder_([] { platform::Window::wake(); }) {
+      knobs_(scene.knobs), in_folder_(scene::scene_files_in(request_.path)),
+      builder_([] { platform::Window::wake(); }) {
     request_.sets.clear(); // they are among the knobs that were turned
     request_.said = scene.warnings;
 }
@@ -33,12 +35,31 @@ Result<LiveScene> LiveScene::create(SceneRequest request, scene::Scene scene, pl
     auto watcher = platform::FileWatcher::create([] { platform::Window::wake(); });
     if (!watcher)
         return fail(std::move(watcher.error()));
-    if (auto watched = watcher->watch(scene.files); !watched)
-        say(to_string(watched.error())); // it can still be looked at
     LiveScene live(std::move(request), *std::move(watcher), scene);
+    if (auto watched = live.watch(live.files_); !watched)
+        say(to_string(watched.error())); // it can still be looked at
     if (auto begun = live.build(std::move(scene), window, view); !begun)
         return fail(std::move(begun.error()));
     return live;
+}
+
+/// Those files, and of a scene that is a folder the files that it may get.
+Result<void> LiveScene::watch(std::vector<std::filesystem::path> files) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(request_.path, ignored))
+        files.push_back(request_.path / "");
+    return watcher_.watch(files);
+}
+
+/// Files that were saved. In a folder many a thing comes and goes that no scene is made of.
+std::vector<std::filesystem::path> LiveScene::changed() {
+    std::vector<std::filesystem::path> files = watcher_.changed();
+    if (std::erase(files, request_.path / "") > 0) {
+        auto in_folder = scene::scene_files_in(request_.path);
+        if (in_folder != std::exchange(in_folder_, in_folder))
+            files.push_back(request_.path / "");
+    }
+    return files;
 }
 
 Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view) {
@@ -55,11 +76,11 @@ std::optional<double> LiveScene::building_since() const {
 }
 
 Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const View& view, double now) {
-    if (const auto changed = watcher_.changed(); !changed.empty()) {
+    if (const auto files = changed(); !files.empty()) {
         saved_ = true;
         times_.emplace();
         std::error_code ignored;
-        times_->saved = std::filesystem::last_write_time(changed.front(), ignored);
+        times_->saved = std::filesystem::last_write_time(files.front(), ignored);
         times_->seen = now;
         reload(window, view, now);
     }
@@ -99,7 +120,7 @@ Result<scene::Scene> LiveScene::load_again() {
         // What is missing or wrong may be a file that the last good scene did not have.
         std::vector<std::filesystem::path> files = files_;
         files.insert(files.end(), scene.error().files.begin(), scene.error().files.end());
-        (void)watcher_.watch(files); // a folder that is missing too cannot be watched: the rest is
+        (void)watch(std::move(files)); // a folder that is missing too cannot be watched: the rest is
         return scene;
     }
     keep_turned_knobs(knobs_, *scene);
@@ -109,7 +130,7 @@ Result<scene::Scene> LiveScene::load_again() {
     name_ = scene->name();
     // Before the slow part, so that a save during it is seen; and even if it fails, so that what it waits for
     // is seen.
-    if (auto watched = watcher_.watch(files_); !watched)
+    if (auto watched = watch(files_); !watched)
         return fail(std::move(watched.error()));
     return scene;
 }

@@ -61,15 +61,18 @@ private:
     Result<void> build(scene::Scene scene, platform::Window& window, const View& view);
     void reload(platform::Window& window, const View& view, double now);
     Result<scene::Scene> load_again();
+    Result<void> watch(std::vector<std::filesystem::path> files);
+    std::vector<std::filesystem::path> changed();
     void fail_with(Error error, double now);
     void mended();
 
     SceneRequest request_;
     platform::FileWatcher watcher_;
     std::string name_;
-    std::vector<std::filesystem::path> files_; ///< of the scene that loaded last
-    std::vector<scene::Knob> knobs_;           ///< likewise
-    std::optional<Error> failure_;             ///< of the last reload, until mended
+    std::vector<std::filesystem::path> files_;     ///< of the scene that loaded last
+    std::vector<scene::Knob> knobs_;               ///< likewise
+    std::vector<std::filesystem::path> in_folder_; ///< of a scene that is a folder: what made it one, last
+    std::optional<Error> failure_;                 ///< of the last reload, until mended
     std::optional<double> report_at_;  ///< when the failure is news; before, a file may be half-written
     std::optional<ReloadTimes> times_; ///< of the build under way
     std::optional<ReloadTimes> times_of_stage_;

@@ -94,14 +94,19 @@ bool Viewer::wants_frame(double now) const {
     const Extent extent = window_.framebuffer_extent();
     if (extent.width == 0 || extent.height == 0)
         return false; // minimised
-    return stale_ || (stage_ && !clock_.paused() && now >= next_draw_);
+    return stale_ || (moving() && now >= next_draw_);
+}
+
+/// Frames follow each other by themselves.
+bool Viewer::moving() const {
+    return stage_ && !clock_.paused() && !at_rest_;
 }
 
 double Viewer::seconds_to_sleep(double now) const {
     double until = std::numeric_limits<double>::infinity();
     if (stale_)
         return 0;
-    if (stage_ && !clock_.paused())
+    if (moving())
         until = next_draw_;
     if (scene_.building_since())
         until = std::min(until, now + k_title_seconds);
@@ -111,7 +116,7 @@ double Viewer::seconds_to_sleep(double now) const {
 }
 
 void Viewer::draw(double now) {
-    stale_ = false;
+    const bool stale = std::exchange(stale_, false);
     if (!stage_) {
         gl::clear_window();
         return window_.swap();
@@ -124,10 +129,18 @@ void Viewer::draw(double now) {
         replay_->fill(shown_, renderer.extent().height);
     else
         controls_.fill(shown_);
+    const size_t drawn_before = renderer.passes_drawn();
     renderer.draw(shown_);
-    gl::blit_to_window(renderer.target(), window_.framebuffer_extent());
-    window_.swap();
+    const bool drawn = renderer.passes_drawn() != drawn_before;
+    if (drawn || stale) {
+        gl::blit_to_window(renderer.target(), window_.framebuffer_extent());
+        window_.swap();
+    }
     controls_.frame_drawn();
+    // Frames are counted on where somebody writes their numbers down, or reads them.
+    at_rest_ = !drawn && !renderer.follows_clock() && !replay_ && settings_.record.empty();
+    if (at_rest_)
+        clock_.rest();
     if (reloaded_)
         report_reload();
 }
@@ -141,6 +154,7 @@ bool Viewer::compiles_for_long(double now) const {
 /// second at most.
 void Viewer::show_title(double now) {
     std::string state = clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.time)
+                        : at_rest_      ? "still"
                                         : fmt::format("{:.0f} fps", clock_.frame_rate());
     if (compiles_for_long(now))
         state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
@@ -260,14 +274,19 @@ Result<void> Viewer::follow_scene(double now) {
     return *fresh ? show(**std::move(fresh), now) : Result<void>();
 }
 
-/// From now on. What was on show before goes.
+/// From now on. What was on show before goes, its buffers' content stays: as on the site, a text that is
+/// changed goes on from where it was.
 Result<void> Viewer::show(Stage fresh, double now) {
     if (!stage_)
         clock_ = render::LiveClock(now);
-    stage_.reset();
+    if (stage_)
+        glFinish(); // what it drew is there to be taken over
+    const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));
     if (auto entered = stage_->enter(); !entered)
         return entered;
+    if (before)
+        stage_->renderer().continue_from(before->renderer());
     play_sound();
     reloaded_ = scene_.take_times();
     handle(platform::FramebufferResized{window_.framebuffer_extent()}); // it may have changed meanwhile

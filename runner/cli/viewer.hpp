@@ -69,6 +69,7 @@ private:
     Result<int> finish();
     double seconds_to_sleep(double now) const;
     bool wants_frame(double now) const;
+    bool moving() const;
 
     Settings settings_;
     platform::Window window_; ///< owns the context: first in, last out
@@ -85,7 +86,8 @@ private:
     render::FrameInputs shown_; ///< inputs of the frame on show
     double next_draw_ = 0;
     bool control_down_ = false;
-    bool stale_ = true; ///< the window does not show what it should
+    bool stale_ = true;    ///< the window does not show what it should
+    bool at_rest_ = false; ///< the next frame is this one, until somebody does something
     bool closing_ = false;
 };
 

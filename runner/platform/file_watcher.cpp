@@ -283,6 +283,8 @@ void FileWatcher::Loop::on_event(Folder& folder, const char* name, int events) {
             if (waypoint.folder == folder.path && (is_folder || waypoint.name == name)) {
                 touch(file);
                 leads_elsewhere |= (events & UV_RENAME) != 0;
+            } else if (waypoint.folder == folder.path && waypoint.name.empty() && (events & UV_RENAME)) {
+                touch(file);
             }
     if (is_folder)
         folder.identity = {};

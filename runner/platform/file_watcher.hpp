@@ -33,7 +33,8 @@ public:
     ~FileWatcher();
 
     /// Replaces the files; they need not exist. When it returns, every later change is seen: call it
-    /// before the files are used for something slow, such as compiling. What is known of files that stay
+    /// before the files are used for something slow, such as compiling. A path with a slash at its end is a
+    /// folder: it changes when something in it gets a name or loses one. What is known of files that stay
     /// in the set is kept, and an unchanged set costs nothing. Relative paths are relative to the current
     /// folder now. Fails (ErrorCode::load) naming a folder that cannot be watched; the others are.
     Result<void> watch(std::span<const std::filesystem::path> files);

@@ -24,6 +24,10 @@ std::vector<Waypoint> trail_of(const fs::path& file) {
     for (int links = 0; !names.empty();) {
         const fs::path name = names.front();
         names.pop_front();
+        if (name.empty() && names.empty()) { // a slash at the end
+            trail.push_back({folder, ""});
+            return trail;
+        }
         if (name.empty() || name == "." || name == "/")
             continue;
         if (name == "..") {

@@ -8,7 +8,7 @@
 
 namespace tidemark::platform {
 
-/// One name in one folder. The folder's path holds no links.
+/// One name in one folder; empty: whichever. The folder's path holds no links.
 struct Waypoint {
     std::filesystem::path folder;
     std::string name;
@@ -16,7 +16,8 @@ struct Waypoint {
     bool operator==(const Waypoint&) const = default;
 };
 
-/// The links that `file` passes through, in order, then the file itself. Where something is missing the
+/// The links that `file` passes through, in order, then the file itself; of a path with a slash at its end,
+/// which is a folder, no name in that folder. Where something is missing the
 /// last waypoint is the first missing name, so its folder is one that exists.
 std::vector<Waypoint> trail_of(const std::filesystem::path& file);
 

@@ -253,7 +253,7 @@ Result<WindowContext> Window::create_context() {
                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                     EGL_NONE};
     eglBindAPI(EGL_OPENGL_API);
-    made.context_ = eglCreateContext(made.display_, config, EGL_NO_CONTEXT, k_version);
+    made.context_ = eglCreateContext(made.display_, config, first, k_version);
     if (made.context_)
         return made;
     return fail(ErrorCode::no_context,

@@ -25,7 +25,7 @@ public:
     ~Window();
 
     void make_current();
-    /// Another context for the same window, current nowhere.
+    /// Another context for the same window, current nowhere. All of them know each other's textures.
     Result<WindowContext> create_context();
 
     /// What happened since the last call, in order; never waits.

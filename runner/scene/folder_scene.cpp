@@ -143,6 +143,19 @@ Result<Scene> load_by_project(const fs::path& folder, const PassFiles& files, co
 
 } // namespace
 
+std::vector<fs::path> scene_files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const fs::path& file = entry->path();
+        if (file.filename() == k_project_file ||
+            (is_shader_file(file) && parse_pass_name(file.stem().string())))
+            files.push_back(file);
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
 Result<PassFiles> pass_files(const fs::path& folder) {
     PassFiles files;
     std::error_code error;

@@ -19,6 +19,10 @@ inline constexpr const char* k_project_file = "scene.json";
 /// project whose code stands in these files, that says which passes there are and what they read.
 Result<Scene> load_folder_scene(const std::filesystem::path& folder, const LoadOptions& options);
 
+/// The files of a folder that make it a scene, by their names alone: passes and the project. Sorted; none
+/// where there is no such folder.
+std::vector<std::filesystem::path> scene_files_in(const std::filesystem::path& folder);
+
 /// The files of a folder that are passes by their names, in the order Common, A to D, Cube A, Image, Sound.
 /// Two files for one pass are an error.
 Result<std::vector<std::pair<PassName, std::filesystem::path>>>

@@ -105,7 +105,7 @@ class Broken(ReloadTest):
         self.assertEqual(view.stderr().count("does not compile"), 1)
         self.write("a.glsl", marked(2))
         view.wait_for_words(r"^a\.glsl: good again$")
-        view.wait_for_title(r"\Aa - tidemark - \d+ fps\Z")
+        view.wait_for_title(r"\Aa - tidemark - (\d+ fps|still)\Z")
         self.expect_mark(view, 2)
 
     def test_broken_otherwise_is_reported_again(self):
@@ -250,6 +250,60 @@ class Survives(ReloadTest):
         self.write("a.glsl", probe.shader(values, before.replace("1.0", "2.0")))
         told = view.wait_until_told(values, lambda told: told["mark"] == 2)
         self.assertEqual((told["steps"], told["width"]), (7, 3))
+
+
+class Folder(ReloadTest):
+    """A project in a folder: what its buffers hold, and files that come and go."""
+
+    TOLD = {"mark": "MARK", "frames": "texelFetch(iChannel0, ivec2(0), 0).r"}
+    COUNT = "#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + STEP; }\n"
+
+    def write_image(self, mark: str) -> None:
+        self.write("s/image.glsl", probe.shader(self.TOLD, f"#iChannel0 \"buffer_a.glsl\"\n#define MARK {mark}\n"))
+
+    def open(self) -> View:
+        self.write("s/buffer_a.glsl", "#define STEP 1.0\n" + self.COUNT)
+        self.write_image("1.0")
+        view = self.view("s", *SIZE)
+        view.restart_paused()
+        for _ in range(4):
+            view.key("Right")
+        view.wait_until_told(self.TOLD, lambda told: told["frames"] == 5)
+        return view
+
+    def test_buffers_keep_what_they_hold(self):
+        view = self.open()
+        self.write_image("2.0")
+        view.wait_until_told(self.TOLD, lambda told: told["mark"] == 2 and told["frames"] == 6)
+        self.write("s/buffer_a.glsl", "#define STEP 10.0\n" + self.COUNT)  # goes on from where it was, as on the site
+        view.wait_until_told(self.TOLD, lambda told: told["frames"] == 16)
+        view.key("Home")
+        view.wait_until_told(self.TOLD, lambda told: told["frames"] == 10)
+
+    def test_a_file_that_the_folder_gets(self):
+        self.write("s/image.glsl", probe.shader(MARK, "#ifndef MARK\n#define MARK 1.0\n#endif\n"))
+        view = self.view("s", *SIZE)
+        self.expect_mark(view, 1)
+        self.write("s/common.glsl", "#define MARK 2.0\n")
+        self.expect_mark(view, 2)
+        (self.folder / "s/common.glsl").unlink()
+        self.expect_mark(view, 1)
+        self.replace("s/Common.frag", "#define MARK 3.0\n")
+        self.expect_mark(view, 3)
+        self.write("s/common.glsl", "#define MARK 4.0\n")
+        view.wait_for_words("are both the pass 'Common'")
+        (self.folder / "s/Common.frag").unlink()
+        self.expect_mark(view, 4)
+
+    def test_other_files_are_none_of_its_business(self):
+        self.write("s/image.glsl", marked(1))
+        view = self.view("s", *SIZE)
+        self.expect_mark(view, 1)
+        self.write("s/notes.txt", "x")
+        self.write("s/.image.glsl.swp", "x")
+        self.write("s/image.glsl", marked(2))
+        self.expect_mark(view, 2)
+        self.assertEqual(view.stderr().count("reloaded in"), 1)
 
 
 if __name__ == "__main__":

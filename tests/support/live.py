@@ -109,7 +109,7 @@ class View:
 
     save_key = "s"
 
-    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str, first_title: str = " fps",
+    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str, first_title: str = " (fps|still)$",
                  **variables: str) -> None:
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
@@ -117,7 +117,7 @@ class View:
                                         env=environment(DISPLAY=screen.display, **variables), stderr=self.words)
         self.window = int(wait_for(lambda: self.running() and screen.xdotool("search", "--onlyvisible", "--class",
                                                                             "tidemark"), "the window"))
-        wait_for(lambda: self.running() and first_title in self.title(), "the first frame")
+        wait_for(lambda: self.running() and re.search(first_title, self.title()), "the first frame")
         self.point(5, 5)  # keys go to the window under the pointer
 
     def close(self) -> None:

@@ -86,6 +86,21 @@ TEST_F(FileWatcherTest, file_written_in_place) {
     EXPECT_THAT(unexpected_change(), IsEmpty());
 }
 
+TEST_F(FileWatcherTest, folder_that_gets_a_file_or_loses_one) {
+    const fs::path inside = folder_ / "s/";
+    fs::create_directory(inside);
+    save_in_place(inside / "old.glsl");
+    watch({inside});
+    save_in_place(inside / "old.glsl");
+    EXPECT_THAT(unexpected_change(), IsEmpty()) << "it has no other name";
+    save_in_place(inside / "new.glsl");
+    EXPECT_EQ(next_change(), Paths{inside});
+    fs::remove(inside / "old.glsl");
+    EXPECT_EQ(next_change(), Paths{inside});
+    fs::rename(inside / "new.glsl", inside / "newer.glsl");
+    EXPECT_EQ(next_change(), Paths{inside});
+}
+
 TEST_F(FileWatcherTest, file_replaced_by_renaming_again_and_again) {
     const fs::path file = folder_ / "a.glsl";
     save_in_place(file);

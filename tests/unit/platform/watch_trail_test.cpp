@@ -23,6 +23,15 @@ TEST(WatchTrail, plain_file) {
     EXPECT_EQ(trail_of(folder / "./x/../a.glsl"), (Trail{{folder.path(), "x"}}));
 }
 
+TEST(WatchTrail, a_slash_at_the_end_is_whatever_is_in_the_folder) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "real");
+    fs::create_symlink("real", folder / "link");
+    EXPECT_EQ(trail_of(folder / "real/"), (Trail{{folder.path() / "real", ""}}));
+    EXPECT_EQ(trail_of(folder / "link/"), (Trail{{folder.path(), "link"}, {folder.path() / "real", ""}}));
+    EXPECT_EQ(trail_of(folder / "missing/"), (Trail{{folder.path(), "missing"}}));
+}
+
 TEST(WatchTrail, relative_path_starts_at_the_current_folder) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.glsl");

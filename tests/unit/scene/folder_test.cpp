@@ -1,4 +1,5 @@
 // Scene folders by the names of their files, and the bounds of what a scene may read.
+#include "scene/folder_scene.hpp"
 #include "scene_support.hpp"
 
 #include <gmock/gmock.h>
@@ -33,6 +34,18 @@ TEST_F(Folder, every_pass_by_our_names) {
     EXPECT_EQ(scene.passes[3].channels[0].sampling, Sampling{}) << "as the extension samples what it names";
     EXPECT_EQ(scene.name(), path().filename());
     EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST_F(Folder, files_that_make_a_scene_are_known_by_name) {
+    for (const char* name : {"image.glsl", "Buffer B.frag", "common.glsl", "Common.glsl", "scene.json",
+                             "lib.glsl", "image.png", "notes.txt", ".image.glsl.swp"})
+        save(name, "");
+    std::vector<std::string> names;
+    for (const auto& file : scene_files_in(path()))
+        names.push_back(file.filename().string());
+    EXPECT_THAT(names,
+                ElementsAre("Buffer B.frag", "Common.glsl", "common.glsl", "image.glsl", "scene.json"));
+    EXPECT_THAT(scene_files_in(path() / "missing"), IsEmpty());
 }
 
 TEST_F(Folder, a_pass_that_no_other_reads_is_told) {

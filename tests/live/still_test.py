@@ -1,0 +1,63 @@
+"""What does not move costs nothing: a still scene and a paused one draw no frame and use no CPU."""
+import os
+import pathlib
+import time
+
+from support import probe
+from support.live import LiveTest, View, main
+
+SIZE = ("--size", "200x100")
+MOUSE = probe.vector("iMouse", "xyzw")
+STILL = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.5, 1.0); }\n"
+MOVING = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(iTime)); }\n"
+REST_SECONDS = 3.0
+
+
+class Still(LiveTest):
+    def cpu_seconds(self, view: View) -> float:
+        """Of all threads, the driver's too."""
+        fields = pathlib.Path(f"/proc/{view.program.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def expect_rest(self, view: View) -> None:
+        before = self.cpu_seconds(view)
+        time.sleep(REST_SECONDS)
+        # A hundredth of a second is the clock's tick; 60 frames a second of the cheapest scene take 0.1 and more.
+        self.assertLessEqual(self.cpu_seconds(view) - before, 0.02)
+
+    def test_a_still_scene_rests(self):
+        self.write("a.glsl", STILL)
+        view = self.view("a.glsl", *SIZE)
+        view.wait_for_title(r"\Aa - tidemark - still\Z")
+        self.expect_rest(view)
+
+    def test_a_paused_scene_rests(self):
+        self.write("a.glsl", MOVING)
+        view = self.view("a.glsl", *SIZE)
+        view.pause()
+        self.expect_rest(view)
+
+    def test_wakes_for_the_mouse_and_rests_again(self):
+        self.write("a.glsl", probe.shader(MOUSE))
+        view = self.view("a.glsl", *SIZE)
+        view.wait_for_title(r" still\Z")
+        view.drag((100, 50), (60, 70))
+        told = view.wait_until_told(MOUSE, lambda told: told["iMouse.x"] == 60 and told["iMouse.z"] == -100)
+        self.assertLess(told["iMouse.w"], 0)  # the frame of the press was not the last
+        view.wait_for_title(r" still\Z")
+        self.expect_rest(view)
+
+    def test_wakes_for_a_scene_that_moves(self):
+        self.write("a.glsl", STILL)
+        view = self.view("a.glsl", *SIZE)
+        view.wait_for_title(r" still\Z")
+        self.write("a.glsl", MOVING)
+        view.wait_for_title(r" \d+ fps\Z")
+        self.write("a.glsl", STILL)
+        view.wait_for_title(r" still\Z")
+        view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
+
+
+if __name__ == "__main__":
+    main()
