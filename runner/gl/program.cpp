@@ -79,6 +79,7 @@ tl::expected<Program, std::string> Program::link(std::string_view vertex, std::s
     const GLuint id = program.id();
     glAttachShader(id, vertex_shader->id());
     glAttachShader(id, fragment_shader->id());
+    glProgramParameteri(id, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
     glLinkProgram(id);
     glDetachShader(id, vertex_shader->id());
     glDetachShader(id, fragment_shader->id());
@@ -88,6 +89,30 @@ tl::expected<Program, std::string> Program::link(std::string_view vertex, std::s
         return tl::unexpected(program_log(id));
     program.reflection_ = reflect(id);
     return program;
+}
+
+std::optional<Program> Program::load(const ProgramBinary& binary) {
+    Program program;
+    program.handle_ = ProgramHandle(glCreateProgram());
+    glProgramBinary(program.id(), binary.format, binary.bytes.data(), GLsizei(binary.bytes.size()));
+    while (glGetError() != GL_NO_ERROR) { // a form that the driver does not know
+    }
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
+    if (linked == GL_FALSE)
+        return std::nullopt;
+    program.reflection_ = reflect(program.id());
+    return program;
+}
+
+ProgramBinary Program::binary() const {
+    GLint length = 0;
+    glGetProgramiv(id(), GL_PROGRAM_BINARY_LENGTH, &length);
+    ProgramBinary binary{0, std::string(size_t(std::max(length, 0)), '\0')};
+    if (length > 0)
+        glGetProgramBinary(id(), length, &length, &binary.format, binary.bytes.data());
+    binary.bytes.resize(size_t(std::max(length, 0)));
+    return binary;
 }
 
 } // namespace tidemark::gl

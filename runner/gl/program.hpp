@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,10 +29,21 @@ struct Reflection {
     bool has(std::string_view name) const { return find(name) != nullptr; }
 };
 
+/// A linked program as the driver writes it down for itself.
+struct ProgramBinary {
+    GLenum format = 0;
+    std::string bytes;
+};
+
 class Program {
 public:
     /// Compiles and links; the error is the driver's log.
     static tl::expected<Program, std::string> link(std::string_view vertex, std::string_view fragment);
+
+    /// From the driver's own form; nothing when it is not the driver's, or not any more.
+    static std::optional<Program> load(const ProgramBinary& binary);
+    /// No bytes where the driver has no such form.
+    ProgramBinary binary() const;
 
     GLuint id() const { return handle_.id(); }
     const Reflection& reflection() const { return reflection_; }

@@ -1,5 +1,6 @@
 #include "render/link_pass.hpp"
 
+#include "gl/program_cache.hpp"
 #include "glsl/assemble.hpp"
 #include "glsl/driver_log.hpp"
 #include "glsl/pass_reading.hpp"
@@ -64,7 +65,7 @@ private:
                 unpromotable_ = std::move(assembly.error());
                 return std::nullopt;
             }
-            auto program = gl::Program::link(glsl::vertex_shader(dialect.version), assembly->source.text());
+            auto program = gl::link_or_recall(glsl::vertex_shader(dialect.version), assembly->source.text());
             if (program)
                 return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes)};
             if (!first_)
