@@ -4,6 +4,7 @@
 #include "cli/omissions.hpp"
 #include "cli/options.hpp"
 #include "cli/precision_report.hpp"
+#include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
 #include "glsl/pass_reading.hpp"
@@ -73,47 +74,6 @@ Result<int> inspect_devices(bool as_json) {
     return put(as_json ? json.dump(2) + "\n" : text).map([] { return 0; });
 }
 
-/// What a channel reads, in a word or by its file.
-class Describer {
-public:
-    explicit Describer(const scene::Scene& scene) : scene_(scene) {}
-
-    std::string operator()(const scene::Unbound&) const { return "none"; }
-    std::string operator()(const scene::Noise&) const { return "noise"; }
-    std::string operator()(const scene::Picture& picture) const { return picture.file.string(); }
-    std::string operator()(const scene::PassOutput& output) const { return scene_.passes[output.pass].name; }
-    std::string operator()(const scene::Cubemap& cubemap) const { return cubemap.files.front().string(); }
-    std::string operator()(const scene::Volume& volume) const { return volume.file.string(); }
-    std::string operator()(const scene::Keyboard&) const { return "keyboard"; }
-    std::string operator()(const scene::Music& music) const {
-        return music.file.empty() ? "silent signal" : music.file.string();
-    }
-    std::string operator()(const scene::Video& video) const { return video.file.string(); }
-    std::string operator()(const scene::StandIn&) const { return "stand-in"; }
-
-private:
-    const scene::Scene& scene_;
-};
-
-std::string describe(const scene::Scene& scene, const scene::Channel& channel) {
-    return std::visit(Describer(scene), channel.input);
-}
-
-std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValue& value) {
-    return {value.begin(), value.begin() + scene::info(knob.type).components};
-}
-
-Json to_json(const scene::Knob& knob) {
-    Json json = {{"name", knob.name},
-                 {"type", scene::info(knob.type).directive_name},
-                 {"value", components_of(knob, knob.value)}};
-    if (knob.range) {
-        json["low"] = components_of(knob, knob.range->low);
-        json["high"] = components_of(knob, knob.range->high);
-    }
-    return json;
-}
-
 Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
     const SceneFacts facts = facts_of(renderer);
     const scene::Scene& scene = renderer.scene();
@@ -122,9 +82,7 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
     json["scene"] = scene.file.string();
     json["driver"] = driver.version;
     json["renderer"] = driver.renderer;
-    json["files"] = Json::array();
-    for (const auto& file : scene.files)
-        json["files"].push_back(file.string());
+    json["files"] = files_of(scene);
     json["uniforms"] = facts.uniforms;
     json["passes"] = Json::array();
     for (const PassFacts& facts_of_pass : facts.passes) {
@@ -134,9 +92,7 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
             channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
         json["passes"].push_back({{"name", pass.name}, {"channels", channels}});
     }
-    json["knobs"] = Json::array();
-    for (const scene::Knob& knob : scene.knobs)
-        json["knobs"].push_back(to_json(knob));
+    json["knobs"] = knobs_of(scene);
     add_precision(json, renderer);
     json["left_out"] = facts.left_out;
     return json;
@@ -156,14 +112,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
     }
-    for (const scene::Knob& knob : scene.knobs) {
-        text += fmt::format("  knob      {} {} = {}", scene::info(knob.type).directive_name, knob.name,
-                            scene::to_string(knob));
-        if (knob.range)
-            text += fmt::format(" in {{ {}, {} }}", scene::to_string(knob, knob.range->low),
-                                scene::to_string(knob, knob.range->high));
-        text += '\n';
-    }
+    text += knob_lines(scene);
     text += precision_lines(renderer);
     for (const std::string& thing : facts.left_out)
         text += fmt::format("  left out  {}\n", thing);
@@ -190,6 +139,10 @@ Result<int> inspect_scene(const InspectOptions& options) {
         return fail(std::move(scene.error()));
     if (options.source)
         return put_source(*scene, options.pass, precision_of(options.scene));
+    if (options.device == "none")
+        return put(options.json ? what_files_say(*scene).dump(2) + "\n" : lines_of_files(*scene)).map([] {
+            return 0;
+        });
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
@@ -213,7 +166,9 @@ void add_inspect(CLI::App& app, Action& chosen) {
     add_scene_options(*command, options->scene);
     command->get_option("SCENE")->required(false);
     add_precision_options(*command, options->scene);
-    command->add_option("--device", options->device, "Where to draw: a name from --devices")
+    command
+        ->add_option("--device", options->device,
+                     "Where to draw: a name from --devices; none: without a driver, what the files say")
         ->type_name("NAME")
         ->capture_default_str();
     command->add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")

@@ -53,6 +53,21 @@ class Scene(ProgramTest):
         self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{"name": "Image", "channels": {}}]))
         self.assertEqual(facts["left_out"][-1], "noise texture")
 
+    def test_without_a_driver(self):
+        # No library of the driver's is so much as opened.
+        done = self.succeed("inspect", "sea.glsl", "--json", "--device", "none", "--set", "height=1.25",
+                            env=environment(LD_DEBUG="files"))
+        self.assertNotRegex(done.stderr, "libLLVM|libGLX_mesa|libEGL_mesa|_dri.so|tidemark_pictures")
+        facts = json.loads(done.stdout)
+        self.assertEqual(list(facts), ["tidemark", "scene", "files", "passes", "knobs"])
+        self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
+        self.assertEqual(facts["passes"], [{"name": "Image", "channels": {"iChannel1": "noise"}}])
+        self.assertEqual(facts["knobs"], json.loads(self.succeed("inspect", "sea.glsl", "--json", "--set",
+                                                                 "height=1.25").stdout)["knobs"])
+        self.assertEqual(self.succeed("inspect", "sea.glsl", "--device", "none").stdout.decode().splitlines(), [
+            "sea.glsl", "  file      sea.glsl", "  file      lib.glsl", "  pass      Image", "  iChannel1 noise",
+            "  knob      float height = 0.5 in { 0, 2 }", "  knob      color3 tint = vec3(1, 0.5, 0)"])
+
     def test_writes_no_file(self):
         before = self.files()
         self.succeed("inspect", "sea.glsl")

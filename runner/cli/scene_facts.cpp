@@ -1,0 +1,112 @@
+#include "cli/scene_facts.hpp"
+
+#include "cli/version.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tidemark::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a channel reads, in a word or by its file.
+class Describer {
+public:
+    explicit Describer(const scene::Scene& scene) : scene_(scene) {}
+
+    std::string operator()(const scene::Unbound&) const { return "none"; }
+    std::string operator()(const scene::Noise&) const { return "noise"; }
+    std::string operator()(const scene::Picture& picture) const { return picture.file.string(); }
+    std::string operator()(const scene::PassOutput& output) const { return scene_.passes[output.pass].name; }
+    std::string operator()(const scene::Cubemap& cubemap) const { return cubemap.files.front().string(); }
+    std::string operator()(const scene::Volume& volume) const { return volume.file.string(); }
+    std::string operator()(const scene::Keyboard&) const { return "keyboard"; }
+    std::string operator()(const scene::Music& music) const {
+        return music.file.empty() ? "silent signal" : music.file.string();
+    }
+    std::string operator()(const scene::Video& video) const { return video.file.string(); }
+    std::string operator()(const scene::StandIn&) const { return "stand-in"; }
+
+private:
+    const scene::Scene& scene_;
+};
+
+std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValue& value) {
+    return {value.begin(), value.begin() + scene::info(knob.type).components};
+}
+
+/// Somebody chose what it reads. Noise that nobody asked for is only there in case a program reads it.
+bool is_chosen(const scene::Channel& channel) {
+    return !channel.where.file.empty() || !(std::holds_alternative<scene::Noise>(channel.input) ||
+                                            std::holds_alternative<scene::Unbound>(channel.input));
+}
+
+} // namespace
+
+std::string describe(const scene::Scene& scene, const scene::Channel& channel) {
+    return std::visit(Describer(scene), channel.input);
+}
+
+Json files_of(const scene::Scene& scene) {
+    Json files = Json::array();
+    for (const auto& file : scene.files)
+        files.push_back(file.string());
+    return files;
+}
+
+Json knobs_of(const scene::Scene& scene) {
+    Json knobs = Json::array();
+    for (const scene::Knob& knob : scene.knobs) {
+        Json& json = knobs.emplace_back(Json{{"name", knob.name},
+                                             {"type", scene::info(knob.type).directive_name},
+                                             {"value", components_of(knob, knob.value)}});
+        if (knob.range) {
+            json["low"] = components_of(knob, knob.range->low);
+            json["high"] = components_of(knob, knob.range->high);
+        }
+    }
+    return knobs;
+}
+
+std::string knob_lines(const scene::Scene& scene) {
+    std::string text;
+    for (const scene::Knob& knob : scene.knobs) {
+        text += fmt::format("  knob      {} {} = {}", scene::info(knob.type).directive_name, knob.name,
+                            scene::to_string(knob));
+        if (knob.range)
+            text += fmt::format(" in {{ {}, {} }}", scene::to_string(knob, knob.range->low),
+                                scene::to_string(knob, knob.range->high));
+        text += '\n';
+    }
+    return text;
+}
+
+Json what_files_say(const scene::Scene& scene) {
+    Json json = {{"tidemark", k_version}, {"scene", scene.file.string()}, {"files", files_of(scene)}};
+    json["passes"] = Json::array();
+    for (const scene::Pass& pass : scene.passes) {
+        Json channels = Json::object();
+        for (size_t i = 0; i < pass.channels.size(); ++i)
+            if (is_chosen(pass.channels[i]))
+                channels[fmt::format("iChannel{}", i)] = describe(scene, pass.channels[i]);
+        json["passes"].push_back({{"name", pass.name}, {"channels", channels}});
+    }
+    json["knobs"] = knobs_of(scene);
+    return json;
+}
+
+std::string lines_of_files(const scene::Scene& scene) {
+    std::string text = scene.file.string() + '\n';
+    for (const auto& file : scene.files)
+        text += fmt::format("  file      {}\n", file.string());
+    for (const scene::Pass& pass : scene.passes) {
+        text += fmt::format("  pass      {}\n", pass.name);
+        for (size_t i = 0; i < pass.channels.size(); ++i)
+            if (is_chosen(pass.channels[i]))
+                text += fmt::format("  iChannel{} {}\n", i, describe(scene, pass.channels[i]));
+    }
+    return text + knob_lines(scene);
+}
+
+} // namespace tidemark::cli
