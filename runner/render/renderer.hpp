@@ -6,6 +6,7 @@
 #include "gl/program.hpp"
 #include "glsl/dialect.hpp"
 #include "glsl/promote.hpp"
+#include "glsl/specialise.hpp"
 #include "image/image.hpp"
 #include "render/bound_channel.hpp"
 #include "render/channel_textures.hpp"
@@ -31,6 +32,8 @@ struct RenderOptions {
     /// Textures and targets hold what they always hold: in a promoted scene a pass reads floats and writes
     /// floats, and computes in doubles between.
     glsl::Precision precision = glsl::Precision::single;
+    /// Beyond `unreachable` its knobs cannot be turned.
+    glsl::Specialise specialise = glsl::Specialise::nothing;
     Extras extras{};
 };
 
@@ -97,6 +100,8 @@ public:
     glsl::Precision precision() const { return precision_; }
     /// What a pass in the plan leaves in floats although the scene is promoted.
     const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const { return passes_[pass].hashes; }
+    /// Of the text of a pass in the plan.
+    const glsl::LeftOut& left_out(size_t pass) const { return passes_[pass].left_out; }
     /// What it was linked as.
     const glsl::Dialect& dialect(size_t pass) const { return passes_[pass].dialect; }
 
@@ -107,6 +112,7 @@ private:
         UniformTable uniforms;
         std::vector<BoundChannel> channels;
         std::vector<glsl::KeptHash> hashes;
+        glsl::LeftOut left_out;
     };
 
     Result<void> choose_pass(const std::string& name);
@@ -129,6 +135,7 @@ private:
     image::SampleType samples_ = image::SampleType::u8;
     glsl::Precision precision_ = glsl::Precision::single;
     Extras extras_;
+    glsl::Specialise specialise_ = glsl::Specialise::nothing;
     size_t shown_ = 0;
     gl::VertexArrayHandle no_vertices_;
     std::vector<CompiledPass> passes_; ///< one for each of the scene's
