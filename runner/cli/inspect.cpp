@@ -32,6 +32,7 @@ struct InspectOptions {
     double budget = 20;
     bool devices = false;
     bool source = false;
+    bool specialised = false;
     bool json = false;
 };
 
@@ -114,6 +115,25 @@ Json to_json(const scene::Knob& knob) {
     return json;
 }
 
+Json to_json(const glsl::LeftOut& left_out) {
+    Json json = {{"lines", left_out.lines},
+                 {"branches", left_out.branches},
+                 {"out_of_loops", left_out.hoisted}};
+    if (!left_out.anything())
+        json["none_because"] = left_out.kept_whole;
+    return json;
+}
+
+std::string to_line(const glsl::LeftOut& left_out) {
+    if (!left_out.anything())
+        return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
+    std::string text = fmt::format("  code removed: {} lines", left_out.lines);
+    if (left_out.in_doubt())
+        text += fmt::format("; in sequences {} branches closed, {} expressions out of loops",
+                            left_out.branches, left_out.hoisted);
+    return text + '\n';
+}
+
 Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
     const SceneFacts facts = facts_of(renderer);
     const scene::Scene& scene = renderer.scene();
@@ -132,7 +152,9 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
         Json channels = Json::object();
         for (const int channel : facts_of_pass.channels)
             channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
-        json["passes"].push_back({{"name", pass.name}, {"channels", channels}});
+        json["passes"].push_back({{"name", pass.name},
+                                  {"channels", channels},
+                                  {"code_removed", to_json(renderer.left_out(facts_of_pass.pass))}});
     }
     json["knobs"] = Json::array();
     for (const scene::Knob& knob : scene.knobs)
@@ -155,6 +177,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
         for (const int channel : facts_of_pass.channels)
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
+        text += to_line(renderer.left_out(facts_of_pass.pass));
     }
     for (const scene::Knob& knob : scene.knobs) {
         text += fmt::format("  knob      {} {} = {}", scene::info(knob.type).directive_name, knob.name,
@@ -171,7 +194,8 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
 }
 
 /// The text of a pass, Image when none is named.
-Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision) {
+Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision,
+                       glsl::Specialise how) {
     for (const scene::Pass& pass : scene.passes) {
         if (pass.name != name && !(name.empty() && pass.kind == scene::PassKind::image))
             continue;
@@ -179,7 +203,7 @@ Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl:
         const auto assembly = reading.assemble(reading.dialects(precision).front());
         if (!assembly)
             return fail(assembly.error());
-        return put(assembly->source.text()).map([] { return 0; });
+        return put(glsl::specialise(assembly->source, scene.knobs, how).source.text()).map([] { return 0; });
     }
     return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has no such pass", name));
 }
@@ -189,13 +213,15 @@ Result<int> inspect_scene(const InspectOptions& options) {
     if (!scene)
         return fail(std::move(scene.error()));
     if (options.source)
-        return put_source(*scene, options.pass, precision_of(options.scene));
+        return put_source(*scene, options.pass, precision_of(options.scene),
+                          options.specialised ? glsl::Specialise::settled : glsl::Specialise::nothing);
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
     render::RenderOptions target;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
+    target.specialise = glsl::Specialise::settled;
     const auto renderer = render::Renderer::create(*std::move(scene), target);
     if (!renderer)
         return fail(renderer.error());
@@ -236,6 +262,10 @@ void add_inspect(CLI::App& app, Action& chosen) {
         ->type_name("S")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    command
+        ->add_flag("--specialised", options->specialised,
+                   "With --source: the text without what the scene does not need, as a sequence is drawn with")
+        ->needs("--source");
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] {
         chosen = [options]() -> Result<int> {
