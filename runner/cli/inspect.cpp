@@ -6,7 +6,9 @@
 #include "cli/precision_report.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
+#include "glsl/assemble.hpp"
 #include "glsl/pass_reading.hpp"
+#include "glsl/specialise.hpp"
 #include "platform/headless_context.hpp"
 
 #include <CLI/CLI.hpp>
@@ -115,10 +117,19 @@ Json to_json(const scene::Knob& knob) {
     return json;
 }
 
+/// What `capture` leaves out of a pass's text, in a sequence too.
+glsl::LeftOut left_out_of(const render::Renderer& renderer, size_t pass) {
+    const scene::Scene& scene = renderer.scene();
+    if (renderer.precision() != glsl::Precision::single)
+        return renderer.left_out(pass);
+    return glsl::specialise(glsl::assemble(scene, scene.passes[pass], renderer.dialect(pass)), scene.knobs,
+                            glsl::Specialise::settled)
+        .left_out;
+}
+
 Json to_json(const glsl::LeftOut& left_out) {
-    Json json = {{"lines", left_out.lines},
-                 {"branches", left_out.branches},
-                 {"out_of_loops", left_out.hoisted}};
+    Json json = {
+        {"lines", left_out.lines}, {"branches", left_out.branches}, {"out_of_loops", left_out.hoisted}};
     if (!left_out.anything())
         json["none_because"] = left_out.kept_whole;
     return json;
@@ -129,7 +140,7 @@ std::string to_line(const glsl::LeftOut& left_out) {
         return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
     std::string text = fmt::format("  code removed: {} lines", left_out.lines);
     if (left_out.in_doubt())
-        text += fmt::format("; in sequences {} branches closed, {} expressions out of loops",
+        text += fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops",
                             left_out.branches, left_out.hoisted);
     return text + '\n';
 }
@@ -154,7 +165,7 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
             channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
         json["passes"].push_back({{"name", pass.name},
                                   {"channels", channels},
-                                  {"code_removed", to_json(renderer.left_out(facts_of_pass.pass))}});
+                                  {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass))}});
     }
     json["knobs"] = Json::array();
     for (const scene::Knob& knob : scene.knobs)
@@ -177,7 +188,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
         for (const int channel : facts_of_pass.channels)
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
-        text += to_line(renderer.left_out(facts_of_pass.pass));
+        text += to_line(left_out_of(renderer, facts_of_pass.pass));
     }
     for (const scene::Knob& knob : scene.knobs) {
         text += fmt::format("  knob      {} {} = {}", scene::info(knob.type).directive_name, knob.name,
@@ -221,7 +232,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
     render::RenderOptions target;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
-    target.specialise = glsl::Specialise::settled;
+    target.specialise = glsl::Specialise::unreachable;
     const auto renderer = render::Renderer::create(*std::move(scene), target);
     if (!renderer)
         return fail(renderer.error());
@@ -263,8 +274,9 @@ void add_inspect(CLI::App& app, Action& chosen) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command
-        ->add_flag("--specialised", options->specialised,
-                   "With --source: the text without what the scene does not need, as a sequence is drawn with")
+        ->add_flag(
+            "--specialised", options->specialised,
+            "With --source: the text without what the scene does not need, as a long sequence is drawn")
         ->needs("--source");
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] {

@@ -13,7 +13,8 @@ constexpr int k_most_constants = 30;
 /// Beyond, not every whole number is a float.
 constexpr double k_largest_whole_float = 16777216.0;
 
-template <class Number> std::optional<Number> parse(std::string_view digits, auto... format) {
+template <class Number>
+std::optional<Number> parse(std::string_view digits, auto... format) {
     Number number{};
     const auto [end, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), number, format...);

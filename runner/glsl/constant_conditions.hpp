@@ -1,5 +1,5 @@
-// Conditions whose outcome is known before the program runs: comparisons of literals, constants and knobs that
-// stand still. Exact: whatever would have to be rounded is not known.
+// Conditions whose outcome is known before the program runs: comparisons of literals, constants and knobs
+// that stand still. Exact: whatever would have to be rounded is not known.
 #pragma once
 
 #include "glsl/globals.hpp"

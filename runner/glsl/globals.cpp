@@ -8,8 +8,8 @@
 namespace tidemark::glsl {
 namespace {
 
-constexpr std::string_view k_interface[] = {"uniform",   "in",     "out",     "inout",  "buffer",
-                                            "shared",    "varying", "attribute", "layout", "invariant"};
+constexpr std::string_view k_interface[] = {"uniform", "in",      "out",       "inout",  "buffer",
+                                            "shared",  "varying", "attribute", "layout", "invariant"};
 
 bool is_interface(const ParsedText& text, NodeId type) {
     return std::any_of(std::begin(k_interface), std::end(k_interface),

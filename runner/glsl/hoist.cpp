@@ -130,9 +130,8 @@ private:
             const bool member = i > tree_[id].begin && text_.words()[i - 1].is(".");
             if (word.kind == text::TokenKind::identifier && macros_.contains(word.text))
                 return std::nullopt;
-            const auto* alias = word.kind == text::TokenKind::identifier && !member
-                                    ? expressions_.alias(word.text)
-                                    : nullptr;
+            const auto* alias =
+                word.kind == text::TokenKind::identifier && !member ? expressions_.alias(word.text) : nullptr;
             const std::optional<std::string> text =
                 alias ? hoisted_alias(word.text, *alias) : std::string(word.text);
             if (!text)
@@ -142,8 +141,7 @@ private:
         return spelled;
     }
 
-    std::optional<std::string> hoisted_alias(std::string_view name,
-                                             const UniformExpressions::Alias& alias) {
+    std::optional<std::string> hoisted_alias(std::string_view name, const UniformExpressions::Alias& alias) {
         const auto known = aliases_.find(name);
         if (known != aliases_.end())
             return known->second;

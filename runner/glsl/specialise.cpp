@@ -74,8 +74,9 @@ private:
             const Node& node = tree_[global.node];
             if (!value || !edits_.stands_alone(node.begin, node.end))
                 continue;
-            edits_.replace(node.begin, node.end,
-                           fmt::format("const {} {} = {};", scene::info(knob->type).glsl_name, knob->name, *value));
+            edits_.replace(
+                node.begin, node.end,
+                fmt::format("const {} {} = {};", scene::info(knob->type).glsl_name, knob->name, *value));
             ++count;
         }
         return count;
@@ -86,7 +87,8 @@ private:
         const ConstantConditions conditions(text_, variables, knobs_);
         int count = 0;
         for (NodeId id = NodeId(tree_.nodes.size()); id-- > 1;) { // parents first
-            const bool branch = tree_[id].kind == NodeKind::if_else || tree_[id].kind == NodeKind::conditional;
+            const bool branch =
+                tree_[id].kind == NodeKind::if_else || tree_[id].kind == NodeKind::conditional;
             if (!branch || gone_[tree_[id].begin])
                 continue;
             if (const auto outcome = conditions.outcome(tree_.child(id, 0)))
@@ -131,7 +133,8 @@ private:
     bool is_surely_floating(NodeId id) const {
         if (tree_[id].kind == NodeKind::literal)
             return text_.word_of(id).find('.') != std::string_view::npos;
-        const auto built = tree_[id].kind == NodeKind::call ? value_type(called_name(text_, id)) : std::nullopt;
+        const auto built =
+            tree_[id].kind == NodeKind::call ? value_type(called_name(text_, id)) : std::nullopt;
         return built && built->base == 'f';
     }
 

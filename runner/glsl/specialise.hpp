@@ -14,17 +14,17 @@ namespace tidemark::glsl {
 enum class Specialise : unsigned char {
     nothing,
     unreachable, ///< functions, variables and structures: the driver makes the same code of what stays
-    settled,     ///< knobs stand still: what they decide and what is worked out in vain. The language promises the
-                 ///< same values; a driver that rearranges sums may round them differently
-    constants    ///< and knobs are constants, which the driver folds into its arithmetic: other roundings
+    settled, ///< knobs stand still: what they decide and what is worked out in vain. The language promises
+             ///< the same values; a driver that rearranges sums may round them differently
+    constants ///< and knobs are constants, which the driver folds into its arithmetic: other roundings
 };
 
 /// What was done to a text.
 struct LeftOut {
-    int lines = 0;     ///< of the author's that are empty now
-    int branches = 0;  ///< closed by knobs or constants
-    int hoisted = 0;   ///< expressions out of loops
-    int constants = 0; ///< knobs
+    int lines = 0;                            ///< of the author's that are empty now
+    int branches = 0;                         ///< closed by knobs or constants
+    int hoisted = 0;                          ///< expressions out of loops
+    int constants = 0;                        ///< knobs
     std::string kept_whole = "not asked for"; ///< why nothing was done; empty where something was
 
     bool anything() const { return kept_whole.empty(); }

@@ -147,8 +147,7 @@ auto UniformExpressions::evaluate(NodeId expression) const -> Value {
             return std::nullopt;
         return FrameValue{{floating ? 'f' : is_unsigned ? 'u' : 'i', 1, 1}};
     }
-    case NodeKind::name:
-        return is_callee(expression) ? std::nullopt : name(text_.word_of(expression));
+    case NodeKind::name: return is_callee(expression) ? std::nullopt : name(text_.word_of(expression));
     case NodeKind::parenthesis: return child(0);
     case NodeKind::prefix: {
         const std::string_view op = text_.word_of(expression);

@@ -1,5 +1,5 @@
-// Which expressions of a function have one value for the whole frame: those of uniforms, constants, literals and
-// functions that only compute, and of local variables that are given such a value and no other.
+// Which expressions of a function have one value for the whole frame: those of uniforms, constants, literals
+// and functions that only compute, and of local variables that are given such a value and no other.
 #pragma once
 
 #include "glsl/globals.hpp"
@@ -63,11 +63,11 @@ private:
     const ParsedText& text_;
     const SyntaxTree& tree_;
     std::unordered_map<std::string_view, std::vector<const Global*>> functions_;
-    Variables globals_; ///< variables
+    Variables globals_;                                        ///< variables
     std::unordered_map<std::string_view, FrameValue> settled_; ///< those that have one value for the frame
     mutable std::unordered_map<std::string_view, std::optional<PureFunction>> pure_;
     mutable int functions_open_ = 0; ///< that are being examined
-    NodeId first_ = 1; ///< nodes of the function that was entered
+    NodeId first_ = 1;               ///< nodes of the function that was entered
     std::vector<Value> values_;
     Variables locals_;
     std::unordered_set<std::string_view> written_;

@@ -10,25 +10,25 @@ namespace {
 using Result = PureBuiltin::Result;
 
 constexpr PureBuiltin k_builtins[] = {
-    {"sin", Result::first, true},         {"cos", Result::first, true},
-    {"tan", Result::first, true},         {"asin", Result::first, true},
-    {"acos", Result::first, true},        {"atan", Result::widest, true},
-    {"sinh", Result::first, true},        {"cosh", Result::first, true},
-    {"tanh", Result::first, true},        {"exp", Result::first, true},
-    {"exp2", Result::first, true},        {"log", Result::first, true},
-    {"log2", Result::first, true},        {"pow", Result::widest, true},
-    {"sqrt", Result::first, true},        {"inversesqrt", Result::first, true},
-    {"normalize", Result::first, true},   {"length", Result::number, true},
-    {"distance", Result::number, true},   {"abs", Result::first, false},
-    {"sign", Result::first, false},       {"floor", Result::first, false},
-    {"ceil", Result::first, false},       {"fract", Result::first, false},
-    {"round", Result::first, false},      {"trunc", Result::first, false},
-    {"radians", Result::first, false},    {"degrees", Result::first, false},
-    {"mod", Result::widest, false},       {"min", Result::widest, false},
-    {"max", Result::widest, false},       {"clamp", Result::widest, false},
-    {"mix", Result::widest, false},       {"step", Result::widest, false},
+    {"sin", Result::first, true},          {"cos", Result::first, true},
+    {"tan", Result::first, true},          {"asin", Result::first, true},
+    {"acos", Result::first, true},         {"atan", Result::widest, true},
+    {"sinh", Result::first, true},         {"cosh", Result::first, true},
+    {"tanh", Result::first, true},         {"exp", Result::first, true},
+    {"exp2", Result::first, true},         {"log", Result::first, true},
+    {"log2", Result::first, true},         {"pow", Result::widest, true},
+    {"sqrt", Result::first, true},         {"inversesqrt", Result::first, true},
+    {"normalize", Result::first, true},    {"length", Result::number, true},
+    {"distance", Result::number, true},    {"abs", Result::first, false},
+    {"sign", Result::first, false},        {"floor", Result::first, false},
+    {"ceil", Result::first, false},        {"fract", Result::first, false},
+    {"round", Result::first, false},       {"trunc", Result::first, false},
+    {"radians", Result::first, false},     {"degrees", Result::first, false},
+    {"mod", Result::widest, false},        {"min", Result::widest, false},
+    {"max", Result::widest, false},        {"clamp", Result::widest, false},
+    {"mix", Result::widest, false},        {"step", Result::widest, false},
     {"smoothstep", Result::widest, false}, {"dot", Result::number, false},
-    {"cross", Result::vector3, false},    {"reflect", Result::first, false},
+    {"cross", Result::vector3, false},     {"reflect", Result::first, false},
 };
 
 int digit(char c) {
@@ -121,7 +121,8 @@ std::optional<ValueType> type_of_call(const PureBuiltin& builtin, std::span<cons
         type.base = argument.base == 'f' ? 'f' : type.base;
     }
     constexpr std::string_view k_of_ints_too[] = {"abs", "sign", "min", "max", "clamp"};
-    if (std::find(std::begin(k_of_ints_too), std::end(k_of_ints_too), builtin.name) == std::end(k_of_ints_too))
+    if (std::find(std::begin(k_of_ints_too), std::end(k_of_ints_too), builtin.name) ==
+        std::end(k_of_ints_too))
         type.base = 'f';
     if (builtin.result == Result::number)
         return ValueType{};

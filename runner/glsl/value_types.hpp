@@ -1,5 +1,5 @@
-// The types that numbers and vectors of numbers have in expressions: enough to write down what an expression of
-// uniforms is worth. What is not covered has no type.
+// The types that numbers and vectors of numbers have in expressions: enough to write down what an expression
+// of uniforms is worth. What is not covered has no type.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Changes of a text that are decided on its words, after the macros, and carried out on its characters, before
-// them: possible where no macro holds a changed word and an unchanged one.
+// Changes of a text that are decided on its words, after the macros, and carried out on its characters,
+// before them: possible where no macro holds a changed word and an unchanged one.
 #pragma once
 
 #include "glsl/parsed_text.hpp"

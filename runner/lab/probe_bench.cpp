@@ -37,8 +37,9 @@ Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry
     std::vector<scene::Knob> knobs = scene.knobs;
     auto found = renderers_.find(key);
     if (found == renderers_.end()) {
-        auto made = render::Renderer::create(std::move(scene),
-                                             {situation.extent, image::SampleType::f32, {}, precision});
+        auto made = render::Renderer::create(
+            std::move(scene),
+            {situation.extent, image::SampleType::f32, {}, precision, glsl::Specialise::unreachable});
         if (!made)
             return fail(std::move(made.error()));
         found = renderers_.emplace(std::move(key), *std::move(made)).first;

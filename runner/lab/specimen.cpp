@@ -37,7 +37,8 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
     specimen.hit_scene_ = glsl::hit_scene(*set);
     const Stopwatch watch;
     auto renderer =
-        render::Renderer::create(*std::move(set), {extent, image::SampleType::f32, "", recipe.precision});
+        render::Renderer::create(*std::move(set), {extent, image::SampleType::f32, "", recipe.precision,
+                                                   glsl::Specialise::unreachable});
     if (!renderer)
         return fail(std::move(renderer.error()));
     specimen.compile_milliseconds_ = watch.elapsed().wall;
@@ -57,8 +58,8 @@ image::Image Specimen::picture(const View& view) {
 
 Result<Hits> Specimen::hits(const View& view) {
     if (!hit_renderer_) {
-        auto renderer =
-            render::Renderer::create(*hit_scene_, {extent_, image::SampleType::f32, "", precision_});
+        auto renderer = render::Renderer::create(
+            *hit_scene_, {extent_, image::SampleType::f32, "", precision_, glsl::Specialise::unreachable});
         if (!renderer)
             return fail(std::move(renderer.error()));
         hit_renderer_ = *std::move(renderer);

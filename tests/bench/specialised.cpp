@@ -1,5 +1,5 @@
-// What specialising a scene's text changes: its bytes in frames 0 and N, and what compiling, the first draw and
-// a frame cost in CPU time, one level of it after the other in rounds. One line of JSON for each scene.
+// What specialising a scene's text changes: its bytes in frames 0 and N, and what compiling, the first draw
+// and a frame cost in CPU time, one level of it after the other in rounds. One line of JSON for each scene.
 //
 //     tidemark_specialised [--size WxH] [--frame N] [--rounds N] [--bytes-kept] SCENE...
 //
@@ -50,7 +50,8 @@ double cpu_milliseconds() {
     return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
 }
 
-template <class Work> double cost_of(const Work& work) {
+template <class Work>
+double cost_of(const Work& work) {
     glFinish();
     const double start = cpu_milliseconds();
     work();

@@ -1,6 +1,5 @@
 // What specialising leaves of a text, class by class, and what it must not touch.
 #include "glsl/specialise.hpp"
-
 #include "glsl_support.hpp"
 #include "scene/knob.hpp"
 
@@ -24,7 +23,8 @@ const std::vector<scene::Knob> k_knobs = {knob("foam", scene::KnobType::float1, 
                                           knob("count", scene::KnobType::int1, {3}),
                                           knob("wind", scene::KnobType::vec2, {1, -2})};
 
-constexpr std::string_view k_head = "uniform float foam; uniform int count; uniform vec2 wind; uniform float iTime;\n";
+constexpr std::string_view k_head =
+    "uniform float foam; uniform int count; uniform vec2 wind; uniform float iTime;\n";
 
 Specialised specialised(std::string_view text, Specialise how, std::string_view version = "330 core") {
     text::MappedText source;
@@ -55,8 +55,8 @@ std::string settled(std::string_view text) {
 }
 /// What is left of `if (condition) a(); else b();`: "a", "b" or "both".
 std::string branch(std::string_view condition, std::string_view before = "") {
-    const std::string left = settled(
-        fmt::format("{}void a() {{}} void b() {{}} void main() {{ if ({}) a(); else b(); }}", before, condition));
+    const std::string left = settled(fmt::format(
+        "{}void a() {{}} void b() {{}} void main() {{ if ({}) a(); else b(); }}", before, condition));
     const bool a = left.find("a();") != left.npos;
     const bool b = left.find("b();") != left.npos;
     return a && b ? "both" : a ? "a" : "b";
@@ -66,11 +66,12 @@ int hoisted(std::string_view text, std::string_view version = "330 core") {
 }
 
 TEST(Specialise, removes_functions_that_main_cannot_reach_and_what_only_they_need) {
-    EXPECT_EQ(reached("struct P { float x; }; const float k = 2.0; float g; P make() { g = k; return P(g); }\n"
-                      "float used() { return 1.0; }\n"
-                      "float unused() { return make().x + used(); }\n"
-                      "void main() { used(); }"),
-              "float used() { return 1.0; } void main() { used(); }");
+    EXPECT_EQ(
+        reached("struct P { float x; }; const float k = 2.0; float g; P make() { g = k; return P(g); }\n"
+                "float used() { return 1.0; }\n"
+                "float unused() { return make().x + used(); }\n"
+                "void main() { used(); }"),
+        "float used() { return 1.0; } void main() { used(); }");
 }
 
 TEST(Specialise, keeps_every_overload_and_prototype_of_a_name_that_is_reached) {
@@ -99,9 +100,11 @@ TEST(Specialise, keeps_what_only_looks_unreachable) {
 }
 
 TEST(Specialise, removes_arrays_structs_and_globals_nobody_names) {
-    EXPECT_EQ(reached("const vec2 k_all[2] = vec2[2](vec2(0.0), vec2(1.0)); struct A { float x; }; struct B { A a; };\n"
-                      "B b; float x = sin(1.0); void main() {}"),
-              "void main() {}");
+    EXPECT_EQ(
+        reached(
+            "const vec2 k_all[2] = vec2[2](vec2(0.0), vec2(1.0)); struct A { float x; }; struct B { A a; };\n"
+            "B b; float x = sin(1.0); void main() {}"),
+        "void main() {}");
 }
 
 TEST(Specialise, takes_no_part_of_a_macro) {
@@ -118,7 +121,8 @@ TEST(Specialise, takes_no_part_of_a_macro) {
 }
 
 TEST(Specialise, leaves_directives_and_lines_where_they_are) {
-    constexpr std::string_view k_text = "float unused()\n{\n#define A 1\n    return 1.0;\n#if A\n#endif\n}\nvoid main()\n{\n  broken;\n}\n";
+    constexpr std::string_view k_text =
+        "float unused()\n{\n#define A 1\n    return 1.0;\n#if A\n#endif\n}\nvoid main()\n{\n  broken;\n}\n";
     const Specialised result = specialised(k_text, Specialise::unreachable);
     EXPECT_EQ(result.left_out.lines, 4);
     EXPECT_EQ(count(result.source.text(), "#define A 1\n"), 1);
@@ -131,7 +135,8 @@ TEST(Specialise, leaves_a_text_alone_that_it_cannot_follow) {
                                         "#ifdef GL_ARB_gpu_shader5\nfloat f;\n#endif\nvoid main() {}"}) {
         const Specialised result = specialised(text, Specialise::settled);
         EXPECT_FALSE(result.left_out.anything());
-        EXPECT_NE(result.left_out.kept_whole.find("a.glsl:"), std::string::npos) << result.left_out.kept_whole;
+        EXPECT_NE(result.left_out.kept_whole.find("a.glsl:"), std::string::npos)
+            << result.left_out.kept_whole;
         EXPECT_NE(result.source.text().find(text), std::string::npos);
     }
     EXPECT_EQ(specialised("void main() {}", Specialise::settled).left_out.kept_whole,
@@ -154,17 +159,18 @@ TEST(Specialise, closes_branches_that_knobs_decide) {
 }
 
 TEST(Specialise, leaves_open_what_is_not_known_to_the_bit) {
-    EXPECT_EQ(branch("foam * 2.0 > 0.5"), "both");       // a float would be rounded
-    EXPECT_EQ(branch("iTime > 0.0"), "both");            // moves
+    EXPECT_EQ(branch("foam * 2.0 > 0.5"), "both");         // a float would be rounded
+    EXPECT_EQ(branch("iTime > 0.0"), "both");              // moves
     EXPECT_EQ(branch("anything() && foam < 0.0"), "both"); // has to be called
-    EXPECT_EQ(branch("foam > 1e-42"), "both");           // may be flushed to zero
+    EXPECT_EQ(branch("foam > 1e-42"), "both");             // may be flushed to zero
     EXPECT_EQ(branch("wind == vec2(0.0)"), "both");
     EXPECT_EQ(branch("count > 2147483648"), "both");
     EXPECT_EQ(branch("count * 2000000000 > 0"), "both"); // wraps
     EXPECT_EQ(branch("3u > 2u"), "both");
     EXPECT_EQ(branch("k > 0", "int k = 1; "), "both");
     EXPECT_EQ(branch("k > 0", "const int k = k; "), "both");
-    EXPECT_EQ(branch("foam > 0.0", "float other(float foam) { return foam; } "), "both"); // shadowed somewhere
+    EXPECT_EQ(branch("foam > 0.0", "float other(float foam) { return foam; } "),
+              "both"); // shadowed somewhere
     EXPECT_EQ(branch("NaN > 0.0"), "both");
 }
 
@@ -176,7 +182,8 @@ TEST(Specialise, keeps_the_shape_of_what_is_around_a_branch) {
               "void main() { if (iTime > 1.) ; else return; }");
     EXPECT_EQ(settled("void main() { if (foam > 0.) if (count > 5) discard; else { return; } }"),
               "void main() { { return; } }");
-    EXPECT_EQ(settled("void main() { if (true) float x = 1.0; }"), "void main() { if (true) float x = 1.0; }");
+    EXPECT_EQ(settled("void main() { if (true) float x = 1.0; }"),
+              "void main() { if (true) float x = 1.0; }");
 }
 
 TEST(Specialise, what_a_closed_branch_needed_goes_too) {
@@ -194,9 +201,10 @@ TEST(Specialise, chooses_between_values_of_one_type) {
 }
 
 TEST(Specialise, works_out_once_what_a_loop_would_work_out_in_every_turn) {
-    EXPECT_EQ(settled("void main() { for (int i = 0; i < 9; ++i) { float x = sin(iTime * 2.0) * float(i); } }"),
-              "float tidemark_hoisted0 = sin ( iTime * 2.0 ); "
-              "void main() { for (int i = 0; i < 9; ++i) { float x = tidemark_hoisted0 * float(i); } }");
+    EXPECT_EQ(
+        settled("void main() { for (int i = 0; i < 9; ++i) { float x = sin(iTime * 2.0) * float(i); } }"),
+        "float tidemark_hoisted0 = sin ( iTime * 2.0 ); "
+        "void main() { for (int i = 0; i < 9; ++i) { float x = tidemark_hoisted0 * float(i); } }");
     // In a function that a loop calls, through local variables, and by functions that only compute.
     EXPECT_EQ(settled("mat2 turn(float a) { float s = sin(a), c = cos(a); return mat2(c, -s, s, c); }\n"
                       "float map(vec2 p) { float angle = 0.3 * iTime; p *= turn(angle); return p.x; }\n"
@@ -209,21 +217,25 @@ TEST(Specialise, works_out_once_what_a_loop_would_work_out_in_every_turn) {
 
 TEST(Specialise, hoists_nothing_that_may_change_within_a_frame) {
     const auto in_loop = [](std::string_view body, std::string_view before = "") {
-        return hoisted(fmt::format("{}void main() {{ float a = 0.0; for (int i = 0; i < 9; ++i) {{ {} }} }}", before, body));
+        return hoisted(fmt::format("{}void main() {{ float a = 0.0; for (int i = 0; i < 9; ++i) {{ {} }} }}",
+                                   before, body));
     };
     EXPECT_EQ(in_loop("float x = cos(iTime);"), 1);
     EXPECT_EQ(in_loop("float x = cos(iTime + float(i));"), 0);
     EXPECT_EQ(in_loop("a += 1.0; float x = cos(a);"), 0);
     EXPECT_EQ(in_loop("float x = cos(gl_FragCoord.x);"), 0);
-    EXPECT_EQ(in_loop("float x = cos(1.0);"), 0); // a constant: the driver's affair
+    EXPECT_EQ(in_loop("float x = cos(1.0);"), 0);    // a constant: the driver's affair
     EXPECT_EQ(in_loop("float x = iTime * 2.0;"), 0); // not worth it
     EXPECT_EQ(in_loop("float x = dFdx(sin(gl_FragCoord.x) * iTime);"), 0);
     EXPECT_EQ(in_loop("float t = iTime; t += 1.0; float x = cos(t);"), 0);
     EXPECT_EQ(in_loop("float t = iTime; modf(a, t); float x = cos(t);"), 0);
-    EXPECT_EQ(in_loop("float t = iTime; change(t); float x = cos(t);", "void change(inout float x) { x = 1.0; }\n"), 0);
+    EXPECT_EQ(
+        in_loop("float t = iTime; change(t); float x = cos(t);", "void change(inout float x) { x = 1.0; }\n"),
+        0);
     EXPECT_EQ(in_loop("float x = f(iTime);", "float g; float f(float x) { return sin(x) + g; }\n"), 0);
     EXPECT_EQ(in_loop("float x = f(iTime);", "float f(float x) { return sin(x) + f(x); }\n"), 0);
-    EXPECT_EQ(in_loop("float x = f(iTime);", "float f(float x) { if (x > 1.0) discard; return sin(x); }\n"), 0);
+    EXPECT_EQ(in_loop("float x = f(iTime);", "float f(float x) { if (x > 1.0) discard; return sin(x); }\n"),
+              0);
     EXPECT_EQ(in_loop("float iTime = a; float x = cos(iTime);"), 0); // shadowed
     EXPECT_EQ(in_loop("float x = cos(iTime);", "#define iTime (a + 1.0)\n"), 0);
     EXPECT_EQ(hoisted("void main() { float x = cos(iTime); }"), 0); // no loop
@@ -232,7 +244,8 @@ TEST(Specialise, hoists_nothing_that_may_change_within_a_frame) {
 }
 
 TEST(Specialise, writes_knobs_as_constants_when_asked_to) {
-    const std::string text = specialised("void main() { float x = foam; }", Specialise::constants).source.text();
+    const std::string text =
+        specialised("void main() { float x = foam; }", Specialise::constants).source.text();
     EXPECT_NE(text.find("const float foam = float(0.500000000);"), std::string::npos) << text;
     EXPECT_NE(text.find("const int count = int(int(3));"), std::string::npos) << text;
     EXPECT_NE(text.find("const vec2 wind = vec2(1.00000000, -2.00000000);"), std::string::npos) << text;
