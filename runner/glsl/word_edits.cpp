@@ -54,10 +54,18 @@ void WordEdits::insert(size_t word, std::string_view insertion) {
     edits_.push_back({at, at, std::string(insertion)});
 }
 
+/// A branch that was closed goes with its function, should that go.
 text::MappedText WordEdits::apply() const {
     std::vector<text::Edit> edits = edits_;
-    std::stable_sort(edits.begin(), edits.end(),
-                     [](const text::Edit& a, const text::Edit& b) { return a.begin < b.begin; });
+    std::stable_sort(edits.begin(), edits.end(), [](const text::Edit& a, const text::Edit& b) {
+        return a.begin != b.begin ? a.begin < b.begin : a.end > b.end;
+    });
+    size_t covered = 0;
+    std::erase_if(edits, [&covered](const text::Edit& edit) {
+        const bool inside = edit.begin < covered;
+        covered = std::max(covered, edit.end);
+        return inside;
+    });
     text::MappedText result = text_.source();
     result.apply(edits);
     return result;

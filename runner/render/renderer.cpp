@@ -281,12 +281,13 @@ void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& int
 }
 
 FrameWork Renderer::work() const {
-    FrameWork work{0, 0, 0, textures_.bytes()};
+    FrameWork work{0, 0, 0, textures_.bytes(), 0};
     for (const PlannedPass& planned : plan_.passes) {
         work.draws += scene_.passes[planned.pass].kind == PassKind::cubemap ? 6 : 1;
         work.uniforms += passes_[planned.pass].uniforms.size();
         work.channels += passes_[planned.pass].channels.size();
         work.texture_bytes += targets_[planned.pass].bytes();
+        work.lines_removed += size_t(passes_[planned.pass].left_out.lines);
     }
     return work;
 }

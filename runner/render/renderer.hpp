@@ -43,6 +43,7 @@ struct FrameWork {
     size_t uniforms = 0; ///< handed over
     size_t channels = 0; ///< with a texture
     size_t texture_bytes = 0;
+    size_t lines_removed = 0; ///< of the texts that were compiled for it
 
     bool operator==(const FrameWork&) const = default;
 };

@@ -105,6 +105,12 @@ class With(ProgramTest):
         report = json.loads(done.stdout)
         return {row["with"]: row for row in report["savings"]}, report["libraries"]
 
+    def test_code(self):
+        self.write("a.glsl", "float unused() { return 1.0; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 1); }\n")
+        rows, _ = self.savings("a.glsl", "code")
+        self.assertTrue(rows["code"]["left_out"])
+        self.assertTrue(rows["code"]["same_pixels"])
+
     def project(self):
         self.write("p/image.glsl", '#iChannel0 "buffer_b.glsl"\n'
                    "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + fract(iTime); }\n")

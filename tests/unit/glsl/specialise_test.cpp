@@ -191,6 +191,12 @@ TEST(Specialise, what_a_closed_branch_needed_goes_too) {
               "void main() { ; }");
 }
 
+TEST(Specialise, a_closed_branch_goes_with_its_function) {
+    EXPECT_EQ(
+        settled("float f() { if (foam > 0.0) return foam > 0.0 ? 1.0 : 2.0; return 0.0; } void main() {}"),
+        "void main() {}");
+}
+
 TEST(Specialise, chooses_between_values_of_one_type) {
     EXPECT_EQ(settled("void main() { float x = 2.0 * (foam > 0.0 ? 1.0 : 2.0); }"),
               "void main() { float x = 2.0 * ( 1.0 ); }");
