@@ -5,6 +5,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/number_check.hpp"
 #include "cli/options.hpp"
+#include "cli/trial.hpp"
 #include "image/video_writer.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
@@ -34,6 +35,8 @@ struct CaptureOptions {
     std::string device = "auto";
     std::optional<double> timeout;
     double duration = 60;
+    bool plain = false;
+    std::optional<double> allowed_difference;
     bool json = false;
 };
 
@@ -95,14 +98,39 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     return CapturePlan{*std::move(frames), *std::move(output), *depth, options.timeout, options.json};
 }
 
-Result<render::Renderer> compile(scene::Scene scene, const CaptureOptions& options, const CapturePlan& plan,
-                                 Interrupt& interrupt) {
+/// From this many frames on it pays to try two programs.
+constexpr size_t k_frames_worth_a_trial = 30;
+
+/// The frames that a trial looks at: the first that is drawn and, where it can be drawn alone, the last.
+std::vector<render::FrameInputs> frames_to_try(const scene::Scene& scene, const FrameRequest& request) {
+    const bool feedback = scene.passes.size() > 1;
+    std::vector<render::FrameInputs> frames{inputs_of(request, feedback ? 0 : request.frames.front())};
+    if (!feedback)
+        frames.push_back(inputs_of(request, request.frames.back()));
+    return frames;
+}
+
+Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions& options,
+                                 const CapturePlan& plan, Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     Watchdog watchdog;
     const Watchdog::Watch watch(watchdog, "compiling", std::nullopt);
     const SampleType samples = plan.depth == SampleDepth::u8 ? SampleType::u8 : SampleType::f32;
-    return render::Renderer::create(
-        std::move(scene), {plan.frames.extent, samples, options.frames.pass, precision_of(options.scene)});
+    render::RenderOptions target{plan.frames.extent, samples, options.frames.pass,
+                                 precision_of(options.scene),
+                                 options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable};
+    const bool long_enough = plan.frames.frames.size() >= k_frames_worth_a_trial;
+    if (options.plain || !(options.allowed_difference || long_enough))
+        return render::Renderer::create(scene, target);
+    target.specialise =
+        options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled;
+    auto trial =
+        choose_program(scene, target, frames_to_try(scene, plan.frames), options.allowed_difference);
+    if (!trial)
+        return fail(std::move(trial.error()));
+    if (!trial->said.empty())
+        say(trial->said);
+    return std::move(trial->renderer);
 }
 
 void say_what_was_written(const std::vector<FrameRecord>& records, bool video) {
@@ -162,7 +190,7 @@ Result<int> capture(const CaptureOptions& options) {
         return fail(context.error());
     const std::optional<StagedFile> sound =
         draw_sound_of_video(*scene, precision_of(options.scene), *plan, interrupt);
-    auto renderer = compile(*std::move(scene), options, *plan, interrupt);
+    auto renderer = compile(*scene, options, *plan, interrupt);
     if (!renderer)
         return fail(std::move(renderer.error()));
     Capture run(*plan, *renderer, sound ? sound->path() : std::filesystem::path());
@@ -214,6 +242,13 @@ void add_capture(CLI::App& app, Action& chosen) {
         ->type_name("SECONDS")
         ->check(number<double>("a number of seconds"))
         ->capture_default_str();
+    auto* plain = command->add_flag("--plain", options->plain, "Compiles the scene's text whole, as it is");
+    command
+        ->add_option("--allow-difference", options->allowed_difference,
+                     "Makes knobs constants where that is faster and moves no sample by more")
+        ->type_name("MAX")
+        ->check(number<double>("a number"))
+        ->excludes(plain);
     command->add_flag("--json", options->json, "One JSON object about the frames on standard output");
     command->callback([options, &chosen] { chosen = [options] { return capture(*options); }; });
 }

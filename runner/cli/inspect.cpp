@@ -7,7 +7,9 @@
 #include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
+#include "glsl/assemble.hpp"
 #include "glsl/pass_reading.hpp"
+#include "glsl/specialise.hpp"
 #include "platform/headless_context.hpp"
 
 #include <CLI/CLI.hpp>
@@ -33,6 +35,7 @@ struct InspectOptions {
     double budget = 20;
     bool devices = false;
     bool source = false;
+    bool specialised = false;
     bool json = false;
 };
 
@@ -74,6 +77,34 @@ Result<int> inspect_devices(bool as_json) {
     return put(as_json ? json.dump(2) + "\n" : text).map([] { return 0; });
 }
 
+/// What `capture` leaves out of a pass's text, in a sequence too.
+glsl::LeftOut left_out_of(const render::Renderer& renderer, size_t pass) {
+    const scene::Scene& scene = renderer.scene();
+    if (renderer.precision() != glsl::Precision::single)
+        return renderer.left_out(pass);
+    return glsl::specialise(glsl::assemble(scene, scene.passes[pass], renderer.dialect(pass)), scene.knobs,
+                            glsl::Specialise::settled)
+        .left_out;
+}
+
+Json to_json(const glsl::LeftOut& left_out) {
+    Json json = {
+        {"lines", left_out.lines}, {"branches", left_out.branches}, {"out_of_loops", left_out.hoisted}};
+    if (!left_out.anything())
+        json["none_because"] = left_out.kept_whole;
+    return json;
+}
+
+std::string to_line(const glsl::LeftOut& left_out) {
+    if (!left_out.anything())
+        return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
+    std::string text = fmt::format("  code removed: {} lines", left_out.lines);
+    if (left_out.in_doubt())
+        text += fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops",
+                            left_out.branches, left_out.hoisted);
+    return text + '\n';
+}
+
 Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
     const SceneFacts facts = facts_of(renderer);
     const scene::Scene& scene = renderer.scene();
@@ -90,7 +121,9 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
         Json channels = Json::object();
         for (const int channel : facts_of_pass.channels)
             channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
-        json["passes"].push_back({{"name", pass.name}, {"channels", channels}});
+        json["passes"].push_back({{"name", pass.name},
+                                  {"channels", channels},
+                                  {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass))}});
     }
     json["knobs"] = knobs_of(scene);
     add_precision(json, renderer);
@@ -111,6 +144,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
         for (const int channel : facts_of_pass.channels)
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
+        text += to_line(left_out_of(renderer, facts_of_pass.pass));
     }
     text += knob_lines(scene);
     text += precision_lines(renderer);
@@ -120,7 +154,8 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
 }
 
 /// The text of a pass, Image when none is named.
-Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision) {
+Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision,
+                       glsl::Specialise how) {
     for (const scene::Pass& pass : scene.passes) {
         if (pass.name != name && !(name.empty() && pass.kind == scene::PassKind::image))
             continue;
@@ -128,7 +163,7 @@ Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl:
         const auto assembly = reading.assemble(reading.dialects(precision).front());
         if (!assembly)
             return fail(assembly.error());
-        return put(assembly->source.text()).map([] { return 0; });
+        return put(glsl::specialise(assembly->source, scene.knobs, how).source.text()).map([] { return 0; });
     }
     return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has no such pass", name));
 }
@@ -138,7 +173,8 @@ Result<int> inspect_scene(const InspectOptions& options) {
     if (!scene)
         return fail(std::move(scene.error()));
     if (options.source)
-        return put_source(*scene, options.pass, precision_of(options.scene));
+        return put_source(*scene, options.pass, precision_of(options.scene),
+                          options.specialised ? glsl::Specialise::settled : glsl::Specialise::nothing);
     if (options.device == "none")
         return put(options.json ? what_files_say(*scene).dump(2) + "\n" : lines_of_files(*scene)).map([] {
             return 0;
@@ -149,6 +185,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
     render::RenderOptions target;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
+    target.specialise = glsl::Specialise::unreachable;
     const auto renderer = render::Renderer::create(*std::move(scene), target);
     if (!renderer)
         return fail(renderer.error());
@@ -191,6 +228,11 @@ void add_inspect(CLI::App& app, Action& chosen) {
         ->type_name("S")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    command
+        ->add_flag(
+            "--specialised", options->specialised,
+            "With --source: the text without what the scene does not need, as a long sequence is drawn")
+        ->needs("--source");
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] {
         chosen = [options]() -> Result<int> {

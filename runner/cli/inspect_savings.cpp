@@ -200,6 +200,7 @@ Result<int> inspect_savings(const SavingsOptions& options) {
     target.extent = *extent;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
+    target.specialise = glsl::Specialise::unreachable;
     std::vector<Answer> answers;
     const std::vector<Question> questions = questions_of(options);
     for (const Question& question : questions) {

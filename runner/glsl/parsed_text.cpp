@@ -3,11 +3,13 @@
 namespace tidemark::glsl {
 
 Result<std::unique_ptr<const ParsedText>> ParsedText::read(text::MappedText source,
-                                                           std::span<const KnownMacro> known) {
+                                                           std::span<const KnownMacro> known,
+                                                           bool all_known) {
     std::unique_ptr<ParsedText> result(new ParsedText(std::move(source))); // its constructor is private
     const text::LineMap& lines = result->source_.lines();
     result->tokens_ = text::tokenize(result->source_.text());
-    auto expansion = expand(result->tokens_, preprocess(result->tokens_, known, true), lines);
+    result->preprocessed_ = preprocess(result->tokens_, known, all_known);
+    auto expansion = expand(result->tokens_, result->preprocessed_, lines);
     if (!expansion)
         return fail(std::move(expansion.error()));
     result->expansion_ = *std::move(expansion);

@@ -16,12 +16,17 @@ namespace tidemark::glsl {
 class ParsedText {
 public:
     /// `source` is what a driver would get, #version included; `known` are all macros that the driver
-    /// defines. The error says where the text cannot be followed.
-    static Result<std::unique_ptr<const ParsedText>> read(text::MappedText source,
-                                                          std::span<const KnownMacro> known);
+    /// defines; with `all_known` false it may define others that begin with GL_. The error says where the
+    /// text cannot be followed.
+    static Result<std::unique_ptr<const ParsedText>>
+    read(text::MappedText source, std::span<const KnownMacro> known, bool all_known = true);
     ParsedText(const ParsedText&) = delete;
     ParsedText& operator=(const ParsedText&) = delete;
 
+    const text::MappedText& source() const { return source_; }
+    const std::vector<text::Token>& tokens() const { return tokens_; }
+    /// Which tokens are compiled, and the macros there are.
+    const Preprocessed& preprocessed() const { return preprocessed_; }
     const SyntaxTree& tree() const { return tree_; }
     const std::vector<Word>& words() const { return expansion_.words; }
     std::string_view word(size_t index) const { return expansion_.words[index].text; }
@@ -46,6 +51,7 @@ private:
 
     text::MappedText source_;
     std::vector<text::Token> tokens_;
+    Preprocessed preprocessed_;
     Expansion expansion_;
     SyntaxTree tree_;
 };

@@ -41,6 +41,7 @@ Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry
             std::move(scene), {.extent = situation.extent,
                                .samples = image::SampleType::f32,
                                .precision = precision,
+                               .specialise = glsl::Specialise::unreachable,
                                .extras = {.unchanged = true}}); // a probe asks whether a drawing repeats
         if (!made)
             return fail(std::move(made.error()));

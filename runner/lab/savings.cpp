@@ -25,6 +25,8 @@ constexpr Omission k_omissions[] = {
      [](Way& way) { way.options.extras.mipmaps = true; }},
     {"second-textures", "a second texture for buffers that do not read themselves",
      [](Way& way) { way.options.extras.second_textures = true; }},
+    {"code", "code that main cannot reach, compiled",
+     [](Way& way) { way.options.specialise = glsl::Specialise::nothing; }},
 };
 
 render::FrameInputs inputs_of(int frame) {

@@ -40,6 +40,7 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
         *std::move(set), {.extent = extent,
                           .samples = image::SampleType::f32,
                           .precision = recipe.precision,
+                          .specialise = glsl::Specialise::unreachable,
                           .extras = {.unchanged = true}}); // what drawing costs is the question
     if (!renderer)
         return fail(std::move(renderer.error()));
@@ -60,8 +61,8 @@ image::Image Specimen::picture(const View& view) {
 
 Result<Hits> Specimen::hits(const View& view) {
     if (!hit_renderer_) {
-        auto renderer =
-            render::Renderer::create(*hit_scene_, {extent_, image::SampleType::f32, "", precision_});
+        auto renderer = render::Renderer::create(
+            *hit_scene_, {extent_, image::SampleType::f32, "", precision_, glsl::Specialise::unreachable});
         if (!renderer)
             return fail(std::move(renderer.error()));
         hit_renderer_ = *std::move(renderer);

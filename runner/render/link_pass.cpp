@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace tidemark::render {
@@ -20,8 +21,9 @@ struct Refusal {
 
 class Linker {
 public:
-    Linker(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision)
-        : scene_(scene), pass_(pass), reading_(scene, pass), precision_(precision) {}
+    Linker(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision,
+           glsl::Specialise specialise)
+        : scene_(scene), pass_(pass), reading_(scene, pass), precision_(precision), specialise_(specialise) {}
 
     /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
     /// dialect fails, the driver's words tell which kinds are worth trying.
@@ -65,27 +67,46 @@ private:
                 unpromotable_ = std::move(assembly.error());
                 return std::nullopt;
             }
-            auto program = gl::link_or_recall(glsl::vertex_shader(dialect.version), assembly->source.text());
+            const char* const vertex = glsl::vertex_shader(dialect.version);
+            glsl::Specialised special = specialise(assembly->source);
+            if (special.left_out.anything()) {
+                auto program = gl::link_or_recall(vertex, special.source.text());
+                if (program)
+                    return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes),
+                                      std::move(special.left_out)};
+                special.left_out = {.kept_whole = "the driver does not take the shorter text"};
+            }
+            auto program = gl::link_or_recall(vertex, assembly->source.text());
             if (program)
-                return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes)};
+                return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes),
+                                  std::move(special.left_out)};
             if (!first_)
                 first_ = Refusal{std::move(assembly->source), std::move(program.error())};
         }
         return std::nullopt;
     }
 
+    /// Knobs and rounding are those of floats: a text of doubles loses what it cannot reach, and no more.
+    glsl::Specialised specialise(const glsl::ShaderSource& source) const {
+        const bool single = precision_ == glsl::Precision::single;
+        return glsl::specialise(source, scene_.knobs,
+                                single ? specialise_ : std::min(specialise_, glsl::Specialise::unreachable));
+    }
+
     const scene::Scene& scene_;
     const scene::Pass& pass_;
     glsl::PassReading reading_; ///< once for all attempts
     glsl::Precision precision_;
+    glsl::Specialise specialise_;
     std::optional<Refusal> first_;
     std::optional<Error> unpromotable_; ///< something in the text has no double form
 };
 
 } // namespace
 
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision) {
-    return Linker(scene, pass, precision).link();
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision,
+                             glsl::Specialise specialise) {
+    return Linker(scene, pass, precision, specialise).link();
 }
 
 } // namespace tidemark::render

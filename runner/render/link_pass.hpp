@@ -5,6 +5,7 @@
 #include "gl/program.hpp"
 #include "glsl/dialect.hpp"
 #include "glsl/promote.hpp"
+#include "glsl/specialise.hpp"
 #include "scene/scene.hpp"
 
 namespace tidemark::render {
@@ -15,10 +16,12 @@ struct LinkedPass {
     /// the text wants a cube or a volume there.
     glsl::Dialect dialect;
     std::vector<glsl::KeptHash> hashes{}; ///< in floats, in a program of doubles
+    glsl::LeftOut left_out{};
 };
 
-/// The error has the authors' own files and lines.
+/// The error has the authors' own files and lines. A specialised text that does not link is not used.
 Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass,
-                             glsl::Precision precision = glsl::Precision::single);
+                             glsl::Precision precision = glsl::Precision::single,
+                             glsl::Specialise specialise = glsl::Specialise::nothing);
 
 } // namespace tidemark::render

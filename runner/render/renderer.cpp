@@ -50,6 +50,7 @@ Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& optio
     renderer.extent_ = options.extent;
     renderer.precision_ = options.precision;
     renderer.extras_ = options.extras;
+    renderer.specialise_ = options.specialise;
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
@@ -105,7 +106,7 @@ Result<void> Renderer::compile() {
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto linked = link_pass(scene_, scene_.passes[i], precision_);
+        auto linked = link_pass(scene_, scene_.passes[i], precision_, specialise_);
         if (!linked)
             return fail(std::move(linked.error()));
         supply_other_kinds(scene_, i, linked->dialect.channels);
@@ -115,6 +116,7 @@ Result<void> Renderer::compile() {
         passes_[i].uniforms = UniformTable(program.reflection(), scene_.knobs, extras_.uniforms);
         passes_[i].program = std::move(program);
         passes_[i].hashes = std::move(linked->hashes);
+        passes_[i].left_out = std::move(linked->left_out);
     }
     plan_ = plan_frame(scene_, reflections, shown_, extras_);
     return {};
@@ -320,12 +322,13 @@ void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& int
 }
 
 FrameWork Renderer::work() const {
-    FrameWork work{0, 0, 0, textures_.bytes()};
+    FrameWork work{0, 0, 0, textures_.bytes(), 0};
     for (const PlannedPass& planned : plan_.passes) {
         work.draws += scene_.passes[planned.pass].kind == PassKind::cubemap ? 6 : 1;
         work.uniforms += passes_[planned.pass].uniforms.size();
         work.channels += passes_[planned.pass].channels.size();
         work.texture_bytes += targets_[planned.pass].bytes();
+        work.lines_removed += size_t(passes_[planned.pass].left_out.lines);
     }
     return work;
 }

@@ -6,6 +6,7 @@
 #include "gl/program.hpp"
 #include "glsl/dialect.hpp"
 #include "glsl/promote.hpp"
+#include "glsl/specialise.hpp"
 #include "image/image.hpp"
 #include "render/bound_channel.hpp"
 #include "render/channel_textures.hpp"
@@ -32,6 +33,8 @@ struct RenderOptions {
     /// Textures and targets hold what they always hold: in a promoted scene a pass reads floats and writes
     /// floats, and computes in doubles between.
     glsl::Precision precision = glsl::Precision::single;
+    /// Beyond `unreachable` its knobs cannot be turned.
+    glsl::Specialise specialise = glsl::Specialise::nothing;
     Extras extras{};
 };
 
@@ -41,6 +44,7 @@ struct FrameWork {
     size_t uniforms = 0; ///< handed over
     size_t channels = 0; ///< with a texture
     size_t texture_bytes = 0;
+    size_t lines_removed = 0; ///< of the texts that were compiled for it
 
     bool operator==(const FrameWork&) const = default;
 };
@@ -109,6 +113,8 @@ public:
     glsl::Precision precision() const { return precision_; }
     /// What a pass in the plan leaves in floats although the scene is promoted.
     const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const { return passes_[pass].hashes; }
+    /// Of the text of a pass in the plan.
+    const glsl::LeftOut& left_out(size_t pass) const { return passes_[pass].left_out; }
     /// What it was linked as.
     const glsl::Dialect& dialect(size_t pass) const { return passes_[pass].dialect; }
 
@@ -120,6 +126,7 @@ private:
         std::vector<BoundChannel> channels;
         std::vector<glsl::KeptHash> hashes;
         LastDrawing drawn;
+        glsl::LeftOut left_out;
     };
 
     Result<void> choose_pass(const std::string& name);
@@ -144,6 +151,7 @@ private:
     image::SampleType samples_ = image::SampleType::u8;
     glsl::Precision precision_ = glsl::Precision::single;
     Extras extras_;
+    glsl::Specialise specialise_ = glsl::Specialise::nothing;
     size_t shown_ = 0;
     gl::VertexArrayHandle no_vertices_;
     std::vector<CompiledPass> passes_; ///< one for each of the scene's

@@ -250,5 +250,43 @@ class Channels(Told):
         self.refused("--channel noise", "--channel noise: give it as 0=noise")
 
 
+
+class Specialised(ProgramTest):
+    """A long sequence is drawn by another program, in the same bytes."""
+    SCENE = ("#iUniform float foam = 0.0 in { 0.0, 1.0 }\n"
+             "void mainImage(out vec4 c, in vec2 p) {\n"
+             "    c = vec4(0.0);\n"
+             "    for (int i = 0; i < 9; ++i)\n"
+             "        c += fract(pow(abs(sin(iTime)), 1.7) * p.xyxy / float(i + 3));\n"
+             "    if (foam > 0.0)\n"
+             "        c += unused();\n"
+             "}\n")
+    SEQUENCE = ("--size", "16x9", "--frames", "0-39", "-o", "-")
+
+    def drawn(self, *options: str) -> bytes:
+        return self.succeed("capture", "a.glsl", *self.SEQUENCE, *options).stdout
+
+    def test_bytes(self):
+        self.write("a.glsl", "float unused() { return 1.0; }\n" + self.SCENE)
+        frames = self.drawn()
+        self.assertEqual(len(frames), 40 * 16 * 9 * 3)
+        self.assertEqual(frames, self.drawn("--plain"))
+        self.assertNotEqual(frames[:16 * 9 * 3], frames[-16 * 9 * 3:])
+
+    def test_plain_compiles_what_nobody_calls(self):
+        self.write("a.glsl", "float unused() { return 1.0; }\nfloat broken() { return undeclared; }\n" + self.SCENE)
+        self.drawn()
+        done = self.run_program("capture", "a.glsl", *self.SEQUENCE, "--plain")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("\na.glsl:2: error: ", done.stderr)
+
+    def test_errors(self):
+        self.write("a.glsl", GOOD)
+        for option, words in (("--plain --allow-difference 1", "--plain excludes --allow-difference"),
+                              ("--allow-difference some", "--allow-difference: give a number, not 'some'")):
+            with self.subTest(option=option):
+                self.expect_failure(["capture", "a.glsl", *option.split(" ")], 2, f"tidemark: error: {words}")
+
+
 if __name__ == "__main__":
     main()

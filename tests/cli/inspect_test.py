@@ -27,7 +27,9 @@ class Scene(ProgramTest):
         self.assertEqual(facts["scene"], "sea.glsl")
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(sorted(facts["uniforms"]), ["height", "iChannel1", "iTime"])
-        self.assertEqual(facts["passes"], [{"name": "Image", "channels": {"iChannel1": "noise"}}])
+        self.assertEqual(facts["passes"], [{
+            "name": "Image", "channels": {"iChannel1": "noise"},
+            "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0}}])
         self.assertEqual(facts["knobs"], [
             {"name": "height", "type": "float", "value": [1.25], "low": [0], "high": [2]},
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
@@ -41,7 +43,7 @@ class Scene(ProgramTest):
         self.assertEqual(lines[0], "sea.glsl")
         self.assertRegex(lines[1], r"\A  driver    .+, OpenGL 4\.")
         self.assertEqual(lines[3:], [
-            "  iChannel1 noise", "  knob      float height = 0.5 in { 0, 2 }",
+            "  iChannel1 noise", "  code removed: 1 lines", "  knob      float height = 0.5 in { 0, 2 }",
             "  knob      color3 tint = vec3(1, 0.5, 0)",
             "  left out  uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, "
             "iChannelTime, iChannelResolution, iCamera",
@@ -50,7 +52,10 @@ class Scene(ProgramTest):
     def test_a_scene_that_reads_no_noise_gets_none(self):
         self.write("plain.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         facts = json.loads(self.succeed("inspect", "plain.glsl", "--json").stdout)
-        self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{"name": "Image", "channels": {}}]))
+        self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{
+            "name": "Image", "channels": {},
+            "code_removed": {"lines": 0, "branches": 0, "out_of_loops": 0,
+                             "none_because": "there is nothing to leave out"}}]))
         self.assertEqual(facts["left_out"][-1], "noise texture")
 
     def test_without_a_driver(self):
@@ -67,6 +72,32 @@ class Scene(ProgramTest):
         self.assertEqual(self.succeed("inspect", "sea.glsl", "--device", "none").stdout.decode().splitlines(), [
             "sea.glsl", "  file      sea.glsl", "  file      lib.glsl", "  pass      Image", "  iChannel1 noise",
             "  knob      float height = 0.5 in { 0, 2 }", "  knob      color3 tint = vec3(1, 0.5, 0)"])
+    def test_code_that_cannot_be_followed_is_kept(self):
+        self.write("odd.glsl", "#ifdef GL_ARB_gpu_shader5\n#endif\nfloat unused;\n"
+                               "#if GL_ARB_gpu_shader5\nfloat doubtful;\n#endif\n"
+                               "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
+        self.assertIn("  code removed: none, because odd.glsl:5:1: error: cannot tell whether this line is compiled",
+                      self.succeed("inspect", "odd.glsl").stdout.decode().splitlines())
+
+    def test_the_text_of_a_long_sequence(self):
+        self.write("loop.glsl", "#iUniform float foam = 0.0 in { 0.0, 1.0 }\n"
+                                "float heavy() { return 1.0; }\n"
+                                "void mainImage(out vec4 c, in vec2 p) {\n"
+                                "    c = vec4(0.0);\n"
+                                "    for (int i = 0; i < 9; ++i)\n"
+                                "        c += sin(iTime) * float(i);\n"
+                                "    if (foam > 0.0)\n"
+                                "        c += heavy();\n"
+                                "}\n")
+        self.assertIn("  code removed: 3 lines; in a long sequence also 1 branches closed, 1 expressions taken out "
+                      "of loops", self.succeed("inspect", "loop.glsl").stdout.decode().splitlines())
+        plain = self.succeed("inspect", "loop.glsl", "--source").stdout.decode()
+        self.assertIn("float heavy()", plain)
+        text = self.succeed("inspect", "loop.glsl", "--source", "--specialised").stdout.decode()
+        self.assertNotIn("heavy", text)
+        self.assertEqual(text.count("sin"), 1)
+        self.assertEqual(text.count("\n"), plain.count("\n"))
+        self.expect_failure(["inspect", "loop.glsl", "--specialised"], 2, "tidemark: error: --specialised requires --source")
 
     def test_writes_no_file(self):
         before = self.files()
@@ -87,6 +118,12 @@ class With(ProgramTest):
         done = self.succeed("inspect", scene, "--with", ",".join(things), "--size", "16x9", "--budget", "0.1", "--json")
         report = json.loads(done.stdout)
         return {row["with"]: row for row in report["savings"]}, report["libraries"]
+
+    def test_code(self):
+        self.write("a.glsl", "float unused() { return 1.0; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 1); }\n")
+        rows, _ = self.savings("a.glsl", "code")
+        self.assertTrue(rows["code"]["left_out"])
+        self.assertTrue(rows["code"]["same_pixels"])
 
     def project(self):
         self.write("p/image.glsl", '#iChannel0 "buffer_b.glsl"\n'

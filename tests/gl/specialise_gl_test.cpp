@@ -1,0 +1,188 @@
+// Specialised programs draw the bytes of the plain ones, in our scenes with their features on and off, and in
+// each kind of pass.
+#include "cli/trial.hpp"
+#include "gl_test.hpp"
+#include "glsl/hit.hpp"
+#include "glsl/overrides.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tidemark::render {
+namespace {
+
+using glsl::Specialise;
+
+const fs::path k_shaders = fs::path(TIDEMARK_SOURCE_DIR) / "shaders";
+constexpr Extent k_extent{64, 36};
+
+class SpecialiseTest : public RenderTest {
+protected:
+    static Renderer made(const scene::Scene& scene, Specialise how) {
+        auto renderer = Renderer::create(
+            scene, {.extent = k_extent, .samples = image::SampleType::f32, .specialise = how});
+        if (!renderer) {
+            std::fprintf(stderr, "%s\n", to_string(renderer.error()).c_str());
+            std::abort();
+        }
+        return *std::move(renderer);
+    }
+    /// What every pass holds after frames 0 and 1.
+    static std::vector<image::Image> drawn(const scene::Scene& scene, Specialise how) {
+        Renderer renderer = made(scene, how);
+        std::vector<image::Image> images;
+        for (const int frame : {0, 1}) {
+            renderer.draw(inputs_of_frame(frame, 0.37));
+            for (const PlannedPass& planned : renderer.plan().passes)
+                images.push_back(renderer.read_floats(planned.pass));
+        }
+        return images;
+    }
+    static void expect_same_bytes(const scene::Scene& scene) {
+        const auto plain = drawn(scene, Specialise::nothing);
+        EXPECT_TRUE(drawn(scene, Specialise::unreachable) == plain);
+        EXPECT_TRUE(drawn(scene, Specialise::settled) == plain);
+    }
+    static glsl::LeftOut left_out(const scene::Scene& scene, Specialise how) {
+        const Renderer renderer = made(scene, how);
+        return renderer.left_out(renderer.shown_index());
+    }
+};
+
+struct Case {
+    const char* scene;
+    std::vector<const char*> defines;
+};
+
+TEST_F(SpecialiseTest, our_scenes_keep_their_bytes_with_features_on_and_off) {
+    const std::vector<Case> cases = {
+        {"water_surface", {}},    {"pseudo3d_water", {}},
+        {"procedural_ocean", {}}, {"procedural_ocean", {"FOAM=0", "FOG=0", "REFLECTION=0", "CLOUDS=0"}},
+        {"gerstner_waves", {}},   {"gerstner_waves", {"FOAM=0", "FOG=0", "REFLECTION=0", "CLOUDS=0"}},
+        {"stylized_waves", {}},   {"stylized_waves", {"FOAM=0", "SPECULAR=0", "CAUSTIC=0", "SHADOWS=0"}}};
+    for (const Case& each : cases) {
+        SCOPED_TRACE(each.scene);
+        auto scene = scene::load_scene(k_shaders / (std::string(each.scene) + ".glsl"));
+        ASSERT_TRUE(scene) << to_string(scene.error());
+        for (const char* define : each.defines)
+            ASSERT_TRUE(glsl::override_definition(*scene, define)) << define;
+        EXPECT_GT(left_out(*scene, Specialise::unreachable).lines, 5);
+        expect_same_bytes(*scene);
+    }
+}
+
+TEST_F(SpecialiseTest, branches_and_loops_keep_their_bytes) {
+    const scene::Scene scene = scene_of(R"(
+#iUniform float foam = 0.25 in { 0.0, 1.0 }
+#iUniform vec2 wind = vec2(1.0, -1.0) in { -2.0, 2.0 }
+float unused(vec2 p) { return texture(iChannel0, p).x; }
+mat2 turn(float a) { float s = sin(a), c = cos(a); return mat2(c, -s, s, c); }
+float map(vec3 p) {
+    float angle = 0.3 * iTime + wind.x;
+    p.xz *= turn(angle);
+    vec3 q = abs(p) - 0.8 - 0.2 * pow(abs(sin(iTime)), 1.7);
+    if (foam > 0.5) q += unused(p.xy);
+    else if (wind.y < 0.0) q.x += 0.1 * foam * sin(9.0 * p.y);
+    return length(max(q, 0.0)) - (foam > 0.0 ? 0.125 : 0.5) * exp(-fract(iTime * 0.7));
+}
+void mainImage(out vec4 colour, vec2 at) {
+    vec3 direction = normalize(vec3((2.0 * at - iResolution.xy) / iResolution.y, 2.0));
+    float t = 0.0;
+    for (int i = 0; i < 80 && t < 12.0; ++i) t += map(vec3(0.0, 0.0, -5.0) + t * direction);
+    colour = vec4(t, fwidth(t), direction.xy);
+}
+)");
+    const glsl::LeftOut left = left_out(scene, Specialise::settled);
+    EXPECT_EQ(left.branches, 3);
+    EXPECT_EQ(left.hoisted, 3);
+    EXPECT_GE(left.lines, 2);
+    EXPECT_FALSE(made(scene, Specialise::settled).program(0).reflection().has("iChannel0"));
+    expect_same_bytes(scene);
+}
+
+TEST_F(SpecialiseTest, buffers_cubes_and_hits_keep_their_bytes) {
+    fs::create_directories(path_of("waves"));
+    const std::string common =
+        "float turned(float x) { return sin(x + iTime); }\nfloat nobody() { return 1.0; }\n";
+    put("waves/common.glsl", common);
+    put("waves/buffer_a.glsl",
+        "#iChannel0 \"self\"\nvoid mainImage(out vec4 c, vec2 p) { c = vec4(0.0);\n"
+        "for (int i = 0; i < 3; ++i) c += turned(1.0) + texelFetch(iChannel0, ivec2(p), 0) * 0.5; }");
+    put("waves/cube_a.glsl",
+        "void mainCubemap(out vec4 c, vec2 p, vec3 o, vec3 d) { c = vec4(d, turned(d.x)); }");
+    put("waves/image.glsl",
+        "#iChannel0 \"buffer_a.glsl\"\n#iChannel1 \"cube_a.glsl\"\nvec3 idle(vec3 x) { return x; }\n"
+        "void mainImage(out vec4 c, vec2 p) {\n"
+        "c = texelFetch(iChannel0, ivec2(p), 0) + texture(iChannel1, vec3(p, 1.0)); }");
+    auto scene = scene::load_scene(path_of("waves"));
+    ASSERT_TRUE(scene) << to_string(scene.error());
+    expect_same_bytes(*scene);
+
+    const scene::Scene marched =
+        scene_of("#ifdef TIDEMARK_HIT\nfloat steps = 3.0;\n"
+                 "void mainHit(out vec4 hit, in vec2 p) { hit = vec4(p.x, steps, 0.0, 0.0); }\n"
+                 "#endif\nvoid mainImage(out vec4 c, vec2 p) { c = vec4(1.0); }");
+    const auto asked = glsl::hit_scene(marched);
+    ASSERT_TRUE(asked);
+    Renderer renderer = made(*asked, Specialise::unreachable);
+    EXPECT_EQ(renderer.left_out(0).lines, 1); // mainImage
+    EXPECT_EQ(floats_at(frame(renderer), 5, 0), (Floats4{5.5f, 3, 0, 0}));
+}
+
+TEST_F(SpecialiseTest, unreachable_code_that_does_not_compile_hurts_only_the_plain_program) {
+    const scene::Scene scene = scene_of("float broken() { return undeclared; }\n"
+                                        "void mainImage(out vec4 c, vec2 p) { c = vec4(0.5); }");
+    EXPECT_EQ(left_out(scene, Specialise::unreachable).lines, 1);
+    const auto plain = Renderer::create(scene, {.extent = k_extent});
+    ASSERT_FALSE(plain);
+    EXPECT_THAT(to_string(plain.error()), testing::HasSubstr("scene.glsl:1"));
+}
+
+TEST_F(SpecialiseTest, errors_are_those_of_the_plain_text) {
+    const scene::Scene scene = scene_of("float unused() { return 1.0; }\n\n"
+                                        "void mainImage(out vec4 c, vec2 p) {\n    c = undeclared; }");
+    const auto special = Renderer::create(scene, {.extent = k_extent, .specialise = Specialise::settled});
+    const auto plain = Renderer::create(scene, {.extent = k_extent});
+    ASSERT_FALSE(special);
+    ASSERT_FALSE(plain);
+    EXPECT_EQ(to_string(special.error()), to_string(plain.error()));
+    EXPECT_THAT(to_string(special.error()), testing::HasSubstr("scene.glsl:4"));
+}
+
+TEST_F(SpecialiseTest, what_the_driver_refuses_is_drawn_plain) {
+    // As a constant the knob is beyond the array, which a driver refuses; as a uniform it is clamped.
+    const scene::Scene scene = scene_of("#iUniform int place = 7\nfloat unused() { return 1.0; }\n"
+                                        "void mainImage(out vec4 c, vec2 p) {\n"
+                                        "    float a[2] = float[2](0.25, 0.75); c = vec4(a[place]); }");
+    const glsl::LeftOut left = left_out(scene, Specialise::constants);
+    EXPECT_FALSE(left.anything());
+    EXPECT_EQ(left.kept_whole, "the driver does not take the shorter text");
+    EXPECT_TRUE(drawn(scene, Specialise::constants) == drawn(scene, Specialise::nothing));
+}
+
+TEST_F(SpecialiseTest, a_trial_gives_the_plain_bytes_unless_a_difference_is_allowed) {
+    const scene::Scene scene =
+        scene_of("#iUniform float power = 4.0 in { 1.0, 9.0 }\n"
+                 "void mainImage(out vec4 c, vec2 p) {\n"
+                 "    for (int i = 0; i < 9; ++i) c += pow(fract(p.x * 0.37 + sin(iTime)), power); }");
+    const std::vector<FrameInputs> frames = {inputs_of_frame(0, 60), inputs_of_frame(100, 60)};
+    RenderOptions options{.extent = k_extent, .samples = image::SampleType::f32};
+    Renderer plain = made(scene, Specialise::nothing);
+    const image::Image expected = frame(plain, frames[1]);
+
+    options.specialise = Specialise::settled;
+    auto trial = cli::choose_program(scene, options, frames, std::nullopt);
+    ASSERT_TRUE(trial);
+    EXPECT_EQ(trial->said, "");
+    EXPECT_TRUE(frame(trial->renderer, frames[1]) == expected);
+
+    options.specialise = Specialise::constants; // the driver makes products of that power
+    ASSERT_FALSE(drawn(scene, Specialise::constants) == drawn(scene, Specialise::nothing));
+    trial = cli::choose_program(scene, options, frames, 1e-12);
+    ASSERT_TRUE(trial);
+    EXPECT_THAT(trial->said,
+                testing::StartsWith("not specialised: it would differ from the plain program by "));
+    EXPECT_TRUE(frame(trial->renderer, frames[1]) == expected);
+}
+
+} // namespace
+} // namespace tidemark::render
