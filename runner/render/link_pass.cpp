@@ -19,8 +19,8 @@ struct Refusal {
 
 class Linker {
 public:
-    Linker(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision)
-        : scene_(scene), pass_(pass), reading_(scene, pass), precision_(precision) {}
+    Linker(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision, bool tiled)
+        : scene_(scene), pass_(pass), reading_(scene, pass), precision_(precision), tiled_(tiled) {}
 
     /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
     /// dialect fails, the driver's words tell which kinds are worth trying.
@@ -58,7 +58,8 @@ private:
     }
 
     std::optional<LinkedPass> first_that_links(const std::vector<glsl::Dialect>& dialects) {
-        for (const glsl::Dialect& dialect : dialects) {
+        for (glsl::Dialect dialect : dialects) {
+            dialect.tiled = tiled_;
             auto assembly = reading_.assemble(dialect);
             if (!assembly) {
                 unpromotable_ = std::move(assembly.error());
@@ -77,14 +78,16 @@ private:
     const scene::Pass& pass_;
     glsl::PassReading reading_; ///< once for all attempts
     glsl::Precision precision_;
+    bool tiled_;
     std::optional<Refusal> first_;
     std::optional<Error> unpromotable_; ///< something in the text has no double form
 };
 
 } // namespace
 
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision) {
-    return Linker(scene, pass, precision).link();
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision,
+                             bool tiled) {
+    return Linker(scene, pass, precision, tiled).link();
 }
 
 } // namespace tidemark::render

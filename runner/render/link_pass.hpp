@@ -17,8 +17,8 @@ struct LinkedPass {
     std::vector<glsl::KeptHash> hashes{}; ///< in floats, in a program of doubles
 };
 
-/// The error has the authors' own files and lines.
+/// `tiled`: as glsl::Dialect has it. The error has the authors' own files and lines.
 Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass,
-                             glsl::Precision precision = glsl::Precision::single);
+                             glsl::Precision precision = glsl::Precision::single, bool tiled = false);
 
 } // namespace tidemark::render
