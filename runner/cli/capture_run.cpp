@@ -102,9 +102,10 @@ void Capture::prepare(Interrupt& interrupt) {
 /// Leaves `work` watched. False: interrupted.
 bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
-    record.inputs = inputs_at(frame);
+    record.frame = frame;
+    record.time = inputs_of(plan_.frames, frame).time;
     record.file = plan_.output.of_frame(frame).string();
-    return stepper_.draw(record.inputs.frame, [&](int step, int last) {
+    return stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
         if (step < last && !steps)
@@ -153,7 +154,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
         return !interrupt.requested();
     };
-    auto drawn = render::draw_bands(renderer_, record.inputs, before_tile,
+    auto drawn = render::draw_bands(renderer_, inputs_at(frame), before_tile,
                                     [&](image::Image band) { return bands_->take(std::move(band)); });
     if (drawn && *drawn) {
         progress.advance();
@@ -173,7 +174,7 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
         // Image's alpha is 1.
         const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
         auto made =
-            image::PictureStream::create(record.file, renderer_.extent(), alpha, format_of(record.inputs));
+            image::PictureStream::create(record.file, renderer_.extent(), alpha, format_of(record));
         if (!made)
             return fail(std::move(made.error()));
         stream.emplace(*std::move(made));
@@ -204,14 +205,14 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
         return video_->push(image).map([] { return true; });
     if (!writer_)
         return put_raw(image).map([] { return true; });
-    return writer_->push({record.inputs.frame, record.file, std::move(image), format_of(record.inputs)});
+    return writer_->push({record.frame, record.file, std::move(image), format_of(record)});
 }
 
-image::PictureFormat Capture::format_of(const render::FrameInputs& inputs) const {
+image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     return {plan_.depth,
             {{"Scene", renderer_.scene().file.string()},
-             {"Frame", fmt::format("{}", inputs.frame)},
-             {"iTime", fmt::format("{}", inputs.time)},
+             {"Frame", fmt::format("{}", record.frame)},
+             {"iTime", fmt::format("{}", record.time)},
              {"Precision", name_of(renderer_.precision())},
              {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)},
              {"Software", fmt::format("tidemark {}", k_version)}}};
@@ -234,8 +235,8 @@ nlohmann::ordered_json Capture::report() const {
     report["left_out"] = facts_of(renderer_).left_out;
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records_)
-        report["frames"].push_back({{"frame", record.inputs.frame},
-                                    {"iTime", record.inputs.time},
+        report["frames"].push_back({{"frame", record.frame},
+                                    {"iTime", record.time},
                                     {"file", record.file},
                                     {"sha256", record.sha256},
                                     {"milliseconds", record.milliseconds}});

@@ -34,7 +34,8 @@ struct CapturePlan {
 
 /// One frame as `--json` reports it.
 struct FrameRecord {
-    render::FrameInputs inputs;
+    int frame = 0;
+    double time = 0; ///< iTime
     std::string file;
     std::string sha256;
     double milliseconds = 0;
@@ -69,7 +70,7 @@ private:
     render::FrameInputs inputs_at(int frame);
     image::Image read_back() const;
     Result<bool> deliver(const FrameRecord& record, image::Image image);
-    image::PictureFormat format_of(const render::FrameInputs& inputs) const;
+    image::PictureFormat format_of(const FrameRecord& record) const;
     Result<void> open_output();
     Result<void> close_output();
     void rescue_output();

@@ -140,7 +140,8 @@ class Memory(BigPicture):
         running = subprocess.Popen([PROGRAM, "capture", *options], cwd=self.folder, env=environment(),
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(running.pid, 0)
-        self.assertEqual(status, 0)
+        running.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(running.returncode, 0)
         return usage.ru_maxrss
 
     def test_height_costs_none(self):
