@@ -135,7 +135,7 @@ TEST_F(TilesTest, a_pass_that_somebody_reads_is_drawn_whole) {
     what.pass = scene.passes.front().name;
     EXPECT_FALSE(make(scene, {9, 9}, Extent{4, 4}, what).tiles());
     const auto refused =
-        Renderer::create(scene, {{1 << 20, 2}, SampleType::u8, {}, {}, Extent{64, 2}});
+        Renderer::create(scene, {.extent = {1 << 20, 2}, .tile = Extent{64, 2}});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::usage);
     EXPECT_THAT(refused.error().message,
