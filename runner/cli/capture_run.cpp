@@ -45,7 +45,7 @@ render::FrameInputs Capture::inputs_at(int frame) {
 Result<bool> Capture::run(Interrupt& interrupt) {
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
-    ::mallopt(M_TRIM_THRESHOLD, k_kept_bytes);
+    ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
     if (auto opened = open_output(); !opened)
         return fail(std::move(opened.error()));
     prepare(interrupt);
