@@ -6,6 +6,7 @@
 #include "cli/number_check.hpp"
 #include "cli/options.hpp"
 #include "cli/trial.hpp"
+#include "gl/capabilities.hpp"
 #include "image/video_writer.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
@@ -37,6 +38,7 @@ struct CaptureOptions {
     double duration = 60;
     bool plain = false;
     std::optional<double> allowed_difference;
+    std::optional<int> tile;
     bool json = false;
 };
 
@@ -90,9 +92,14 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
         options.frames.fps > image::k_fastest_gif)
         return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
                                                   options.frames.fps, image::k_fastest_gif));
-    if (!output->standard_output() && !output->video())
+    if (!output->standard_output() && !output->video()) {
         if (auto known = image::check_picture_format(output->pattern(), *depth); !known)
             return fail(std::move(known.error()));
+        if (auto fits = image::PictureStream::check_extent(output->pattern(), frames->extent); !fits)
+            return fail(std::move(fits.error()));
+    }
+    if (options.tile && output->video())
+        return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
     return CapturePlan{*std::move(frames), *std::move(output), *depth, options.timeout, options.json};
@@ -110,27 +117,59 @@ std::vector<render::FrameInputs> frames_to_try(const scene::Scene& scene, const 
     return frames;
 }
 
+/// The size of the tiles; nothing where frames are drawn whole.
+Result<std::optional<Extent>> choose_tile(const CaptureOptions& options, const CapturePlan& plan,
+                                          SampleType samples) {
+    const Extent extent = plan.frames.extent;
+    const int limit = gl::query_capabilities().largest_target;
+    if (std::max(extent.width, extent.height) > render::k_largest_tiled_side)
+        return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
+                                                  extent.height, render::k_largest_tiled_side));
+    if (options.tile)
+        return render::tile_of_side(*options.tile, limit).map([](Extent tile) { return std::optional(tile); });
+    if (plan.output.video())
+        return std::nullopt;
+    return render::tile_for(extent, 4 * image::size_of(samples), limit);
+}
+
+/// Where it pays, the faster of two programs; in tiles too large a picture is drawn to draw it for a trial.
+Result<render::Renderer> choose_renderer(const scene::Scene& scene, const CaptureOptions& options,
+                                         const FrameRequest& frames, render::RenderOptions target) {
+    const bool long_enough = frames.frames.size() >= k_frames_worth_a_trial;
+    if (options.plain || target.tile || !(options.allowed_difference || long_enough))
+        return render::Renderer::create(scene, target);
+    target.specialise =
+        options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled;
+    auto trial = choose_program(scene, target, frames_to_try(scene, frames), options.allowed_difference);
+    if (!trial)
+        return fail(std::move(trial.error()));
+    if (!trial->said.empty())
+        say(trial->said);
+    return std::move(trial->renderer);
+}
+
 Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions& options,
                                  const CapturePlan& plan, Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     Watchdog watchdog;
     const Watchdog::Watch watch(watchdog, "compiling", std::nullopt);
     const SampleType samples = plan.depth == SampleDepth::u8 ? SampleType::u8 : SampleType::f32;
-    render::RenderOptions target{plan.frames.extent, samples, options.frames.pass,
-                                 precision_of(options.scene),
-                                 options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable};
-    const bool long_enough = plan.frames.frames.size() >= k_frames_worth_a_trial;
-    if (options.plain || !(options.allowed_difference || long_enough))
-        return render::Renderer::create(scene, target);
-    target.specialise =
-        options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled;
-    auto trial =
-        choose_program(scene, target, frames_to_try(scene, plan.frames), options.allowed_difference);
-    if (!trial)
-        return fail(std::move(trial.error()));
-    if (!trial->said.empty())
-        say(trial->said);
-    return std::move(trial->renderer);
+    const auto tile = choose_tile(options, plan, samples);
+    if (!tile)
+        return fail(tile.error());
+    auto renderer = choose_renderer(
+        scene, options, plan.frames,
+        {.extent = plan.frames.extent,
+         .samples = samples,
+         .pass = options.frames.pass,
+         .precision = precision_of(options.scene),
+         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
+         .tile = *tile});
+    if (renderer && options.tile && !renderer->tiles())
+        return fail(ErrorCode::usage,
+                    fmt::format("--tile: {} must be drawn whole: it is a cube, or a pass reads it",
+                                renderer->shown_pass().name));
+    return renderer;
 }
 
 void say_what_was_written(const std::vector<FrameRecord>& records, bool video) {
@@ -249,6 +288,11 @@ void add_capture(CLI::App& app, Action& chosen) {
         ->type_name("MAX")
         ->check(number<double>("a number"))
         ->excludes(plain);
+    command
+        ->add_option("--tile", options->tile,
+                     "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
+        ->type_name("N")
+        ->check(number<int>("a whole number"));
     command->add_flag("--json", options->json, "One JSON object about the frames on standard output");
     command->callback([options, &chosen] { chosen = [options] { return capture(*options); }; });
 }

@@ -1,12 +1,12 @@
 #include "cli/capture_run.hpp"
 
-#include "base/hash.hpp"
 #include "cli/console.hpp"
 #include "cli/omissions.hpp"
 #include "cli/precision_report.hpp"
 #include "cli/progress.hpp"
 #include "cli/version.hpp"
 #include "image/cubemap_file.hpp"
+#include "render/bands.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -18,25 +18,11 @@
 namespace tidemark::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Blocks of up to so many bytes are kept by the process: a frame of 4K in bytes.
 constexpr int k_kept_bytes = 32 << 20;
 
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// Rows from the top down, RGB, as video tools take raw frames.
-Result<void> put_raw(const image::Image& image) {
-    std::vector<std::byte> rgb(image.extent.pixels() * 3);
-    std::byte* to = rgb.data();
-    for (size_t row = size_t(image.extent.height); row-- > 0;) {
-        const std::byte* from = &image.bytes[row * image.row_bytes()];
-        for (int x = 0; x < image.extent.width; ++x, from += 4, to += 3)
-            std::copy_n(from, 3, to);
-    }
-    return put(rgb);
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 } // namespace
@@ -59,22 +45,22 @@ render::FrameInputs Capture::inputs_at(int frame) {
 Result<bool> Capture::run(Interrupt& interrupt) {
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
-    ::mallopt(M_TRIM_THRESHOLD, k_kept_bytes);
+    ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
     if (auto opened = open_output(); !opened)
         return fail(std::move(opened.error()));
     prepare(interrupt);
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
-        image::Image image;
         FrameRecord record;
-        if (draw(frame, interrupt, record, image) == Outcome::interrupted) {
+        const auto outcome = renderer_.tiles() ? make_in_tiles(frame, interrupt, record)
+                                               : make(frame, interrupt, record);
+        if (!outcome)
+            return fail(outcome.error());
+        if (*outcome == Outcome::interrupted) {
             video_.reset(); // whole or not at all
             return close_output().map([] { return false; });
         }
-        auto wanted = deliver(record, std::move(image));
-        if (!wanted)
-            return wanted;
-        if (!*wanted)
+        if (*outcome == Outcome::unwanted)
             break;
         records_.push_back(std::move(record));
         progress.advance();
@@ -91,7 +77,7 @@ Result<void> Capture::open_output() {
         if (!video)
             return fail(std::move(video.error()));
         video_.emplace(*std::move(video));
-    } else if (!plan_.output.standard_output()) {
+    } else if (!plan_.output.standard_output() && !renderer_.tiles()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
         writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
     }
@@ -113,33 +99,90 @@ void Capture::prepare(Interrupt& interrupt) {
     prepare_milliseconds_ = milliseconds_since(start);
 }
 
-Capture::Outcome Capture::draw(int frame, const Interrupt& interrupt, FrameRecord& record,
-                               image::Image& image) {
-    std::optional<Watchdog::Watch> watch;
+/// Leaves `work` watched. False: interrupted.
+bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
-    Clock::time_point start;
-    record.inputs = inputs_at(frame);
+    record.frame = frame;
+    record.time = inputs_of(plan_.frames, frame).time;
+    record.file = plan_.output.of_frame(frame).string();
     const size_t drawn_before = renderer_.passes_drawn();
-    const bool drawn = stepper_.draw(record.inputs.frame, [&](int step, int last) {
+    const bool drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
         if (step < last && !steps)
             steps.emplace("frames stepped", size_t(last - step));
         else if (steps)
             steps->advance();
-        watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout);
-        start = Clock::now();
+        work.start = Clock::now();
+        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout);
         return true;
     });
-    if (!drawn)
-        return Outcome::interrupted;
     record.passes_drawn = renderer_.passes_drawn() - drawn_before;
-    image = read_back();
-    record.milliseconds = milliseconds_since(start);
-    record.file = plan_.output.of_frame(frame).string();
-    if (plan_.hashes)
-        record.sha256 = sha256(image.bytes);
-    return Outcome::drawn;
+    return drawn;
+}
+
+Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
+    std::optional<Work> work(std::in_place);
+    if (!step_to(frame, interrupt, record, *work))
+        return Outcome::interrupted;
+    image::Image image = read_back();
+    record.milliseconds = milliseconds_since(work->start);
+    work.reset();
+    if (plan_.hashes) {
+        Sha256 hash;
+        add_rows(hash, image);
+        record.sha256 = hash.digits();
+    }
+    return deliver(record, std::move(image)).map([](bool wanted) {
+        return wanted ? Outcome::made : Outcome::unwanted;
+    });
+}
+
+/// The limit is on the frame; what is told to go on for long is a tile.
+Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record) {
+    Work work;
+    if (!step_to(frame, interrupt, record, work))
+        return Outcome::interrupted;
+    work.watch.reset();
+    auto output = open_bands(record);
+    if (!output)
+        return fail(std::move(output.error()));
+    const auto end_watch = [&] { work.watch.reset(), bands_ = nullptr; };
+    bands_ = output->get();
+    Progress progress("tiles", renderer_.tiles()->count());
+    const auto before_tile = [&] {
+        if (work.watch)
+            progress.advance();
+        work.watch.reset();
+        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
+        return !interrupt.requested();
+    };
+    auto drawn = render::draw_bands(renderer_, inputs_at(frame), before_tile,
+                                    [&](image::Image band) { return bands_->take(std::move(band)); });
+    if (drawn && *drawn) {
+        progress.advance();
+        drawn = bands_->finish().map([] { return true; });
+    }
+    end_watch();
+    if (!drawn)
+        return fail(std::move(drawn.error()));
+    record.milliseconds = milliseconds_since(work.start);
+    record.sha256 = (*output)->sha256();
+    return *drawn ? Outcome::made : Outcome::interrupted;
+}
+
+Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& record) const {
+    std::optional<image::PictureStream> stream;
+    if (!plan_.output.standard_output()) {
+        // Image's alpha is 1.
+        const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
+        auto made =
+            image::PictureStream::create(record.file, renderer_.extent(), alpha, format_of(record));
+        if (!made)
+            return fail(std::move(made.error()));
+        stream.emplace(*std::move(made));
+    }
+    return std::make_unique<BandOutput>(std::move(stream), plan_.hashes);
 }
 
 /// A cube is saved as the panorama that ShaderToy exports.
@@ -153,6 +196,8 @@ image::Image Capture::read_back() const {
 /// half a video is not.
 void Capture::rescue_output() {
     video_.reset();
+    if (bands_)
+        bands_->abandon();
     if (writer_)
         (void)writer_->finish();
 }
@@ -163,14 +208,14 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
         return video_->push(image).map([] { return true; });
     if (!writer_)
         return put_raw(image).map([] { return true; });
-    return writer_->push({record.inputs.frame, record.file, std::move(image), format_of(record.inputs)});
+    return writer_->push({record.frame, record.file, std::move(image), format_of(record)});
 }
 
-image::PictureFormat Capture::format_of(const render::FrameInputs& inputs) const {
+image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     return {plan_.depth,
             {{"Scene", renderer_.scene().file.string()},
-             {"Frame", fmt::format("{}", inputs.frame)},
-             {"iTime", fmt::format("{}", inputs.time)},
+             {"Frame", fmt::format("{}", record.frame)},
+             {"iTime", fmt::format("{}", record.time)},
              {"Precision", name_of(renderer_.precision())},
              {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)},
              {"Software", fmt::format("tidemark {}", k_version)}}};
@@ -181,6 +226,10 @@ nlohmann::ordered_json Capture::report() const {
     report["tidemark"] = k_version;
     report["scene"] = renderer_.scene().file.string();
     report["size"] = {renderer_.extent().width, renderer_.extent().height};
+    if (const auto tiles = renderer_.tiles()) {
+        const Extent size = tiles->tile();
+        report["tiles"] = {{"size", {size.width, size.height}}, {"count", tiles->count()}};
+    }
     report["driver"] = driver_.version;
     report["renderer"] = driver_.renderer;
     report["pass"] = renderer_.shown_pass().name;
@@ -189,8 +238,8 @@ nlohmann::ordered_json Capture::report() const {
     report["left_out"] = facts_of(renderer_).left_out;
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records_)
-        report["frames"].push_back({{"frame", record.inputs.frame},
-                                    {"iTime", record.inputs.time},
+        report["frames"].push_back({{"frame", record.frame},
+                                    {"iTime", record.time},
                                     {"file", record.file},
                                     {"sha256", record.sha256},
                                     {"passes_drawn", record.passes_drawn},

@@ -1,6 +1,7 @@
 // The work of `tidemark capture`: draws the frames of a plan and hands them to the encoders.
 #pragma once
 
+#include "cli/band_output.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_name.hpp"
@@ -13,6 +14,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -32,7 +34,8 @@ struct CapturePlan {
 
 /// One frame as `--json` reports it.
 struct FrameRecord {
-    render::FrameInputs inputs;
+    int frame = 0;
+    double time = 0; ///< iTime
     std::string file;
     std::string sha256;
     double milliseconds = 0;
@@ -52,14 +55,23 @@ public:
     nlohmann::ordered_json report() const;
 
 private:
-    enum class Outcome { drawn, interrupted };
+    using Clock = std::chrono::steady_clock;
+    enum class Outcome { made, interrupted, unwanted };
+    /// On one frame.
+    struct Work {
+        Clock::time_point start = Clock::now();
+        std::optional<Watchdog::Watch> watch;
+    };
 
     void prepare(Interrupt& interrupt);
-    Outcome draw(int frame, const Interrupt& interrupt, FrameRecord& record, image::Image& image);
+    bool step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
+    Result<Outcome> make(int frame, const Interrupt& interrupt, FrameRecord& record);
+    Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record);
+    Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
     render::FrameInputs inputs_at(int frame);
     image::Image read_back() const;
     Result<bool> deliver(const FrameRecord& record, image::Image image);
-    image::PictureFormat format_of(const render::FrameInputs& inputs) const;
+    image::PictureFormat format_of(const FrameRecord& record) const;
     Result<void> open_output();
     Result<void> close_output();
     void rescue_output();
@@ -73,6 +85,7 @@ private:
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_;     ///< of pictures
     std::optional<image::VideoWriter> video_; ///< neither: frames go to standard output
+    BandOutput* bands_ = nullptr;             ///< of the frame in hand, while it is watched
     Watchdog watchdog_;                       ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;
 };

@@ -21,7 +21,9 @@ bool in_doubt(const Renderer& renderer) {
     });
 }
 
+/// From nothing drawn, or a frame that it has just drawn would be free.
 double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs) {
+    renderer.reset();
     glFinish();
     const auto start = std::chrono::steady_clock::now();
     renderer.draw(inputs);

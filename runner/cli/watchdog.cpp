@@ -33,11 +33,12 @@ Watchdog::~Watchdog() {
     thread_.join();
 }
 
-Watchdog::Watch::Watch(Watchdog& dog, std::string what, std::optional<double> limit_seconds) : dog_(dog) {
-    const auto now = Clock::now();
-    Work work{std::move(what), now, std::nullopt, now + k_first_word};
+Watchdog::Watch::Watch(Watchdog& dog, std::string what, std::optional<double> limit_seconds,
+                       Clock::time_point start)
+    : dog_(dog) {
+    Work work{std::move(what), start, std::nullopt, Clock::now() + k_first_word};
     if (limit_seconds)
-        work.deadline = now + from_seconds(*limit_seconds);
+        work.deadline = start + from_seconds(*limit_seconds);
     const std::lock_guard lock(dog_.mutex_);
     dog_.work_ = std::move(work);
     dog_.changed_.notify_all();

@@ -22,10 +22,14 @@ public:
     Watchdog(const Watchdog&) = delete;
     Watchdog& operator=(const Watchdog&) = delete;
 
-    /// Watches until it is destroyed. `what` completes "still …" and "gave up on …".
+    using Clock = std::chrono::steady_clock;
+
+    /// Watches until it is destroyed. `what` completes "still …" and "gave up on …". The limit counts from
+    /// `start`.
     class Watch {
     public:
-        Watch(Watchdog& dog, std::string what, std::optional<double> limit_seconds);
+        Watch(Watchdog& dog, std::string what, std::optional<double> limit_seconds,
+              Clock::time_point start = Clock::now());
         ~Watch();
         Watch(const Watch&) = delete;
         Watch& operator=(const Watch&) = delete;
@@ -35,7 +39,6 @@ public:
     };
 
 private:
-    using Clock = std::chrono::steady_clock;
     struct Work {
         std::string what;
         Clock::time_point start;

@@ -42,10 +42,17 @@ void copy_overlap(const RenderTarget& from, const RenderTarget& to) {
 }
 
 void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::span<std::byte> pixels) {
+    assert(pixels.size() >= target.extent().pixels());
+    read_corner(target, target.extent(), format, type, target.extent().width, pixels.data());
+}
+
+void read_corner(const RenderTarget& target, Extent size, GLenum format, GLenum type, int row_length,
+                 std::byte* pixels) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer.id());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    assert(pixels.size() >= target.extent().pixels());
-    glReadPixels(0, 0, target.extent().width, target.extent().height, format, type, pixels.data());
+    glPixelStorei(GL_PACK_ROW_LENGTH, row_length);
+    glReadPixels(0, 0, size.width, size.height, format, type, pixels);
+    glPixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
 void clear_window() {

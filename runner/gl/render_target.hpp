@@ -32,6 +32,11 @@ void copy_overlap(const RenderTarget& from, const RenderTarget& to);
 /// hold the whole target (the selected face of a cube).
 void read_pixels(const RenderTarget& target, GLenum format, GLenum type, std::span<std::byte> pixels);
 
+/// As read_pixels, of the rectangle of that size in the target's bottom left corner, into rows that lie
+/// `row_length` pixels apart.
+void read_corner(const RenderTarget& target, Extent size, GLenum format, GLenum type, int row_length,
+                 std::byte* pixels);
+
 /// Makes the window's own framebuffer black.
 void clear_window();
 

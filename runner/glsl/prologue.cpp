@@ -27,6 +27,16 @@ precision highp samplerCube;
 precision highp sampler3D;
 )";
 
+/// Halves below 2^23 and whole numbers add without rounding; `precise` keeps a compiler from mixing this sum
+/// with the author's own.
+constexpr const char* k_tile = R"(uniform vec2 tidemark_tile;
+vec4 tidemark_frag_coord() {{
+    {}vec4 at = gl_FragCoord + vec4(tidemark_tile, 0.0, 0.0);
+    return at;
+}}
+#define gl_FragCoord tidemark_frag_coord()
+)";
+
 constexpr std::string_view k_assertions = R"(int tidemark_failed = -1;
 void st_assert(bool holds, int kind) {
     if (!holds)
@@ -148,6 +158,8 @@ std::string version_lines(const Dialect& dialect, std::span<const std::string> e
         text += line;
     if (dialect.version == Version::es_300)
         text += k_es_precision;
+    if (dialect.tiled) // in floats, whatever the precision
+        text += fmt::format(k_tile, dialect.version == Version::es_300 ? "" : "precise ");
     return text;
 }
 

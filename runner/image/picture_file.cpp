@@ -7,13 +7,19 @@
 #include "image/plugin/picture_codec.hpp"
 #include "image/png_codec.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
+#include <cstdio>
 #include <optional>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace tidemark::image {
 namespace fs = std::filesystem;
@@ -27,13 +33,14 @@ struct WrittenFormat {
     FileFormat format;
     bool has_alpha;
     std::vector<SampleDepth> depths; ///< the natural one first
+    int longest_side = 1'000'000; ///< libpng's own limit, and sense
 };
 
 const std::vector<WrittenFormat>& written_formats() {
     using enum SampleDepth;
     static const std::vector<WrittenFormat> formats = {
-        {".png", FileFormat::png, true, {u8, u16}},        {".jpg", FileFormat::jpeg, false, {u8}},
-        {".jpeg", FileFormat::jpeg, false, {u8}},          {".tif", FileFormat::tiff, true, {u8, u16, f32}},
+        {".png", FileFormat::png, true, {u8, u16}},        {".jpg", FileFormat::jpeg, false, {u8}, 65500},
+        {".jpeg", FileFormat::jpeg, false, {u8}, 65500},   {".tif", FileFormat::tiff, true, {u8, u16, f32}},
         {".tiff", FileFormat::tiff, true, {u8, u16, f32}}, {".exr", FileFormat::exr, true, {half, f32}},
         {".hdr", FileFormat::hdr, false, {f32}},
     };
@@ -99,18 +106,24 @@ std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, c
     return {{"ImageDescription", lines}};
 }
 
-EncodeJob encode_job(const WrittenFormat& written, const Image& image, const PictureFormat& wanted) {
-    EncodeJob job{written.format, wanted.depth, image.extent, 0, {}, attributes(written.format, wanted)};
-    const auto take = [&](const Image& stored) {
-        job.channels = stored.channels;
-        job.samples = file_samples(stored, wanted.depth);
-    };
+EncodeJob job_without_samples(const WrittenFormat& written, Extent extent, int channels,
+                              const PictureFormat& wanted) {
+    return {written.format, wanted.depth, extent, channels, {}, attributes(written.format, wanted)};
+}
+
+/// The samples of a picture, or of a band of one, as its file holds them; their channels.
+std::pair<std::vector<std::byte>, int> stored(const WrittenFormat& written, const Image& image, bool alpha,
+                                              SampleDepth depth) {
+    const auto take = [&](const Image& kept) { return std::pair(file_samples(kept, depth), kept.channels); };
     if (written.format == FileFormat::hdr)
-        take(radiance_samples(image));
-    else if (image.has_alpha() && (!written.has_alpha || has_opaque_alpha(image)))
-        take(without_alpha(image));
-    else
-        take(image);
+        return take(radiance_samples(image));
+    return image.has_alpha() && !(alpha && written.has_alpha) ? take(without_alpha(image)) : take(image);
+}
+
+EncodeJob encode_job(const WrittenFormat& written, const Image& image, const PictureFormat& wanted) {
+    auto [samples, channels] = stored(written, image, !has_opaque_alpha(image), wanted.depth);
+    EncodeJob job = job_without_samples(written, image.extent, channels, wanted);
+    job.samples = std::move(samples);
     return job;
 }
 
@@ -141,6 +154,12 @@ Result<EncodeResult> encode(const EncodeJob& job) {
     if (job.format == FileFormat::png)
         return encode_png(job);
     return picture_codec().map([&](const PictureCodec* codec) { return codec->encode(job); });
+}
+
+Result<RowEncoderResult> encode_rows(const EncodeJob& job, std::FILE* file) {
+    if (job.format == FileFormat::png)
+        return encode_png_rows(job, file);
+    return picture_codec().map([&](const PictureCodec* codec) { return codec->encode_rows(job, file); });
 }
 
 } // namespace
@@ -210,6 +229,119 @@ Result<void> write_picture(const fs::path& path, const Image& image, const Pictu
     if (!*file)
         return cannot_write(path, file->error());
     return write_file(path, std::as_bytes(std::span(**file)));
+}
+
+/// A stream for encoders, which learn nothing of a disk that is full: libjpeg would end the process, and others
+/// do not say why.
+class PictureStream::File {
+public:
+    explicit File(const fs::path& path)
+        : descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        if (descriptor_ < 0)
+            error_ = errno;
+        else
+            stream_ = ::fopencookie(this, "wb", {nullptr, write, seek, close});
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File() { finish(); }
+
+    std::FILE* stream() const { return stream_; }
+    /// errno of the first thing that failed; 0: nothing.
+    int error() const { return error_; }
+    void finish() {
+        if (std::FILE* stream = std::exchange(stream_, nullptr))
+            std::fclose(stream);
+    }
+
+private:
+    void keep_error() {
+        if (error_ == 0)
+            error_ = errno;
+    }
+    static ssize_t write(void* file, const char* bytes, size_t size) {
+        auto& self = *static_cast<File*>(file);
+        for (size_t done = 0; done < size && self.error_ == 0;) {
+            const ssize_t written = ::write(self.descriptor_, bytes + done, size - done);
+            if (written >= 0)
+                done += size_t(written);
+            else if (errno != EINTR)
+                self.keep_error();
+        }
+        return ssize_t(size);
+    }
+    static int seek(void* file, off64_t* offset, int from) {
+        *offset = ::lseek64(static_cast<File*>(file)->descriptor_, *offset, from);
+        return *offset < 0 ? -1 : 0;
+    }
+    static int close(void* file) {
+        auto& self = *static_cast<File*>(file);
+        if (::close(self.descriptor_) != 0)
+            self.keep_error();
+        return 0;
+    }
+
+    int descriptor_;
+    int error_ = 0;
+    std::FILE* stream_ = nullptr;
+};
+
+PictureStream::PictureStream(const fs::path& path, bool alpha, PictureFormat format)
+    : path_(path), alpha_(alpha), format_(std::move(format)), staged_(path),
+      file_(std::make_unique<File>(staged_.path())) {}
+
+PictureStream::PictureStream(PictureStream&&) noexcept = default;
+PictureStream::~PictureStream() = default;
+
+/// The system's objection goes before the encoder's (empty: none).
+Result<void> PictureStream::checked(const std::string& objection) const {
+    if (const int error = file_->error())
+        return cannot_write(path_, std::generic_category().message(error));
+    return objection.empty() ? Result<void>() : cannot_write(path_, objection);
+}
+
+Result<void> PictureStream::check_extent(const fs::path& path, Extent extent) {
+    const int longest = written_format(path)->longest_side;
+    if (std::max(extent.width, extent.height) <= longest)
+        return {};
+    return fail(ErrorCode::usage, fmt::format("--size {}x{}: a {} has at most {} pixels on a side", extent.width,
+                                              extent.height, lower_extension(path), longest));
+}
+
+Result<PictureStream> PictureStream::create(const fs::path& path, Extent extent, bool alpha,
+                                            PictureFormat format) {
+    if (Result<void> checked = check_picture_format(path, format.depth); !checked)
+        return fail(std::move(checked.error()));
+    if (Result<void> checked = check_extent(path, extent); !checked)
+        return fail(std::move(checked.error()));
+    PictureStream stream(path, alpha, std::move(format));
+    if (auto opened = stream.checked({}); !opened)
+        return fail(std::move(opened.error()));
+    const WrittenFormat& written = *written_format(path);
+    const bool keeps_alpha = alpha && written.has_alpha;
+    auto encoder = encode_rows(job_without_samples(written, extent, keeps_alpha ? 4 : 3, stream.format_),
+                               stream.file_->stream());
+    if (!encoder)
+        return fail(ErrorCode::write, encoder.error().message);
+    if (!*encoder)
+        return cannot_write(path, encoder->error());
+    stream.encoder_ = **std::move(encoder);
+    return stream;
+}
+
+Result<void> PictureStream::add(const Image& band) {
+    const auto [samples, channels] = stored(*written_format(path_), band, alpha_, format_.depth);
+    const auto added = encoder_->add(samples, band.extent.height);
+    return checked(added ? std::string() : added.error());
+}
+
+Result<void> PictureStream::finish() {
+    const auto finished = encoder_->finish();
+    encoder_.reset();
+    file_->finish();
+    if (auto written = checked(finished ? std::string() : finished.error()); !written)
+        return written;
+    return staged_.commit();
 }
 
 } // namespace tidemark::image

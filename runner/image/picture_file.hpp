@@ -5,10 +5,12 @@
 // from the top, an Image from the bottom. Every function may be called from any thread.
 #pragma once
 
+#include "base/file.hpp"
 #include "base/result.hpp"
 #include "image/image.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -19,7 +21,7 @@ namespace tidemark::image {
 /// What one sample is in the file.
 enum class SampleDepth { u8, u16, half, f32 };
 
-/// The largest picture that is read or written: pixels on a side, and bytes in memory.
+/// The largest picture that is read, or written from memory: pixels on a side, and bytes in memory.
 inline constexpr int k_largest_side = 16384;
 inline constexpr size_t k_largest_picture = size_t{1} << 30;
 
@@ -61,5 +63,42 @@ Result<Image> read_picture(const std::filesystem::path& path);
 /// The same picture gives the same bytes.
 Result<void> write_picture(const std::filesystem::path& path, const Image& image,
                            const PictureFormat& format = {});
+
+class RowEncoder;
+
+/// A picture on its way into a file, band by band from the top: only the band in hand is in memory. The file
+/// appears with `finish`, whole; without it, nothing is left behind. The same bytes as `write_picture` writes
+/// of the whole.
+class PictureStream {
+public:
+    /// A side may be as long as the format allows (ErrorCode::usage otherwise): JPEG 65,500, the others a
+    /// million. `alpha`: the file keeps the bands' alpha, where the format has one.
+    static Result<PictureStream> create(const std::filesystem::path& path, Extent extent, bool alpha,
+                                        PictureFormat format);
+    /// As `create` checks them.
+    static Result<void> check_extent(const std::filesystem::path& path, Extent extent);
+    PictureStream(PictureStream&&) noexcept;
+    ~PictureStream();
+
+    /// As wide as the picture, of four channels, at most as high as what is left of it.
+    Result<void> add(const Image& band);
+    Result<void> finish();
+
+    /// Where the bytes are until then; whoever ends the process removes it.
+    const std::filesystem::path& temporary() const { return staged_.path(); }
+
+private:
+    class File;
+
+    Result<void> checked(const std::string& objection) const;
+    PictureStream(const std::filesystem::path& path, bool alpha, PictureFormat format);
+
+    std::filesystem::path path_;
+    bool alpha_;
+    PictureFormat format_;
+    StagedFile staged_;
+    std::unique_ptr<File> file_;
+    std::unique_ptr<RowEncoder> encoder_;
+};
 
 } // namespace tidemark::image

@@ -9,6 +9,8 @@ namespace tidemark::image {
 
 /// The job's format must be png, its depth u8 or u16.
 EncodeResult encode_png(const EncodeJob& job);
+/// As PictureCodec::encode_rows.
+RowEncoderResult encode_png_rows(const EncodeJob& job, std::FILE* file);
 
 /// Of a file that `checked_file` has let through. Palettes and small depths are expanded, a transparent
 /// colour becomes alpha; no gamma and no colour space is applied. 16 bits give f32 samples, v / 65535.

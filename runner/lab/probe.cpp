@@ -25,6 +25,8 @@ std::span<const Probe> all_probes() {
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
         {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
          ask_repeats},
+        {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
+         ask_tiles},
         {"camera", "turns of the picture under a one-pixel step of the mouse", ask_camera},
         {"jumps",
          "cuts: an instant that is less like the next than before and after, at every number in the text",

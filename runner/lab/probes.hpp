@@ -17,6 +17,9 @@ Result<Answer> ask_horizon(ProbeBench& bench);
 Result<Answer> ask_jumps(ProbeBench& bench);
 Result<Answer> ask_hashes(ProbeBench& bench);
 
+// probes_tiles.cpp
+Result<Answer> ask_tiles(ProbeBench& bench);
+
 // probes_motion.cpp
 Result<Answer> ask_repeats(ProbeBench& bench);
 Result<Answer> ask_camera(ProbeBench& bench);

@@ -21,14 +21,13 @@ struct Refusal {
 
 class Linker {
 public:
-    Linker(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision,
-           glsl::Specialise specialise)
-        : scene_(scene), pass_(pass), reading_(scene, pass), precision_(precision), specialise_(specialise) {}
+    Linker(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options)
+        : scene_(scene), pass_(pass), reading_(scene, pass), options_(options) {}
 
     /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
     /// dialect fails, the driver's words tell which kinds are worth trying.
     Result<LinkedPass> link() {
-        const std::vector<glsl::Dialect> dialects = reading_.dialects(precision_);
+        const std::vector<glsl::Dialect> dialects = reading_.dialects(options_.precision);
         if (auto linked = first_that_links(dialects))
             return *std::move(linked);
         if (unpromotable_)
@@ -46,7 +45,7 @@ public:
 private:
     /// The likeliest dialect's messages are the ones that mean something to the author.
     Error error() const {
-        const bool promoted = precision_ != glsl::Precision::single;
+        const bool promoted = options_.precision != glsl::Precision::single;
         Error error{ErrorCode::load,
                     fmt::format("'{}' does not compile{}", scene_.file.string(),
                                 promoted ? " in double precision" : ""),
@@ -61,22 +60,21 @@ private:
     }
 
     std::optional<LinkedPass> first_that_links(const std::vector<glsl::Dialect>& dialects) {
-        for (const glsl::Dialect& dialect : dialects) {
+        for (glsl::Dialect dialect : dialects) {
+            dialect.tiled = options_.tiled;
             auto assembly = reading_.assemble(dialect);
             if (!assembly) {
                 unpromotable_ = std::move(assembly.error());
                 return std::nullopt;
             }
-            const char* const vertex = glsl::vertex_shader(dialect.version);
             glsl::Specialised special = specialise(assembly->source);
             if (special.left_out.anything()) {
-                auto program = gl::link_or_recall(vertex, special.source.text());
-                if (program)
+                if (auto program = link(dialect, special.source))
                     return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes),
                                       std::move(special.left_out)};
                 special.left_out = {.kept_whole = "the driver does not take the shorter text"};
             }
-            auto program = gl::link_or_recall(vertex, assembly->source.text());
+            auto program = link(dialect, assembly->source);
             if (program)
                 return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes),
                                   std::move(special.left_out)};
@@ -86,27 +84,31 @@ private:
         return std::nullopt;
     }
 
+    static tl::expected<gl::Program, std::string> link(const glsl::Dialect& dialect,
+                                                       const glsl::ShaderSource& source) {
+        return gl::link_or_recall(glsl::vertex_shader(dialect.version), source.text());
+    }
+
     /// Knobs and rounding are those of floats: a text of doubles loses what it cannot reach, and no more.
     glsl::Specialised specialise(const glsl::ShaderSource& source) const {
-        const bool single = precision_ == glsl::Precision::single;
+        const bool single = options_.precision == glsl::Precision::single;
         return glsl::specialise(source, scene_.knobs,
-                                single ? specialise_ : std::min(specialise_, glsl::Specialise::unreachable));
+                                single ? options_.specialise
+                                       : std::min(options_.specialise, glsl::Specialise::unreachable));
     }
 
     const scene::Scene& scene_;
     const scene::Pass& pass_;
     glsl::PassReading reading_; ///< once for all attempts
-    glsl::Precision precision_;
-    glsl::Specialise specialise_;
+    LinkOptions options_;
     std::optional<Refusal> first_;
     std::optional<Error> unpromotable_; ///< something in the text has no double form
 };
 
 } // namespace
 
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, glsl::Precision precision,
-                             glsl::Specialise specialise) {
-    return Linker(scene, pass, precision, specialise).link();
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options) {
+    return Linker(scene, pass, options).link();
 }
 
 } // namespace tidemark::render

@@ -19,9 +19,14 @@ struct LinkedPass {
     glsl::LeftOut left_out{};
 };
 
+/// How a pass is compiled.
+struct LinkOptions {
+    glsl::Precision precision = glsl::Precision::single;
+    glsl::Specialise specialise = glsl::Specialise::nothing;
+    bool tiled = false; ///< as glsl::Dialect has it
+};
+
 /// The error has the authors' own files and lines. A specialised text that does not link is not used.
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass,
-                             glsl::Precision precision = glsl::Precision::single,
-                             glsl::Specialise specialise = glsl::Specialise::nothing);
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options);
 
 } // namespace tidemark::render

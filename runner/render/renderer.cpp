@@ -35,6 +35,10 @@ void supply_other_kinds(scene::Scene& scene, size_t pass, const glsl::ChannelKin
     }
 }
 
+GLenum type_of(SampleType samples) {
+    return samples == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
+}
+
 /// Which face of a cube a program draws.
 void set_face(const gl::Program& program, int face) {
     if (const gl::Uniform* corners = program.reflection().find("tidemark_corners"))
@@ -51,6 +55,7 @@ Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& optio
     renderer.precision_ = options.precision;
     renderer.extras_ = options.extras;
     renderer.specialise_ = options.specialise;
+    renderer.tile_ = options.tile;
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
@@ -99,14 +104,31 @@ std::vector<bool> Renderer::reachable() const {
     return found;
 }
 
+/// Its picture is for the eye alone, and the last one that a frame makes.
+bool Renderer::can_be_tiled() const {
+    const std::vector<bool> drawn = reachable();
+    for (size_t i = 0; i < drawn.size(); ++i) {
+        const auto reads_shown = [&](const scene::Channel& channel) {
+            const auto* output = std::get_if<scene::PassOutput>(&channel.input);
+            return output && output->pass == shown_;
+        };
+        if (drawn[i] && (i > shown_ || std::ranges::any_of(scene_.passes[i].channels, reads_shown)))
+            return false;
+    }
+    return scene_.passes[shown_].kind != PassKind::cubemap;
+}
+
 Result<void> Renderer::compile() {
+    if (!can_be_tiled())
+        tile_.reset();
     passes_.resize(scene_.passes.size());
     std::vector<std::optional<gl::Reflection>> reflections(scene_.passes.size());
     const std::vector<bool> wanted = reachable();
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto linked = link_pass(scene_, scene_.passes[i], precision_, specialise_);
+        auto linked =
+            link_pass(scene_, scene_.passes[i], {precision_, specialise_, tile_ && i == shown_});
         if (!linked)
             return fail(std::move(linked.error()));
         supply_other_kinds(scene_, i, linked->dialect.channels);
@@ -129,15 +151,20 @@ GLenum Renderer::format_of(size_t pass) const {
 Result<PassTarget> Renderer::make_target(size_t pass) const {
     if (scene_.passes[pass].kind == PassKind::cubemap)
         return PassTarget::create_cube(plan_.targets[pass]);
-    return PassTarget::create(extent_, format_of(pass), plan_.targets[pass]);
+    return PassTarget::create(tile_ && pass == shown_ ? *tile_ : extent_, format_of(pass),
+                              plan_.targets[pass]);
 }
 
 Result<void> Renderer::make_targets() {
     targets_.resize(scene_.passes.size());
     for (const PlannedPass& planned : plan_.passes) {
         auto target = make_target(planned.pass);
-        if (!target)
+        if (!target) {
+            if (planned.pass != shown_ || !can_be_tiled())
+                target.error().message += fmt::format("; {} cannot be drawn in tiles, because a pass reads it",
+                                                      scene_.passes[planned.pass].name);
             return fail(std::move(target.error()));
+        }
         targets_[planned.pass] = *std::move(target);
     }
     return {};
@@ -164,12 +191,16 @@ Result<void> Renderer::bind_channels() {
     return {};
 }
 
+bool Renderer::has_own_size(size_t pass) const {
+    return scene_.passes[pass].kind == PassKind::cubemap || (tile_ && pass == shown_);
+}
+
 Result<void> Renderer::resize(Extent extent) {
     if (extent == extent_)
         return {};
     std::vector<PassTarget> fresh(targets_.size());
     for (const PlannedPass& planned : plan_.passes) {
-        if (scene_.passes[planned.pass].kind == PassKind::cubemap)
+        if (has_own_size(planned.pass))
             continue;
         auto target = targets_[planned.pass].resized(extent);
         if (!target)
@@ -177,7 +208,7 @@ Result<void> Renderer::resize(Extent extent) {
         fresh[planned.pass] = *std::move(target);
     }
     for (const PlannedPass& planned : plan_.passes)
-        if (scene_.passes[planned.pass].kind != PassKind::cubemap)
+        if (!has_own_size(planned.pass))
             targets_[planned.pass] = std::move(fresh[planned.pass]);
     extent_ = extent;
     return {};
@@ -206,6 +237,8 @@ void Renderer::warm_up(const FrameInputs& inputs) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 0, 0, 0);
     draw(inputs);
+    if (tile_)
+        draw_tile(inputs, {0, 0, *tile_});
     glFinish();
     glDisable(GL_SCISSOR_TEST);
     reset();
@@ -214,7 +247,31 @@ void Renderer::warm_up(const FrameInputs& inputs) {
 void Renderer::draw(const FrameInputs& inputs) {
     textures_.update(inputs);
     for (const PlannedPass& planned : plan_.passes)
-        draw_pass(planned.pass, inputs);
+        if (!tile_ || planned.pass != shown_)
+            draw_pass(planned.pass, inputs);
+}
+
+std::optional<TileGrid> Renderer::tiles() const {
+    return tile_ ? std::optional(TileGrid(extent_, *tile_)) : std::nullopt;
+}
+
+void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile) const {
+    const gl::Program& program = *passes_[shown_].program;
+    const gl::RenderTarget& into = targets_[shown_].latest();
+    gl::clear(into); // of what a pixel that is discarded would show of the tile before
+    const CompiledPass& pass = passes_[shown_];
+    pass.uniforms.upload(program, uniforms_of(shown_, pass.uniforms, inputs, extent_));
+    bind_textures(pass);
+    if (const gl::Uniform* origin = program.reflection().find("tidemark_tile"))
+        gl::set_uniform(program, *origin, std::array{double(tile.x), double(tile.y)});
+    draw_face(program, into, tile.extent);
+}
+
+void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile, Image& band) const {
+    draw_tile(inputs, tile);
+    const size_t pixel = 4 * image::size_of(samples_);
+    gl::read_corner(targets_[shown_].latest(), tile.extent, GL_RGBA, type_of(samples_), band.extent.width,
+                    band.bytes.data() + size_t(tile.x) * pixel);
 }
 
 ChannelFacts Renderer::facts_of(const CompiledPass& pass, PassKind kind, const FrameInputs& inputs) const {
@@ -288,12 +345,12 @@ void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
     pass.uniforms.upload(*pass.program, reads.uniforms);
     bind_textures(pass);
     if (scene_.passes[index].kind != PassKind::cubemap) {
-        draw_face(*pass.program, into);
+        draw_face(*pass.program, into, into.extent());
     } else {
         for (int face = 0; face < 6; ++face) {
             gl::select_face(into, face);
             set_face(*pass.program, face);
-            draw_face(*pass.program, into);
+            draw_face(*pass.program, into, into.extent());
         }
     }
     target.flip();
@@ -309,12 +366,13 @@ void Renderer::draw_stand_in(size_t index, const gl::Program& program, const Fra
     const UniformTable table(program.reflection(), scene_.knobs);
     table.upload(program, uniforms_of(index, table, inputs, into.extent()));
     bind_textures(passes_[index]);
-    draw_face(program, into);
+    draw_face(program, into, into.extent());
 }
 
-void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& into) const {
+/// The target's bottom left corner, as far as `extent` reaches.
+void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& into, Extent extent) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer.id());
-    glViewport(0, 0, into.extent().width, into.extent().height);
+    glViewport(0, 0, extent.width, extent.height);
     glDisable(GL_DITHER);
     glUseProgram(program.id());
     glBindVertexArray(no_vertices_.id());
@@ -336,7 +394,7 @@ FrameWork Renderer::work() const {
 Image Renderer::read_back(size_t pass) const {
     const gl::RenderTarget& target = targets_[pass].latest();
     Image image(target.extent(), 4, samples_);
-    gl::read_pixels(target, GL_RGBA, samples_ == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT, image.bytes);
+    gl::read_pixels(target, GL_RGBA, type_of(samples_), image.bytes);
     return image;
 }
 

@@ -14,6 +14,7 @@
 #include "render/frame_plan.hpp"
 #include "render/last_drawing.hpp"
 #include "render/pass_target.hpp"
+#include "render/tile_grid.hpp"
 #include "render/uniform_table.hpp"
 #include "scene/scene.hpp"
 
@@ -36,6 +37,9 @@ struct RenderOptions {
     /// Beyond `unreachable` its knobs cannot be turned.
     glsl::Specialise specialise = glsl::Specialise::nothing;
     Extras extras{};
+    /// Draws the shown pass tile by tile into a target of this size, where nobody reads its picture: then
+    /// `draw` leaves it out, and `draw_tile` draws it.
+    std::optional<Extent> tile{};
 };
 
 /// What a frame takes, in things that can be counted.
@@ -75,6 +79,12 @@ public:
     void draw_stand_in(size_t pass, const gl::Program& program, const FrameInputs& inputs,
                        const gl::RenderTarget& into, int face = 0) const;
 
+    /// The tiles of the shown pass; nothing where it is drawn whole.
+    std::optional<TileGrid> tiles() const;
+    /// One tile, after the `draw` of the same frame, and its pixels in their place in `band`: a picture of the
+    /// whole width whose bottom row is the tile's. The same bytes as in a picture drawn whole.
+    void draw_tile(const FrameInputs& inputs, const Tile& tile, image::Image& band) const;
+
     /// Buffers back to zero, as before frame 0.
     void reset();
 
@@ -83,7 +93,7 @@ public:
     /// drawing.
     void continue_from(const Renderer& before);
 
-    /// The pixels of the shown pass. A buffer that is shown in bytes is clamped; of a cube, face +x.
+    /// The pixels of the shown pass, drawn whole. A buffer that is shown in bytes is clamped; of a cube, face +x.
     image::Image read_back() const { return read_back(shown_); }
     /// The faces of a shown cubemap pass, +x -x +y -y +z -z.
     std::array<image::Image, 6> read_back_cube() const;
@@ -103,6 +113,7 @@ public:
 
     FrameWork work() const;
     Extent extent() const { return extent_; }
+    image::SampleType samples() const { return samples_; }
     const gl::RenderTarget& target() const { return targets_[shown_].latest(); }
     const scene::Scene& scene() const { return scene_; }
     const scene::Pass& shown_pass() const { return scene_.passes[shown_]; }
@@ -131,11 +142,13 @@ private:
 
     Result<void> choose_pass(const std::string& name);
     std::vector<bool> reachable() const;
+    bool can_be_tiled() const;
     Result<void> compile();
     Result<void> bind_channels();
     const gl::Texture& texture_of(const BoundChannel& channel) const;
     Result<void> make_targets();
     Result<PassTarget> make_target(size_t pass) const;
+    bool has_own_size(size_t pass) const;
     GLenum format_of(size_t pass) const;
 
     void draw_pass(size_t pass, const FrameInputs& inputs);
@@ -143,7 +156,8 @@ private:
                               Extent extent) const;
     Edition edition_of(const BoundChannel& channel) const;
     void bind_textures(const CompiledPass& pass) const;
-    void draw_face(const gl::Program& program, const gl::RenderTarget& into) const;
+    void draw_tile(const FrameInputs& inputs, const Tile& tile) const;
+    void draw_face(const gl::Program& program, const gl::RenderTarget& into, Extent extent) const;
     ChannelFacts facts_of(const CompiledPass& pass, scene::PassKind kind, const FrameInputs& inputs) const;
 
     scene::Scene scene_;
@@ -153,6 +167,7 @@ private:
     Extras extras_;
     glsl::Specialise specialise_ = glsl::Specialise::nothing;
     size_t shown_ = 0;
+    std::optional<Extent> tile_; ///< of the shown pass
     gl::VertexArrayHandle no_vertices_;
     std::vector<CompiledPass> passes_; ///< one for each of the scene's
     FramePlan plan_;

@@ -24,7 +24,7 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Dat
     const scene::Pass* pass = scene.find(scene::PassKind::sound);
     if (!pass)
         return fail(ErrorCode::usage, fmt::format("'{}' has no Sound pass", scene.file.string()));
-    auto linked = link_pass(scene, *pass, precision);
+    auto linked = link_pass(scene, *pass, {.precision = precision});
     if (!linked)
         return fail(std::move(linked.error()));
     auto target =

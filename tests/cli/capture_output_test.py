@@ -209,7 +209,7 @@ class Json(CaptureTest):
     def test_hash_of_a_float_picture_is_of_its_floats(self):
         self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x, -p.y, 1000.25, 0.0); }\n")
         report = json.loads(self.capture("-o", "a.exr", "--depth", "float", "--json").stdout)
-        floats = [value for y in range(5) for x in range(7) for value in (x + 0.5, -y - 0.5, 1000.25, 1.0)]
+        floats = [value for y in reversed(range(5)) for x in range(7) for value in (x + 0.5, -y - 0.5, 1000.25, 1.0)]
         self.assertEqual(report["frames"][0]["sha256"],
                          hashlib.sha256(struct.pack("<140f", *floats)).hexdigest())
 
@@ -285,7 +285,7 @@ class Repeatable(CaptureTest):
         self.capture("-o", "a.png")
         self.capture("-o", "b.png")
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
-        self.assertEqual(hashlib.sha256(self.picture("a.png").rgba_from_bottom()).hexdigest(),
+        self.assertEqual(hashlib.sha256(self.picture("a.png").rgba_from_top()).hexdigest(),
                          self.picture("b.png").sha256())
 
 

@@ -14,6 +14,8 @@ FAULTS = {
               "    vec4 t = textureLod(iChannel0, vec2(0.5), 8.0);\n    c = t / t.r;\n}\n",
     "knobs": "#iUniform float depth = 1.0 in { 0.0, 2.0 }\n"
              "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0 / depth); }\n",
+    "tiles": "#undef gl_FragCoord\n" # by which the host says where a tile lies
+             "void mainImage(out vec4 c, in vec2 p) { c = vec4(gl_FragCoord.xy / iResolution.xy, 0.0, 1.0); }\n",
     "camera": "void mainImage(out vec4 c, in vec2 p) {\n"
               "    float side = iMouse.y > 90.0 ? -1.0 : 1.0;\n"
               "    c = vec4(0.5 + 0.5 * side * sin(0.1 * p.y + 0.01 * iMouse.y));\n}\n",

@@ -29,11 +29,11 @@ class Picture:
         pixel = row[start:start + self.channels * size]
         return struct.unpack(f">{self.channels}{'B' if size == 1 else 'H'}", pixel)
 
-    def rgba_from_bottom(self) -> bytes:
-        """The bytes as OpenGL reads them back, of a picture with 8 bits and no transparency."""
+    def rgba_from_top(self) -> bytes:
+        """The bytes as they were drawn, of a picture with 8 bits and no transparency."""
         assert self.depth == 8 and self.channels == 3
         pixels = bytearray()
-        for row in reversed(self.rows):
+        for row in self.rows:
             rgba = bytearray(b"\xff" * (self.width * 4))
             for channel in range(3):
                 rgba[channel::4] = row[channel::3]
@@ -42,7 +42,7 @@ class Picture:
 
     def sha256(self) -> str:
         """What `capture --json` reports of the frame."""
-        return hashlib.sha256(self.rgba_from_bottom()).hexdigest()
+        return hashlib.sha256(self.rgba_from_top()).hexdigest()
 
 
 def chunks(file: bytes):

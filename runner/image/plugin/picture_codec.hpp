@@ -1,6 +1,6 @@
 // What the program and the picture plug-in say to each other: bytes of a file in, samples out, and the
-// other way round. Both are built together; the version refuses a plug-in of another build. No file is
-// opened and nothing is thrown across.
+// other way round; or rows into a file that the program has opened. Both are built together; the version
+// refuses a plug-in of another build. Nothing is thrown across.
 #pragma once
 
 #include "image/image.hpp"
@@ -9,6 +9,8 @@
 #include <tl/expected.hpp>
 
 #include <cstddef>
+#include <cstdio>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -32,13 +34,28 @@ struct EncodeJob {
 using EncodeResult = tl::expected<std::vector<unsigned char>, std::string>;
 using DecodeResult = tl::expected<Image, std::string>;
 
+/// A picture on its way into a file, from the top down.
+class RowEncoder {
+public:
+    using Done = tl::expected<void, std::string>;
+
+    virtual ~RowEncoder() = default;
+    /// The next rows below those that were given before; within `samples` they run from the bottom.
+    virtual Done add(std::span<const std::byte> samples, int rows) noexcept = 0;
+    /// After the last row. The file is not closed.
+    virtual Done finish() noexcept = 0;
+};
+using RowEncoderResult = tl::expected<std::unique_ptr<RowEncoder>, std::string>;
+
 struct PictureCodec {
     unsigned version;
     EncodeResult (*encode)(const EncodeJob&) noexcept;
     DecodeResult (*decode)(FileFormat, std::span<const std::byte>) noexcept;
+    /// Of a job without samples, into an empty file. The file must outlive it.
+    RowEncoderResult (*encode_rows)(const EncodeJob&, std::FILE*) noexcept;
 };
 
-inline constexpr unsigned k_picture_codec_version = 1;
+inline constexpr unsigned k_picture_codec_version = 2;
 inline constexpr const char* k_picture_codec_entry = "tidemark_picture_codec";
 using PictureCodecEntry = const PictureCodec* (*)();
 

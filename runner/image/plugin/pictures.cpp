@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <string_view>
+#include <utility>
 
 namespace tidemark::image {
 namespace {
@@ -126,22 +127,69 @@ OIIO::ImageSpec spec_of(const EncodeJob& job) {
     return spec;
 }
 
+/// What OpenImageIO writes, from the top down.
+class Rows {
+public:
+    Rows(const EncodeJob& job, OIIO::Filesystem::IOProxy& sink)
+        : output_(OIIO::ImageOutput::create(codec_name(job.format))), sink_(sink),
+          given_(job.depth == SampleDepth::half ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)
+                                                : file_type(job.depth)),
+          row_bytes_(OIIO::stride_t(size_t(job.extent.width) * size_t(job.channels) * given_.size())) {}
+
+    RowEncoder::Done begin(const EncodeJob& job) {
+        if (!output_)
+            return cannot_encode(OIIO::geterror());
+        return done(output_->set_ioproxy(&sink_) && output_->open(std::string(k_no_file), spec_of(job)));
+    }
+    RowEncoder::Done add(const std::byte* samples, int rows) {
+        const std::byte* top = samples + row_bytes_ * (rows - 1);
+        const int first = std::exchange(next_, next_ + rows);
+        return done(
+            output_->write_scanlines(first, next_, 0, given_, top, OIIO::AutoStride, -row_bytes_));
+    }
+    RowEncoder::Done finish() { return done(output_->close()); }
+
+private:
+    RowEncoder::Done done(bool well) {
+        if (!well)
+            return cannot_encode(output_->geterror());
+        return {};
+    }
+
+    std::unique_ptr<OIIO::ImageOutput> output_;
+    OIIO::Filesystem::IOProxy& sink_;
+    OIIO::TypeDesc given_;
+    OIIO::stride_t row_bytes_;
+    int next_ = 0;
+};
+
 EncodeResult encode_or_throw(const EncodeJob& job) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput sink(bytes);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(codec_name(job.format));
-    if (!output)
-        return cannot_encode(OIIO::geterror());
-    if (!output->set_ioproxy(&sink) || !output->open(std::string(k_no_file), spec_of(job)))
-        return cannot_encode(output->geterror());
-    const OIIO::TypeDesc given =
-        job.depth == SampleDepth::half ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT) : file_type(job.depth);
-    const auto row = OIIO::stride_t(job.samples.size() / size_t(job.extent.height));
-    const std::byte* top = job.samples.data() + row * (job.extent.height - 1);
-    if (!output->write_image(given, top, OIIO::AutoStride, -row) || !output->close())
-        return cannot_encode(output->geterror());
-    return bytes;
+    Rows rows(job, sink);
+    return rows.begin(job)
+        .and_then([&] { return rows.add(job.samples.data(), job.extent.height); })
+        .and_then([&] { return rows.finish(); })
+        .map([&] { return std::move(bytes); });
 }
+
+class FileRows : public RowEncoder {
+public:
+    FileRows(const EncodeJob& job, std::FILE* file)
+        : sink_(file, OIIO::Filesystem::IOProxy::Write), rows_(job, sink_) {}
+
+    Done begin(const EncodeJob& job) { return rows_.begin(job); }
+    Done add(std::span<const std::byte> samples, int rows) noexcept override {
+        return guarded<Done>([&] { return rows_.add(samples.data(), rows); });
+    }
+    Done finish() noexcept override {
+        return guarded<Done>([&] { return rows_.finish(); });
+    }
+
+private:
+    OIIO::Filesystem::IOFile sink_;
+    Rows rows_;
+};
 
 /// Why a picture of this shape is not read, or nothing.
 std::string objection(const OIIO::ImageSpec& spec) {
@@ -208,6 +256,13 @@ EncodeResult encode(const EncodeJob& job) noexcept {
     return guarded<EncodeResult>([&] { return encode_or_throw(job); });
 }
 
+RowEncoderResult encode_rows(const EncodeJob& job, std::FILE* file) noexcept {
+    return guarded<RowEncoderResult>([&]() -> RowEncoderResult {
+        auto rows = std::make_unique<FileRows>(job, file);
+        return rows->begin(job).map([&]() -> std::unique_ptr<RowEncoder> { return std::move(rows); });
+    });
+}
+
 DecodeResult decode(FileFormat format, std::span<const std::byte> file) noexcept {
     return guarded<DecodeResult>([&] { return decode_or_throw(format, file); });
 }
@@ -221,7 +276,7 @@ extern "C" __attribute__((visibility("default"))) const PictureCodec* tidemark_p
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", -1);
         OIIO::attribute("debug", 0); // Debian's build talks on stderr otherwise
-        return PictureCodec{k_picture_codec_version, encode, decode};
+        return PictureCodec{k_picture_codec_version, encode, decode, encode_rows};
     }();
     return &codec;
 }
