@@ -95,8 +95,8 @@ Result<std::vector<PassPicture>> ProbeBench::passes(const Situation& situation) 
     return pictures;
 }
 
-Result<Hits> ProbeBench::hits(const Situation& situation) {
-    auto renderer = drawn(situation, Entry::hit, glsl::Precision::single);
+Result<Hits> ProbeBench::hits(const Situation& situation, glsl::Precision precision) {
+    auto renderer = drawn(situation, Entry::hit, precision);
     if (!renderer)
         return fail(std::move(renderer.error()));
     return hits_of((*renderer)->read_back());
