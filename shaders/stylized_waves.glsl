@@ -34,7 +34,7 @@
 #define SHADOWS 1
 #define CLOUDS 1
 #define SOLVER MARCH_BRACKET // how a ray finds water and land: one of lib/march.glsl's, but for MARCH_CERTIFIED
-#define MAX_STEPS 128        // field samples along a ray
+#define MAX_STEPS 512        // field samples along a ray
 #define HIT_DISTANCE 0.001   // MARCH_SPHERE: value of the field that counts as touching
 #define FIXED_STEP 0.5       // MARCH_FIXED: distance of its samples; wants MAX_STEPS to cover what is looked at
 const float map_extent = 64.0; // as baked, and
@@ -191,7 +191,8 @@ float march_field(float t) {
     vec3 position = origin + t * direction;
     vec4 field = baked(position.xz);
     float above = position.y - max(field.w, water_height(field, position.xz));
-    return above / (k_slope * length(direction.xz) - direction.y);
+    float slope = k_slope * max(1.0, 5.9 * wave_height / wave_length);
+    return above / (slope * length(direction.xz) - direction.y);
 }
 
 // Metres that a pixel covers at `distance`, across the ray.
