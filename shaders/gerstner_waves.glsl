@@ -100,15 +100,17 @@ float steepness; // of all together, 0..0.95
 void make_waves() {
     train_x = sin(wave_direction);
     train_z = cos(wave_direction);
-    train_k = 6.283185307 / max(wave_length, vec4(0.01));
+    train_k = binary32(binary32(6.283185307) / binary32(max(wave_length, vec4(0.01))));
     train_s = abs(wave_steepness) * (wave_scale / 0.5);
     steepness = dot(train_s, vec4(1.0));
     train_s *= min(1.0, 0.95 / max(steepness, 0.95));
     steepness = min(steepness, 0.95);
     train_a = train_s / train_k;
 
-    vec4 rate = sqrt(9.8 * train_k) * wave_pace * (wave_speed / 1.2);
-    train_phase = vec4(phase(rate.x, iTime), phase(rate.y, iTime), phase(rate.z, iTime), phase(rate.w, iTime));
+    vec4 rate = rate_product(binary32(sqrt(rate_product(vec4(9.8), train_k))), wave_pace);
+    rate = rate_product(rate, vec4(binary32(wave_speed) / binary32(1.2)));
+    vec2 now = seconds();
+    train_phase = vec4(phase(rate.x, now), phase(rate.y, now), phase(rate.z, now), phase(rate.w, now));
 }
 
 vec4 angles(vec2 rest) {
@@ -201,7 +203,7 @@ float level_of(float footprint) {
 
 // The tilt that the noise picture gives the surface, as the document's normal map would: three scales of it.
 vec2 ripple_tilt(vec2 place, float footprint) {
-    vec2 drift = vec2(fract_of_product(noise_uv_speed.x, iTime), fract_of_product(noise_uv_speed.y, iTime));
+    vec2 drift = vec2(fract_of_product(noise_uv_speed.x, seconds()), fract_of_product(noise_uv_speed.y, seconds()));
     vec2 tilt = vec2(0.0);
     float scale = noise_tiling;
     for (int i = 0; i < 3; ++i) {
@@ -220,8 +222,8 @@ vec2 ripple_tilt(vec2 place, float footprint) {
 #if FOAM
 // A layer of the foam picture, `scale` times as fine.
 float foam_layer(vec2 place, float scale, float level) {
-    vec2 speed = scale * foam_uv_speed;
-    vec2 drift = vec2(fract_of_product(speed.x, iTime), fract_of_product(speed.y, iTime));
+    vec2 speed = rate_product(vec2(scale), foam_uv_speed);
+    vec2 drift = vec2(fract_of_product(speed.x, seconds()), fract_of_product(speed.y, seconds()));
     return textureLod(iChannel1, scale * foam_tiling * place + drift, level + log2(scale)).r;
 }
 

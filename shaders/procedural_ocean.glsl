@@ -93,14 +93,14 @@ float sea_phase[FINE_OCTAVES];
 float sea_slope; // bound of the coarse water's: see ridges() and octave_height()
 
 void make_sea() {
-    float rate = wave_frequency * wave_speed;
+    float rate = rate_product(wave_frequency, wave_speed);
     float steepness = 2.0 * wave_height * wave_frequency * 5.2427;
     float choppiness = wave_choppiness;
     sea_slope = 0.0;
     for (int octave = 0; octave < FINE_OCTAVES; ++octave) {
-        sea_drift[octave] = split_product(rate, iTime, sea_cells[octave]);
-        sea_phase[octave] = phase(rate, iTime);
-        rate *= 1.9;
+        sea_drift[octave] = split_product(rate, seconds(), sea_cells[octave]);
+        sea_phase[octave] = phase(rate, seconds());
+        rate = rate_product(rate, 1.9);
         sea_slope += octave < OCTAVES ? steepness * (0.68 + 0.3 * choppiness) : 0.0;
         steepness *= 0.22 * 3.8;
         choppiness = mix(choppiness, 1.0, 0.2);

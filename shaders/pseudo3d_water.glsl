@@ -86,10 +86,10 @@ float cloud(vec2 at, vec2 dx, vec2 dy) {
     return sum / total;
 }
 
-// A shift by `speed * iTime` repeats, modulo the picture: as fine after a month as at the start.
+// A shift by `speed` repeats a second, modulo the picture: as fine after a month as at the start.
 vec2 drift(vec2 speed) {
-    vec2 pictures = speed * (k_cells / k_texels);
-    return k_texels * vec2(fract_of_product(pictures.x, iTime), fract_of_product(pictures.y, iTime));
+    vec2 pictures = binary32(speed) * (k_cells / k_texels);
+    return k_texels * vec2(fract_of_product(pictures.x, seconds()), fract_of_product(pictures.y, seconds()));
 }
 
 float stretch(float lightness) {
@@ -99,7 +99,7 @@ float stretch(float lightness) {
 // Lightness of one sheet of water: the noise, and the larger noise laid over it where that one is light.
 float sheet(vec2 at, vec2 dx, vec2 dy, vec2 speed) {
     float fine = stretch(cloud(at + drift(speed), dx, dy));
-    vec2 broad_at = 0.25 * at + drift(0.25 * (speed + overlay_speed)) + 91.7;
+    vec2 broad_at = 0.25 * at + drift(0.25 * binary32(binary32(speed) + binary32(overlay_speed))) + 91.7;
     float broad = stretch(cloud(broad_at, 0.25 * dx, 0.25 * dy));
     return mix(fine, broad, overlay * broad);
 }

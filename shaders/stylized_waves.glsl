@@ -34,7 +34,7 @@
 #define SHADOWS 1
 #define CLOUDS 1
 #define SOLVER MARCH_BRACKET // how a ray finds water and land: one of lib/march.glsl's, but for MARCH_CERTIFIED
-#define MAX_STEPS 128        // field samples along a ray
+#define MAX_STEPS 512        // field samples along a ray
 #define HIT_DISTANCE 0.001   // MARCH_SPHERE: value of the field that counts as touching
 #define FIXED_STEP 0.5       // MARCH_FIXED: distance of its samples; wants MAX_STEPS to cover what is looked at
 const float map_extent = 64.0; // as baked, and
@@ -191,7 +191,8 @@ float march_field(float t) {
     vec3 position = origin + t * direction;
     vec4 field = baked(position.xz);
     float above = position.y - max(field.w, water_height(field, position.xz));
-    return above / (k_slope * length(direction.xz) - direction.y);
+    float slope = k_slope * max(1.0, 5.9 * wave_height / wave_length);
+    return above / (slope * length(direction.xz) - direction.y);
 }
 
 // Metres that a pixel covers at `distance`, across the ray.
@@ -312,14 +313,14 @@ vec3 shade_land(vec3 position, float height, vec3 light) {
 // at the start.
 vec3 drifting(vec2 at, vec2 speed) {
     ivec2 whole;
-    vec2 part = vec2(split_product(speed.x, iTime, whole.x), split_product(speed.y, iTime, whole.y));
+    vec2 part = vec2(split_product(speed.x, seconds(), whole.x), split_product(speed.y, seconds(), whole.y));
     return value_noise_gradient(at + part, whole);
 }
 
 // Bright lines that wander: where two sheets of cells both are far from their points.
 float caustic(vec2 at, float depth) {
 #if CAUSTIC
-    float round = fract_of_product(iTime, 0.23);
+    float round = fract_of_product(0.23, seconds());
     vec2 p = caustic_scale * at;
     float lines = min(nearest_cell(p, round).z, nearest_cell(1.31 * p.yx + 5.2, round).z);
     return caustic_strength * 2.6 * pow(lines, 3.0) * exp(-0.45 * depth) * smoothstep(0.0, 0.25, depth);
@@ -332,7 +333,7 @@ float caustic(vec2 at, float depth) {
 float foam_cover(vec4 field, vec2 at, float above_floor) {
 #if FOAM
     vec4 ramps = wave_ramps(phase_of(field, at));
-    float round = fract_of_product(iTime, 0.11);
+    float round = fract_of_product(0.11, seconds());
     float lace = nearest_cell(foam_scale * at, round).z;
     float fine = nearest_cell(2.3 * foam_scale * at + 9.1, round).z;
     float net = 0.62 * lace + 0.38 * fine;
@@ -461,14 +462,14 @@ vec3 picture(float distance) {
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     aim(fragCoord);
-    turns = fract_of_product(iTime, 1.0 / wave_speed);
+    turns = fract_of_product(1.0 / binary32(wave_speed), seconds());
     fragColor = vec4(picture(trace()), 1.0);
 }
 
 #ifdef TIDEMARK_HIT
 void mainHit(out vec4 hit, in vec2 fragCoord) {
     aim(fragCoord);
-    turns = fract_of_product(iTime, 1.0 / wave_speed);
+    turns = fract_of_product(1.0 / binary32(wave_speed), seconds());
     hit = march_report(trace());
 }
 #endif

@@ -16,9 +16,10 @@
 //
 // The defaults are the document's numbers. Lengths are world units (the coarsest lattice cell is 6.7
 // wide), angles radians, times seconds, colours 0..1 before `gamma`. The camera stands at `camera_position`
-// and is turned by the mouse: yaw -pi..pi across the width, pitch -135..135 degrees up the height. Beyond a
-// pitch of 90 degrees the view turns round rather than over, so the mouse at (0,0), the first of both, is a
-// look along z, 45 degrees down. (.75, .4) of the size is a good view of the open sea.
+// and is turned by the mouse: yaw -pi..pi across the width, pitch -135..135 degrees up the height, of which it
+// takes the part from straight down to straight up. While the mouse is at (0,0), where it is before its first
+// click, the view is `default_turn`: the document's, whose camera turns round beyond straight down, so that this
+// corner is a look along z, 45 degrees down. (.75, .4) of the size is a good view of the open sea.
 //
 // Knobs that are compiled in:
 #define DOCUMENT 0 // 1: all of the document's own: its solver, hash, normal, and a drift that starts again
@@ -28,11 +29,13 @@
 #define ANALYTIC_NORMAL 0
 #define MAX_STEPS 128
 #define DRIFT_PERIOD 62.83
+#define TURNING_POLES 1
 #else
 #define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's
 #define INTEGER_HASH 1       // 1: the same sea on every GPU; 0: the document's fract(sin(n) * 43785.5)
 #define ANALYTIC_NORMAL 1    // 1: from the noise's own slope; 0: from differences over SLOPE_DISTANCE
 #define MAX_STEPS 512        // field samples along a ray
+#define TURNING_POLES 0      // 1: beyond straight up and down the view turns round at once; 0: it rests there
 // The sine hash knows few cells before its sines lose their bits.
 #define DRIFT_PERIOD (INTEGER_HASH == 1 || drift_period > 0.0 ? drift_period : 62.83)
 #endif
@@ -41,8 +44,9 @@
 #define FIXED_STEP 0.1      // MARCH_FIXED: distance of its samples; wants MAX_STEPS to reach far_distance
 #define SLOPE_DISTANCE 0.01 // half of the distance that differences are taken over
 //
-// Knobs that are uniforms, camera first:
+// Knobs that are uniforms, camera first (its turn in parts of the two ranges):
 #iUniform vec3 camera_position = vec3(0.0, 2.5, 8.0) in { -100.0, 100.0 }
+#iUniform vec2 default_turn = vec2(0.5, 0.33333) in { 0.0, 1.0 }
 #iUniform float yaw_range = 6.2831 in { 0.0, 12.5664 }
 #iUniform float pitch_range = 4.7124 in { 0.0, 6.2832 }
 #iUniform float focal_length = 1.0 in { 0.2, 5.0 }
@@ -97,7 +101,7 @@
 // ---- The sea of this frame ------------------------------------------------------------------------------
 
 // What depends on uniforms alone, worked out once a pixel instead of once a field sample.
-float sea_seconds;         // of the drift
+vec2 sea_seconds;          // of the drift, as lib/phase has them
 float sea_bob_phase;       // 0..2 pi
 mat2 sea_finer;            // x and y from one octave to the next: turned and scaled
 float sea_drift[OCTAVES];  // in cells of the octave: the fraction,
@@ -105,20 +109,21 @@ int sea_cells[OCTAVES];    // and the whole, which moves the lattice
 float sea_step;            // part of the height above the water that a step goes
 
 void make_sea() {
-    sea_bob_phase = phase(bob_rate, iTime);
+    vec2 now = DOCUMENT == 1 ? vec2(iTime, 0.0) : seconds();
+    sea_bob_phase = phase(bob_rate, now);
 
-    float angle = turn_angle * sin(phase(turn_rate, iTime));
+    float angle = turn_angle * sin(phase(turn_rate, now));
     float c = wave_lacunarity * cos(angle);
     float s = wave_lacunarity * sin(angle);
     sea_finer = mat2(c, -s, s, c);
 
-    sea_seconds = DRIFT_PERIOD > 0.0 ? mod(iTime, DRIFT_PERIOD) : iTime;
-    float rate = wave_scale * wave_speed;
+    sea_seconds = DRIFT_PERIOD > 0.0 ? vec2(mod(iTime, DRIFT_PERIOD), now.y) : now;
+    float rate = rate_product(wave_scale, wave_speed);
     float slope = 1.0 + bob_height * bob_frequency; // bound of the height's, octave by octave
     float steepness = 1.5 * 3.14 * wave_height * wave_scale;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         sea_drift[octave] = split_product(rate, sea_seconds, sea_cells[octave]);
-        rate *= wave_lacunarity;
+        rate = rate_product(rate, wave_lacunarity);
         steepness *= wave_gain;
         slope += steepness;
         steepness *= wave_lacunarity;
@@ -220,9 +225,22 @@ vec2 march_clearance(float t) {
 }
 #endif
 
+mat3 camera() {
+    vec2 ranges = vec2(yaw_range, pitch_range);
+#if TURNING_POLES
+    vec2 angles = mouse_angles(iMouse.xy / iResolution.xy, ranges);
+    if (abs(angles.y) > 1.57079632) {
+        angles = vec2(angles.x + 3.14159265, sign(angles.y) * 3.14159265 - angles.y);
+    }
+    return camera_axes(angles.x, angles.y);
+#else
+    return mouse_camera(mouse_turn(default_turn), ranges);
+#endif
+}
+
 // The ray through a pixel, and the distance of the water on it; -1: none.
 float look(vec2 frag_coord) {
-    mat3 axes = mouse_camera(iMouse.xy / iResolution.xy, vec2(yaw_range, pitch_range));
+    mat3 axes = camera();
     ray_origin = camera_position;
     ray_direction = pixel_ray(axes, frag_coord, focal_length);
     make_sea();
@@ -268,10 +286,10 @@ float ripples_at(vec3 position) {
     float stretch = 1.0;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         position.xy = sea_finer * position.xy;
-        stretch *= wave_lacunarity;
+        stretch = rate_product(stretch, wave_lacunarity);
     }
     vec2 scale = vec2(broad_scale, fine_scale);
-    vec2 rate = 0.125 * scale * stretch * wave_speed;
+    vec2 rate = 0.125 * rate_product(scale, vec2(rate_product(stretch, wave_speed)));
     vec2 drift = 8.0 * vec2(fract_of_product(rate.x, sea_seconds), fract_of_product(rate.y, sea_seconds));
     vec2 at = vec2(position.x, stretch * position.z);
     return ripples(scale.x * at - vec2(0.0, drift.x)) + fine_weight * ripples(scale.y * at - vec2(0.0, drift.y));

@@ -17,6 +17,7 @@ std::vector<std::string_view> host_uniforms() {
         if (uniform.image)
             names.push_back(uniform.name);
     names.push_back(scene::k_camera_uniform);
+    names.push_back(scene::k_time_low_uniform);
     return names;
 }
 

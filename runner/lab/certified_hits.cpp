@@ -114,7 +114,7 @@ Result<Reference> reference_of(MakeReference make, const scene::Scene& scene, co
     const render::FrameInputs inputs = inputs_of(view, extent);
     ReferenceInputs wanted;
     wanted.knobs = scene.knobs;
-    wanted.time = double(float(inputs.time));
+    wanted.time = inputs.time;
     wanted.resolution = {extent.width, extent.height};
     wanted.mouse = {inputs.mouse.x, inputs.mouse.y};
     for (const char* name : {"MARCH_OCTAVES", "OCTAVES"}) // a shape may have fewer than its light
@@ -122,6 +122,7 @@ Result<Reference> reference_of(MakeReference make, const scene::Scene& scene, co
             wanted.octaves = std::atoi(octaves->c_str());
             break;
         }
+    wanted.turning_poles = glsl::definition_of(scene, "TURNING_POLES").value_or("0") == "1";
     wanted.lattice = lattice;
     return make(wanted);
 }

@@ -102,7 +102,7 @@ Result<Reference> gerstner_waves_reference(const ReferenceInputs& inputs) {
     KnobReader knobs(inputs.knobs);
     const Trains trains = trains_of(knobs, inputs.time);
     const RayRange range{0, knobs.number("far_distance")};
-    auto ray = mouse_camera(knobs, inputs, knobs.pair("default_turn"));
+    auto ray = mouse_camera(knobs, inputs);
     if (knobs.error())
         return fail(*knobs.error());
     return Reference{field_of(trains), std::move(ray), range};

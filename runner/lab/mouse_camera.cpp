@@ -4,19 +4,22 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tidemark::lab {
 
-std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const ReferenceInputs& inputs,
-                                                   const std::optional<glm::dvec2>& untouched) {
+std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const ReferenceInputs& inputs) {
     const glm::dvec3 position = knobs.triple("camera_position");
     const double focal_length = knobs.number("focal_length");
-    const bool at_rest = untouched && inputs.mouse == glm::dvec2(0);
-    const glm::dvec2 turn = at_rest ? *untouched : inputs.mouse / inputs.resolution;
+    const bool at_rest = !inputs.turning_poles && inputs.mouse == glm::dvec2(0);
+    const glm::dvec2 turn = at_rest ? knobs.pair("default_turn") : inputs.mouse / inputs.resolution;
     const glm::dvec2 turned = glm::clamp(turn, 0.0, 1.0) - 0.5;
     const double yaw = knobs.number("yaw_range") * turned.x;
-    const double pitch = knobs.number("pitch_range") * turned.y;
+    const double whole_pitch = knobs.number("pitch_range") * turned.y;
+    constexpr double k_pole = std::numbers::pi / 2;
+    const double pitch = inputs.turning_poles ? whole_pitch : std::clamp(whole_pitch, -k_pole, k_pole);
 
     const double level = std::cos(pitch);
     const glm::dvec3 forward{std::sin(yaw) * level, std::sin(pitch), std::cos(yaw) * level};

@@ -6,9 +6,7 @@
 
 namespace tidemark::lab {
 
-/// Rays of a scene with the knobs camera_position, yaw_range, pitch_range and focal_length. `untouched` is
-/// the turn, in parts of the picture, while the mouse is at (0, 0); none: it is turned to that corner.
-std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const ReferenceInputs& inputs,
-                                                   const std::optional<glm::dvec2>& untouched = {});
+/// Rays of a scene with the knobs camera_position, default_turn, yaw_range, pitch_range and focal_length.
+std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const ReferenceInputs& inputs);
 
 } // namespace tidemark::lab

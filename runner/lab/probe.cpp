@@ -27,7 +27,12 @@ std::span<const Probe> all_probes() {
          ask_repeats},
         {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
          ask_tiles},
-        {"camera", "turns of the picture under a one-pixel step of the mouse", ask_camera},
+        {"clicks",
+         "a click in the first column or row that is taken for none, and shows another view than the next",
+         ask_clicks},
+        {"camera",
+         "turns of the picture under a one-pixel step of the mouse, up and across; no number at a pole",
+         ask_camera},
         {"jumps",
          "cuts: an instant that is less like the next than before and after, at every number in the text",
          ask_jumps},
@@ -37,8 +42,39 @@ std::span<const Probe> all_probes() {
         {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
          ask_witnesses},
         {"budget", "rays that run out of steps (mainHit)", ask_budget},
-        {"stiffness", "the same, and distances that are no number, with each knob at both ends (mainHit)",
+        {"stiffness",
+         "the same, and distances that are no number, with each knob at both ends, at 0, 1/2, 2 and 4 times "
+         "its "
+         "value within its range, and with defined heights and scales so (mainHit)",
          ask_stiffness},
+        {"grazing",
+         "rays that run out of steps along the horizon, at all mouse heights that show it, and in exactly "
+         "level rays (mainHit)",
+         ask_grazing},
+        {"far", "flicker before a far plane that moves by a thousandth (mainHit, knob far_distance)",
+         ask_far},
+        {"epsilon",
+         "rays that run out of steps in float and not in double: they wait for a value that rounding "
+         "keeps away (mainHit)",
+         ask_epsilon},
+        {"rounding",
+         "until when rays meet the same in float and double, to a pixel's width in 99 % (mainHit)",
+         ask_rounding},
+        {"places",
+         "the camera below the surface, high above, and 10 to 1e6 units away: finite, and the same in float "
+         "and double (mainHit, iCamera or knob camera_position)",
+         ask_places},
+        {"folds",
+         "waves whose steepness adds up to 0.75, 0.99, 1 and 1.5: from 1 on crests fold over (mainHit, knob "
+         "of a steepness)",
+         ask_folds},
+        {"octaves",
+         "as few and as many octaves as the scene allows: coordinates beyond what floats hold (mainHit)",
+         ask_octaves},
+        {"normals",
+         "slopes by differences of the field, in float against double, over 0.1 to 1e-6 (mainHit, "
+         "march_field)",
+         ask_normals},
     };
     return probes;
 }

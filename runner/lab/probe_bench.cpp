@@ -7,13 +7,6 @@
 #include <algorithm>
 
 namespace tidemark::lab {
-namespace {
-
-bool is_knob(const scene::Scene& scene, const Setting& setting) {
-    return std::ranges::find(scene.knobs, setting.name, &scene::Knob::name) != scene.knobs.end();
-}
-
-} // namespace
 
 ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises)
     : scene_(scene), hit_scene_(glsl::hit_scene(scene)), promises_(std::move(promises)) {}
@@ -28,12 +21,12 @@ Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry
         if (auto set = scene::override_channel(scene, channel); !set)
             return fail(std::move(set.error()));
     }
-    for (const Setting& setting : situation.settings) {
-        if (!is_knob(scene_, setting))
-            key += fmt::format(" {}={}", setting.name, setting.value);
-        if (auto set = apply(scene, setting); !set)
-            return fail(std::move(set.error()));
-    }
+    for (const Setting& setting : situation.definitions)
+        key += fmt::format(" {}={}", setting.name, setting.value);
+    for (const auto& settings : {situation.settings, situation.definitions})
+        for (const Setting& setting : settings)
+            if (auto set = apply(scene, setting); !set)
+                return fail(std::move(set.error()));
     std::vector<scene::Knob> knobs = scene.knobs;
     auto found = renderers_.find(key);
     if (found == renderers_.end()) {
@@ -99,8 +92,8 @@ Result<std::vector<PassPicture>> ProbeBench::passes(const Situation& situation) 
     return pictures;
 }
 
-Result<Hits> ProbeBench::hits(const Situation& situation) {
-    auto renderer = drawn(situation, Entry::hit, glsl::Precision::single);
+Result<Hits> ProbeBench::hits(const Situation& situation, glsl::Precision precision) {
+    auto renderer = drawn(situation, Entry::hit, precision);
     if (!renderer)
         return fail(std::move(renderer.error()));
     return hits_of((*renderer)->read_back());

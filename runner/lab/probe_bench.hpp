@@ -34,7 +34,7 @@ public:
     Result<std::vector<PassPicture>> passes(const Situation& situation);
 
     bool has_hits() const { return hit_scene_.has_value(); }
-    Result<Hits> hits(const Situation& situation);
+    Result<Hits> hits(const Situation& situation, glsl::Precision precision = glsl::Precision::single);
 
     /// Compiles anew, where `picture` takes what it has.
     Result<image::Image> fresh_picture(const Situation& situation);

@@ -23,10 +23,25 @@ Result<Answer> ask_tiles(ProbeBench& bench);
 // probes_motion.cpp
 Result<Answer> ask_repeats(ProbeBench& bench);
 Result<Answer> ask_camera(ProbeBench& bench);
+Result<Answer> ask_clicks(ProbeBench& bench);
 
 // probes_hit.cpp
 Result<Answer> ask_witnesses(ProbeBench& bench);
 Result<Answer> ask_budget(ProbeBench& bench);
 Result<Answer> ask_stiffness(ProbeBench& bench);
+
+// probes_rounding.cpp
+Result<Answer> ask_rounding(ProbeBench& bench);
+Result<Answer> ask_epsilon(ProbeBench& bench);
+Result<Answer> ask_octaves(ProbeBench& bench);
+Result<Answer> ask_folds(ProbeBench& bench);
+
+// probes_place.cpp
+Result<Answer> ask_grazing(ProbeBench& bench);
+Result<Answer> ask_places(ProbeBench& bench);
+Result<Answer> ask_far(ProbeBench& bench);
+
+// probes_slope.cpp
+Result<Answer> ask_normals(ProbeBench& bench);
 
 } // namespace tidemark::lab

@@ -1,10 +1,14 @@
 // The same again, and the next pixel of the mouse.
+#include "image/census.hpp"
 #include "image/metrics.hpp"
 #include "lab/probes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
 
 namespace tidemark::lab {
 namespace {
@@ -13,6 +17,8 @@ namespace {
 constexpr Extent k_narrow{16, 180};
 /// A step that changes the picture so much more than the steps before and after it is a turn.
 constexpr double k_turn = 4; // dB
+/// Pictures that are closer do not jump, however alike their neighbours are.
+constexpr double k_alike = 60; // dB
 
 } // namespace
 
@@ -37,38 +43,133 @@ Result<Answer> ask_repeats(ProbeBench& bench) {
     return Answer{Verdict::pass, "the same bytes again, after another frame and compiled anew"};
 }
 
-Result<Answer> ask_camera(ProbeBench& bench) {
-    std::vector<image::Image> rows;
-    for (int y = 1; y < k_narrow.height; ++y) {
-        auto picture = bench.picture({.extent = k_narrow, .mouse = glm::ivec2(k_narrow.width / 2, y)});
+namespace {
+
+/// The mouse moved by a pixel at a time along one side of the picture, the other in the middle.
+struct Sweep {
+    const char* axis;
+    Extent extent;
+    int length;
+    std::function<glm::ivec2(int)> at;
+};
+
+/// The step that changes the picture most beside its neighbours, and the first picture with no numbers in it.
+struct Swept {
+    bool changes = false;
+    double most = 0; ///< dB less than the steps before and after it
+    double psnr = 0;
+    int step = 1; ///< from this pixel to the next
+    std::optional<int> not_finite{};
+};
+
+Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
+    Swept found;
+    std::vector<double> steps;
+    std::optional<image::Image> last;
+    for (int pixel = 1; pixel < sweep.length; ++pixel) {
+        auto picture = bench.picture({.extent = sweep.extent, .mouse = sweep.at(pixel)});
         if (!picture)
             return fail(std::move(picture.error()));
-        rows.push_back(*std::move(picture));
+        if (!found.not_finite && image::census(*picture).non_finite() > 0)
+            found.not_finite = pixel;
+        if (last)
+            steps.push_back(image::compare(*last, *picture)->psnr);
+        last = *std::move(picture);
     }
-    std::vector<double> steps;
-    for (size_t i = 0; i + 1 < rows.size(); ++i)
-        steps.push_back(image::compare(rows[i], rows[i + 1])->psnr);
-    if (std::ranges::all_of(steps, [](double psnr) { return std::isinf(psnr); }))
-        return Answer{Verdict::not_applicable, "the mouse's height changes nothing"};
-    size_t at = 1;
-    double most = 0;
+    found.changes = !std::ranges::all_of(steps, [](double psnr) { return std::isinf(psnr); });
     for (size_t i = 1; i + 1 < steps.size(); ++i)
-        if (const double drop = std::min(steps[i - 1], steps[i + 1]) - steps[i]; drop > most) {
-            most = drop;
-            at = i;
+        if (const double drop = std::min(steps[i - 1], steps[i + 1]) - steps[i]; drop > found.most) {
+            found.most = drop;
+            found.psnr = steps[i];
+            found.step = int(i) + 1;
         }
-    if (!(most > k_turn))
-        return Answer{Verdict::pass,
-                      fmt::format("one pixel of the mouse changes the picture evenly, to {:.1f} dB", most),
-                      {},
-                      {}};
-    const int y = int(at) + 1;
-    return Answer{
-        Verdict::fail,
-        fmt::format("the mouse from y = {} to {} of {} turns the picture: {:.1f} dB, {:.1f} less than "
-                    "the steps beside it",
-                    y, y + 1, k_narrow.height, steps[at], most),
-        Situation{.extent = k_narrow, .mouse = glm::ivec2(k_narrow.width / 2, y + 1)}, rows[at + 1]};
+    return found;
+}
+
+/// The answer, where there is a fault.
+Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const Swept& found) {
+    const auto show = [&](int pixel, std::string sentence) -> Result<std::optional<Answer>> {
+        const Situation where{.extent = sweep.extent, .mouse = sweep.at(pixel)};
+        auto picture = bench.picture(where);
+        if (!picture)
+            return fail(std::move(picture.error()));
+        return Answer{Verdict::fail, std::move(sentence), where, *std::move(picture)};
+    };
+    if (found.not_finite)
+        return show(*found.not_finite,
+                    fmt::format("the picture is not finite with the mouse at {} = {} of {}", sweep.axis,
+                                *found.not_finite, sweep.length));
+    if (found.most > k_turn)
+        return show(
+            found.step + 1,
+            fmt::format("the mouse from {} = {} to {} of {} turns the picture: {:.1f} dB, {:.1f} less than "
+                        "the steps beside it",
+                        sweep.axis, found.step, found.step + 1, sweep.length, found.psnr, found.most));
+    return std::optional<Answer>{};
+}
+
+} // namespace
+
+Result<Answer> ask_camera(ProbeBench& bench) {
+    const Sweep sweeps[] = {
+        {"y", k_narrow, k_narrow.height, [](int y) { return glm::ivec2(k_narrow.width / 2, y); }},
+        {"x", {k_narrow.height, k_narrow.width}, k_narrow.height, [](int x) {
+             return glm::ivec2(x, k_narrow.width / 2);
+         }}};
+    bool changes = false;
+    double most = 0;
+    for (const Sweep& sweep : sweeps) {
+        const auto found = swept(bench, sweep);
+        if (!found)
+            return fail(found.error());
+        auto answer = fault(bench, sweep, *found);
+        if (!answer)
+            return fail(std::move(answer.error()));
+        if (*answer)
+            return **std::move(answer);
+        changes |= found->changes;
+        most = std::max(most, found->most);
+    }
+    if (!changes)
+        return Answer{Verdict::not_applicable, "the mouse changes nothing"};
+    return Answer{Verdict::pass,
+                  fmt::format("one pixel of the mouse changes the picture evenly, to {:.1f} dB", most)};
+}
+
+Result<Answer> ask_clicks(ProbeBench& bench) {
+    const Extent size = Situation().extent;
+    const std::pair<const char*, glm::ivec2> edges[] = {{"column", {0, size.height / 2}},
+                                                        {"row", {size.width / 2, 0}}};
+    for (const auto& [name, first] : edges) {
+        const glm::ivec2 inwards = first.x == 0 ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
+        std::vector<image::Image> pictures;
+        for (int pixel = 0; pixel < 3; ++pixel) {
+            auto picture = bench.picture({.mouse = first + pixel * inwards});
+            if (!picture)
+                return fail(std::move(picture.error()));
+            pictures.push_back(*std::move(picture));
+        }
+        const double edge = image::compare(pictures[0], pictures[1])->psnr;
+        const double next = std::min(image::compare(pictures[1], pictures[2])->psnr, k_alike);
+        if (next - edge > k_turn)
+            return Answer{
+                Verdict::fail,
+                fmt::format("a click in {0} 0 shows another view than in {0} 1: {1:.1f} dB, and {2:.1f} "
+                            "from there to the next",
+                            name, edge, next),
+                Situation{.mouse = first}, pictures[0]};
+    }
+    const auto untouched = bench.picture({});
+    const auto corner = bench.picture({.mouse = glm::ivec2(1, 1)});
+    if (!untouched || !corner)
+        return fail(!untouched ? untouched.error() : corner.error());
+    const double psnr = image::compare(*untouched, *corner)->psnr;
+    return Answer{std::isinf(psnr) ? Verdict::not_applicable : Verdict::pass,
+                  std::isinf(psnr)
+                      ? std::string("a click changes nothing")
+                      : fmt::format("clicks at the edges are clicks; the first one in the corner changes "
+                                    "the picture to {:.1f} dB",
+                                    psnr)};
 }
 
 } // namespace tidemark::lab

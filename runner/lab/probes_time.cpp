@@ -89,10 +89,13 @@ Result<Jump> jump_at(ProbeBench& bench, double moment) {
 
 } // namespace
 
+/// Of a second: a moment like most, which is no binary32.
+constexpr double k_third = 1.0 / 3;
+
 Result<Answer> ask_horizon(ProbeBench& bench) {
     double good = 0;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        const Situation situation{.time = time};
+        const Situation situation{.time = time + k_third};
         const auto as_is = bench.picture(situation);
         if (!as_is)
             return fail(as_is.error());

@@ -111,7 +111,7 @@ Result<Reference> procedural_ocean_reference(const ReferenceInputs& inputs) {
     KnobReader knobs(inputs.knobs);
     const Octaves octaves = octaves_of(knobs, inputs);
     const RayRange range{0, knobs.number("far_distance")};
-    auto ray = mouse_camera(knobs, inputs, knobs.pair("default_turn"));
+    auto ray = mouse_camera(knobs, inputs);
     if (knobs.error())
         return fail(*knobs.error());
     return Reference{field_of(octaves), std::move(ray), range};

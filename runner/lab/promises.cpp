@@ -20,13 +20,14 @@ constexpr Field k_fields[] = {
     {"most_exhausted_percent", &Promises::most_exhausted_percent},
     {"most_witness_percent", &Promises::most_witness_percent},
     {"smoothest_jump", &Promises::smoothest_jump},
+    {"space_horizon", &Promises::space_horizon},
 };
 
 std::string names() {
     std::string text;
     for (const Field& field : k_fields)
         text += fmt::format("{}, ", field.name);
-    return text + "skip";
+    return text + "ranges, skip";
 }
 
 /// What is wrong with one entry; empty: it was taken.
@@ -37,6 +38,15 @@ std::string take(Promises& promises, const std::string& name, const Json& value)
                 return "'skip' takes {\"probe\": \"why\"}";
             else
                 promises.skip[probe] = reason.get<std::string>();
+        return {};
+    }
+    if (name == "ranges") {
+        for (const auto& [knob, range] : value.items())
+            if (!value.is_object() || !range.is_array() || range.size() != 2 || !range[0].is_number() ||
+                !range[1].is_number())
+                return "'ranges' takes {\"knob\": [low, high]}";
+            else
+                promises.ranges[knob] = {range[0].get<double>(), range[1].get<double>()};
         return {};
     }
     for (const Field& field : k_fields)

@@ -7,14 +7,19 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tidemark::lab {
 
 struct Promises {
-    double time_horizon = 1e4;         ///< seconds up to which float and double show the same
+    double time_horizon = 1e4;           ///< seconds up to which float and double show the same
     double most_exhausted_percent = 0.1; ///< rays that may run out of steps
-    double most_witness_percent = 0;   ///< rays that may take a sample below the surface
+    double most_witness_percent = 0;     ///< rays that may take a sample below the surface
     double smoothest_jump = 10; ///< dB that an instant may be less like the next than before and after
+    double space_horizon =
+        1e3; ///< units from its place up to which a camera sees the same in float and double
+    /// What knobs and definitions without a range of their own, or with a wider one, may be set to.
+    std::map<std::string, std::pair<double, double>> ranges;
     std::map<std::string, std::string> skip; ///< probe: why it is not asked
 };
 

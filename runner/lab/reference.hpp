@@ -15,12 +15,13 @@
 
 namespace tidemark::lab {
 
-/// What a frame of a scene depends on. `time` is iTime as the shader has it, in binary32.
+/// What a frame of a scene depends on.
 struct ReferenceInputs {
     std::span<const scene::Knob> knobs{};
     double time = 0;
     glm::dvec2 resolution{640, 360};
     glm::dvec2 mouse{0};                 ///< iMouse.xy
+    bool turning_poles = false;          ///< beyond straight up and down the view turns round (TURNING_POLES)
     int octaves = 7;                     ///< of scenes that compile OCTAVES in
     Lattice3 lattice = IntegerLattice{}; ///< of scenes that compile HASH in
 };

@@ -19,6 +19,7 @@ render::FrameInputs inputs_of(const Situation& situation) {
     inputs.frame = render::frame_at(situation.time, inputs.frame_rate);
     if (situation.mouse)
         inputs.mouse = render::Mouse::clicked(situation.mouse->x, situation.mouse->y, situation.down);
+    inputs.camera = situation.camera.value_or(render::OrbitCamera{}).matrix();
     return inputs;
 }
 
@@ -28,8 +29,13 @@ std::string capture_options(const Situation& situation) {
     if (situation.mouse)
         text += fmt::format(" --mouse {},{}{}", situation.mouse->x, situation.mouse->y,
                             situation.down ? ",down" : "");
+    if (situation.camera)
+        text += fmt::format(" --camera {},{},{}", situation.camera->azimuth, situation.camera->elevation,
+                            situation.camera->distance);
     for (const Setting& setting : situation.settings)
         text += " --set " + quoted(setting.name + "=" + setting.value);
+    for (const Setting& setting : situation.definitions)
+        text += " --define " + quoted(setting.name + "=" + setting.value);
     for (const std::string& channel : situation.channels)
         text += " --channel " + quoted(channel);
     if (!situation.pass.empty())

@@ -5,6 +5,7 @@
 #include "base/extent.hpp"
 #include "lab/setting.hpp"
 #include "render/frame_inputs.hpp"
+#include "render/orbit_camera.hpp"
 
 #include <glm/vec2.hpp>
 
@@ -16,12 +17,14 @@ namespace tidemark::lab {
 
 struct Situation {
     Extent extent{64, 36};
-    double time = 1;                   ///< iTime, seconds
-    std::optional<glm::ivec2> mouse{}; ///< the pixel that was clicked; none: never touched
-    bool down = false;                 ///< in the frame of the click
-    std::vector<Setting> settings{};
-    std::vector<std::string> channels{}; ///< `0=none`, as --channel has them
-    std::string pass{};                  ///< empty: Image
+    double time = 1;                             ///< iTime, seconds
+    std::optional<glm::ivec2> mouse{};           ///< the pixel that was clicked; none: never touched
+    bool down = false;                           ///< in the frame of the click
+    std::optional<render::OrbitCamera> camera{}; ///< of scenes that declare iCamera; none: the host's own
+    std::vector<Setting> settings{};             ///< of knobs
+    std::vector<Setting> definitions{};          ///< of `#define NAME` and `const … NAME`
+    std::vector<std::string> channels{};         ///< `0=none`, as --channel has them
+    std::string pass{};                          ///< empty: Image
 };
 
 /// iFrame is the one at 60 frames a second; before the start it is 0.

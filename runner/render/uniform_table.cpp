@@ -37,6 +37,7 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
     constexpr std::pair<std::string_view, Source> k_names[] = {
         {"iResolution", Source::resolution},
         {"iTime", Source::time},
+        {scene::k_time_low_uniform, Source::time_low},
         {"iTimeDelta", Source::time_delta},
         {"iFrame", Source::frame},
         {"iFrameRate", Source::frame_rate},
@@ -108,6 +109,9 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
         switch (entry.source) {
         case Source::resolution: return {double(resolution.width), double(resolution.height), 1};
         case Source::time: return {inputs.time};
+        // In a scene promoted to double iTime is whole.
+        case Source::time_low:
+            return {entry.uniform.type == GL_DOUBLE ? 0 : inputs.time - double(float(inputs.time))};
         case Source::time_delta: return {inputs.time_delta};
         case Source::frame: return {double(inputs.frame)};
         case Source::frame_rate: return {inputs.frame_rate};

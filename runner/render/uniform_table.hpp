@@ -35,6 +35,7 @@ private:
     enum class Source {
         resolution,
         time,
+        time_low, ///< what binary32 leaves of the time
         time_delta,
         frame,
         frame_rate,

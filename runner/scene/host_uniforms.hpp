@@ -35,15 +35,17 @@ inline constexpr std::array<std::string_view, 4> k_channel_names{"iChannel0", "i
                                                                  "iChannel3"};
 inline constexpr std::array<std::string_view, 4> k_channel_structs{"iCh0", "iCh1", "iCh2", "iCh3"};
 
-/// The matrix of the orbit camera, for a scene that declares it.
+/// Ours, for scenes that declare them: the matrix of the orbit camera, and what iTime, rounded to a float, leaves
+/// of the seconds.
 inline constexpr std::string_view k_camera_uniform = "iCamera";
+inline constexpr std::string_view k_time_low_uniform = "iTimeLow";
 
 /// A name that a scene may not give to a uniform of its own with another meaning.
 inline bool is_host_uniform(std::string_view name) {
     const auto is_name = [&](std::string_view taken) { return taken == name; };
     return std::ranges::any_of(k_site_uniforms, is_name, &SiteUniform::name) ||
            std::ranges::any_of(k_channel_names, is_name) || std::ranges::any_of(k_channel_structs, is_name) ||
-           name == k_camera_uniform || name == "iChannel" || name == "iKeyboard" ||
+           name == k_camera_uniform || name == k_time_low_uniform || name == "iChannel" || name == "iKeyboard" ||
            name.starts_with("tidemark_");
 }
 

@@ -14,12 +14,12 @@ float fbm(vec2 position, vec2 speed, int octaves, float gain, float lacunarity) 
     float height = 1.0;
     for (int octave = 0; octave < octaves; ++octave) {
         ivec2 cells;
-        vec2 drift = vec2(split_product(speed.x, iTime, cells.x), split_product(speed.y, iTime, cells.y));
+        vec2 drift = vec2(split_product(speed.x, seconds(), cells.x), split_product(speed.y, seconds(), cells.y));
         sum += height * value_noise(position + drift, cells);
         total += height;
         height *= gain;
         position = lacunarity * position + vec2(17.3, 43.7);
-        speed *= lacunarity;
+        speed = rate_product(speed, vec2(lacunarity));
     }
     return sum / total;
 }

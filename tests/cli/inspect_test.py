@@ -35,7 +35,7 @@ class Scene(ProgramTest):
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
         self.assertEqual(facts["left_out"], [
             "uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, iChannelTime, "
-            "iChannelResolution, iCamera",
+            "iChannelResolution, iCamera, iTimeLow",
             "knobs: tint", "channels: iChannel0, iChannel2, iChannel3"])
 
     def test_text(self):
@@ -46,7 +46,7 @@ class Scene(ProgramTest):
             "  iChannel1 noise", "  code removed: 1 lines", "  knob      float height = 0.5 in { 0, 2 }",
             "  knob      color3 tint = vec3(1, 0.5, 0)",
             "  left out  uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, "
-            "iChannelTime, iChannelResolution, iCamera",
+            "iChannelTime, iChannelResolution, iCamera, iTimeLow",
             "  left out  knobs: tint", "  left out  channels: iChannel0, iChannel2, iChannel3"])
 
     def test_a_scene_that_reads_no_noise_gets_none(self):

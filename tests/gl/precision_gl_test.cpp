@@ -89,6 +89,7 @@ TEST_F(PrecisionTest, a_day_of_seconds_keeps_its_phase) {
     EXPECT_NEAR(phase, inputs.time - 1e7, 1e-9);
     EXPECT_NEAR(told_in_double("sin(iTime)", inputs), std::sin(inputs.time), 1e-9);
     EXPECT_EQ(told({"fract(iTime)"}, inputs).at(0), 0.0f) << "floats cannot";
+    EXPECT_EQ(told_in_double("iTimeLow", inputs, "uniform float iTimeLow;"), 0) << "nothing is left";
 }
 
 TEST_F(PrecisionTest, every_uniform_arrives_as_a_double) {

@@ -52,6 +52,16 @@ TEST_F(UniformTest, iTime_is_frame_over_fps_computed_in_double) {
                 << frame << " at " << fps;
 }
 
+TEST_F(UniformTest, iTimeLow_is_what_a_float_leaves_of_iTime) {
+    FrameInputs inputs;
+    for (const double time : {0.0, 0.1, 59.983333333333334, 1e6 + 1.0 / 3, -5.1}) {
+        inputs.time = time;
+        const std::vector<float> halves = told({"iTime", "iTimeLow"}, inputs, "uniform float iTimeLow;");
+        EXPECT_EQ(halves[0], float(time));
+        EXPECT_NEAR(double(halves[0]) + double(halves[1]), time, 1e-14 * std::abs(time));
+    }
+}
+
 TEST_F(UniformTest, untouched_mouse_is_zero_bit_by_bit) {
     FrameInputs inputs;
     inputs.mouse = Mouse().uniform();

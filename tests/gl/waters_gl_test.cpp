@@ -57,7 +57,7 @@ protected:
     static lab::Reference reference(const scene::Scene& scene, const Water& water, const FrameInputs& inputs,
                                     Extent extent, lab::Lattice3 lattice = lab::IntegerLattice{}) {
         const auto made = lab::find_reference(water.scene)({.knobs = scene.knobs,
-                                                            .time = float(inputs.time),
+                                                            .time = inputs.time,
                                                             .resolution = {extent.width, extent.height},
                                                             .mouse = {inputs.mouse.x, inputs.mouse.y},
                                                             .octaves = water.octaves,
@@ -89,7 +89,7 @@ TEST_F(Waters, FieldsAreThoseOfTheReferencesAtAnyTime) {
         const scene::Scene scene = asked(
             water.scene, "look(p); c = vec4(march_field(1.0), march_field(9.0), march_field(40.0), 1.0);");
         Renderer drawing = renderer(scene, k_small);
-        for (const double time : {0.0, 10.0, 1000.0, 100000.0, 1000000.0}) {
+        for (const double time : {0.0, 10.0, 1000.1, 100000.1, 1000000.3}) {
             const FrameInputs inputs = at(time, 30, 15);
             const image::Image image = frame(drawing, inputs);
             const lab::Reference truth = reference(scene, water, inputs, k_small);
@@ -145,13 +145,13 @@ TEST_F(Waters, StylizedWavesAreTheirFormulasInDouble) {
         asked("stylized_waves", "vec2 at = 1.25 * (p - vec2(32.0, 18.0));\n"
                                 "vec4 field = vec4(0.375 * p.x, 0.03125 * p.y, 0.125 * p.x, "
                                 "0.5 - 0.0625 * p.y);\n"
-                                "turns = fract_of_product(iTime, 1.0 / wave_speed);\n"
+                                "turns = fract_of_product(1.0 / wave_speed, seconds());\n"
                                 "c = vec4(phase_of(field, at), wave_mask(field, at), "
                                 "water_height(field, at), 1.0);");
     const auto ramps = image::read_picture(k_shaders / "../textures/wave_ramps.png");
     ASSERT_TRUE(ramps) << to_string(ramps.error());
     Renderer drawing = renderer(scene, k_small);
-    for (const double time : {0.0, 10.0, 1000.0, 1000000.0}) {
+    for (const double time : {0.0, 10.0, 1000.1, 1000000.3}) {
         const image::Image image = frame(drawing, at(time, 0, 0));
         double phase = 0, mask = 0, height = 0;
         for (int y = 0; y < k_small.height; ++y)

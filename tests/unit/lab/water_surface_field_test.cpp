@@ -43,6 +43,16 @@ TEST_F(WaterSurfaceField, HasTheBoundsThatAreProvedByHand) {
     EXPECT_NEAR(field.highest, 0.6, 1e-6);
 }
 
+TEST_F(WaterSurfaceField, TheViewRestsAtThePolesOrTurnsRound) {
+    const glm::dvec2 upper_edge{24, 27};
+    inputs_.mouse = {24, 4}; // pitch below -90 degrees
+    EXPECT_LT(glm::distance(reference().ray({24, 13.5}).direction, {0, -1, 0}), 1e-9);
+    EXPECT_GT(reference().ray(upper_edge).direction.z, 0.4);
+    inputs_.turning_poles = true;
+    EXPECT_LT(reference().ray({24, 13.5}).direction.z, -0.05);
+    EXPECT_LT(reference().ray(upper_edge).direction.z, -0.2);
+}
+
 TEST_F(WaterSurfaceField, StaysWithinItsBounds) {
     const Field field = reference().field;
     std::mt19937 random(7);

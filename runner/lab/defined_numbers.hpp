@@ -1,0 +1,27 @@
+// The numbers that a scene's text defines by name, `#define NAME` and `const … NAME`, and what names speak
+// of.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::lab {
+
+struct DefinedNumber {
+    std::string name;
+    double value;
+    bool whole; ///< written without a point
+};
+
+/// Those whose name holds one of `words`, in the text's order.
+std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene,
+                                           std::initializer_list<std::string_view> words);
+
+/// Whether the name holds one of the words, which are in lower case, in any case.
+bool speaks_of(std::string_view name, std::initializer_list<std::string_view> words);
+
+} // namespace tidemark::lab
