@@ -50,6 +50,7 @@ const std::vector<Column>& columns() {
     static const std::vector<Column> k_columns = [] {
         std::vector<Column> list{
             hit("rms_t", &HitErrors::rms),
+            hit("rms_right_t", &HitErrors::rms_right),
             hit("median_t", &HitErrors::median),
             hit("p95_t", &HitErrors::p95),
             hit("p99_t", &HitErrors::p99),

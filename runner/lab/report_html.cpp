@@ -74,6 +74,7 @@ std::vector<Column> columns_of(const WorkPrecisionSet& set) {
                                }});
         };
         hit("RMS t", &HitErrors::rms);
+        hit("RMS t of right hits", &HitErrors::rms_right);
         hit("p99 t", &HitErrors::p99);
         hit("largest t", &HitErrors::largest);
         hit("false miss %", &HitErrors::false_miss);
