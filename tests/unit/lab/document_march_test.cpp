@@ -81,10 +81,11 @@ TEST(DocumentMarch, HasTheErrorsOfAnIndependentProgram) {
     });
     const std::vector<double> footprint(truth.size(), 1.0 / k_extent.height);
     const auto errors = [&](int most_steps, double touching) {
-        return hit_errors(truth, hits_of_view(reference, [&](const Ray& ray) {
-                              return sphere_trace(reference, ray, most_steps, touching);
-                          }),
-                          footprint);
+        return hit_errors(
+            truth,
+            hits_of_view(reference,
+                         [&](const Ray& ray) { return sphere_trace(reference, ray, most_steps, touching); }),
+            footprint);
     };
     const HitErrors usual = errors(128, 1e-4);
     EXPECT_NEAR(usual.rms, 0.108, 0.0005);
