@@ -77,6 +77,7 @@ void add_check(CLI::App& app, Action& chosen) {
         app.add_subcommand("check", "Tells whether a scene's numbers can be trusted, and where not");
     ProbesRequest& probes = options->probes;
     add_scene_options(*command, probes.scene);
+    add_precision_options(*command, probes.scene);
     command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]")
         ->type_name("NAME")
         ->type_size(1)
@@ -104,7 +105,11 @@ void add_check(CLI::App& app, Action& chosen) {
     command->callback([options, &chosen] {
         if (!options->list && options->probes.scene.path.empty())
             throw CLI::RequiredError("SCENE");
-        chosen = [options] {
+        chosen = [options]() -> Result<int> {
+            if (options->probes.scene.doubles)
+                return fail(ErrorCode::usage,
+                            "check looks for what floats get wrong, and draws in double "
+                            "itself what it holds them against: leave --precision double out");
             return options->list       ? list_probes()
                    : options->portable ? check_portable(*options)
                    : options->traced   ? trace(*options)

@@ -120,8 +120,6 @@ Result<int> check_trace(const TraceOptions& options) {
         return fail(frames.error());
     if (frames->frames.size() != 1)
         return fail(ErrorCode::usage, "--trace looks at one frame: give --frame N or --time T");
-    if (options.scene.doubles)
-        return fail(ErrorCode::usage, "--trace follows floats: leave --precision double out");
     if (!(options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
     const auto pixel = parse_pixel(options.pixel, frames->extent);

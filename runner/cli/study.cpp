@@ -4,23 +4,18 @@
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
-#include "cli/version.hpp"
+#include "cli/study_support.hpp"
 #include "gl/capabilities.hpp"
 #include "lab/baseline.hpp"
 #include "lab/conduct.hpp"
 #include "lab/report.hpp"
 #include "lab/report_data.hpp"
-#include "lab/verdict.hpp"
 #include "platform/headless_context.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <ctime>
 #include <memory>
-#include <thread>
 
 namespace tidemark::cli {
 namespace fs = std::filesystem;
@@ -94,7 +89,8 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
     }
     if (!axes.empty())
         study->series = lab::series_of(axes);
-    if (study->sources.empty())
+    study->precision = precision_of(options.scene);
+    if (study->sources.empty() && study->precision == glsl::Precision::single)
         study->sources = {{"rounding", {}, true}};
     for (const std::string& text : options.reference) {
         auto settings = lab::parse_settings(text, "--reference");
@@ -123,31 +119,8 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
     return study;
 }
 
-/// A line of progress for each part of the study.
-class Watcher {
-public:
-    explicit Watcher(Interrupt& interrupt) : interrupt_(interrupt) {}
-
-    lab::Watch watch() {
-        return {[this](const std::string& what, size_t total) {
-                    progress_ = std::make_unique<Progress>(what, total);
-                },
-                [this] { progress_->advance(); }, [this] { return !interrupt_.requested(); }};
-    }
-    void finish() { progress_.reset(); }
-
-private:
-    Interrupt& interrupt_;
-    std::unique_ptr<Progress> progress_;
-};
-
-std::string local_time() {
-    return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
-}
-
-void note_circumstances(lab::Circumstances& facts, const scene::Scene& scene) {
+void note_scene_and_driver(lab::Circumstances& facts, const scene::Scene& scene) {
     const gl::Capabilities driver = gl::query_capabilities();
-    facts.tidemark = k_version;
     facts.scene = scene.file.string();
     std::string text = scene.common.text();
     for (const scene::Pass& pass : scene.passes)
@@ -155,14 +128,6 @@ void note_circumstances(lab::Circumstances& facts, const scene::Scene& scene) {
     facts.scene_sha256 = sha256(std::as_bytes(std::span(text)));
     facts.renderer = driver.renderer;
     facts.driver = driver.version;
-    facts.cores = int(std::thread::hardware_concurrency());
-}
-
-/// The folder is made before anything is measured, so that an hour's work has a place to go.
-Result<void> prepare_folder(const fs::path& folder) {
-    if (auto made = make_folder(folder); !made)
-        return made;
-    return write_file(folder / "study.json", "{\"complete\": false}\n");
 }
 
 /// Prints what became worse; the number of such findings.
@@ -194,26 +159,20 @@ Result<int> study(const StudyOptions& options) {
     const auto baseline = options.baseline.empty() ? Result<std::string>() : read_text_file(options.baseline);
     if (!baseline)
         return fail(baseline.error());
-    if (auto made = prepare_folder(folder); !made)
+    if (auto made = prepare_report(folder); !made)
         return fail(std::move(made.error()));
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
-    Watcher watcher(interrupt);
-    const std::string started = local_time();
-    auto findings = lab::conduct(*scene, *plan, options.timing, watcher.watch());
+    StudyWatcher watcher(interrupt);
+    auto findings = lab::conduct(*scene, *plan, options.timing, watcher.watch(), circumstances_now());
     watcher.finish();
     if (!findings)
         return fail(std::move(findings.error()));
-    note_circumstances(findings->set.circumstances, *scene);
-    findings->set.circumstances.started = started;
+    note_scene_and_driver(findings->set.circumstances, *scene);
     if (auto written = lab::write_report(folder, *findings); !written)
         return fail(std::move(written.error()));
-    for (const std::string& sentence : lab::sentences(findings->set))
-        say(sentence);
-    for (const std::string& remark : findings->set.circumstances.remarks)
-        say(remark);
-    say(fmt::format("wrote {}", (folder / "report.html").string()));
+    say_findings(findings->set, folder);
     if (options.json)
         if (auto printed = put(lab::to_json(findings->set)); !printed)
             return fail(std::move(printed.error()));
@@ -232,6 +191,7 @@ void add_study(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<StudyOptions>();
     CLI::App* command = app.add_subcommand("study", "Error against run time");
     add_scene_options(*command, options->scene);
+    add_precision_options(*command, options->scene);
     const auto one_each = [](CLI::Option* option) {
         option->type_size(1)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     };

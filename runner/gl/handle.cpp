@@ -30,4 +30,8 @@ void delete_buffer(GLuint id) {
     glDeleteBuffers(1, &id);
 }
 
+void delete_query(GLuint id) {
+    glDeleteQueries(1, &id);
+}
+
 } // namespace tidemark::gl

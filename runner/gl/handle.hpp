@@ -40,6 +40,7 @@ void delete_vertex_array(GLuint id);
 void delete_shader(GLuint id);
 void delete_program(GLuint id);
 void delete_buffer(GLuint id);
+void delete_query(GLuint id);
 
 using TextureHandle = Handle<delete_texture>;
 using SamplerHandle = Handle<delete_sampler>;
@@ -48,5 +49,6 @@ using VertexArrayHandle = Handle<delete_vertex_array>;
 using ShaderHandle = Handle<delete_shader>;
 using ProgramHandle = Handle<delete_program>;
 using BufferHandle = Handle<delete_buffer>;
+using QueryHandle = Handle<delete_query>;
 
 } // namespace tidemark::gl

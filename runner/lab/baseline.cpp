@@ -37,7 +37,7 @@ void compare_errors(const WorkPrecisionSet& set, const Json& before, const WorkP
 void compare_times(const Json& before, const WorkPrecision& now, Comparison& found) {
     const double was = number_at(before, "/all/wall_ms/median"),
                  high = number_at(before, "/all/wall_ms/ci95_high");
-    const TimeSummary& time = now.all.time;
+    const TimeSummary& time = now.all.wall; // whatever clock the two studies went by
     if (time.median > was * k_slower && time.confidence.low > high)
         found.worse.push_back(fmt::format("{}: slower: {} ms -> {} ms [{}, {}]", now.point.label, figure(was),
                                           figure(time.median), figure(time.confidence.low),

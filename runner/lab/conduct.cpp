@@ -2,11 +2,11 @@
 
 #include "gl/capabilities.hpp"
 #include "lab/outcome.hpp"
-#include "lab/timing.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace tidemark::lab {
@@ -14,9 +14,11 @@ namespace {
 
 class Conductor {
 public:
-    Conductor(const scene::Scene& scene, const Study& study, const Timing& timing, const Watch& watch)
+    Conductor(const scene::Scene& scene, const Study& study, const Timing& timing, const Watch& watch,
+              const Circumstances& circumstances)
         : scene_(scene), timing_(timing), watch_(watch) {
         findings_.set.study = study;
+        findings_.set.circumstances = circumstances;
         for (Point& point : points_of(study))
             findings_.set.points.emplace_back().point = std::move(point);
         specimens_.resize(set().points.size());
@@ -31,7 +33,12 @@ public:
                 return fail(std::move(done.error()));
         hold_against_truth();
         take_sources_away();
-        const bool complete = time_points(timing_, watch_, specimens_, findings_.set);
+        const bool complete = time_points(
+            timing_, watch_,
+            [this](size_t point, size_t view, bool ask_gpu) {
+                return specimens_[point]->time(study().views[view], ask_gpu);
+            },
+            findings_.set);
         set().circumstances.complete = complete && !stopped_;
         judge(set());
         findings_.evidence.reference = std::move(truth_.pictures);
@@ -107,7 +114,8 @@ private:
                 point.failure = "interrupted";
                 continue;
             }
-            auto specimen = Specimen::create(scene_, {point.point.settings}, study().extent);
+            auto specimen =
+                Specimen::create(scene_, {point.point.settings, study().precision}, study().extent);
             auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
             if (!sight && i == 0) // the scene as it is
                 return fail(std::move(sight.error()));
@@ -129,8 +137,7 @@ private:
         auto pictures = converged_pictures(scene_, study(), [this] { return going(); });
         if (!pictures)
             return fail(std::move(pictures.error()));
-        truth_recipe_ = {pictures->settings, pictures->not_promoted.empty() ? glsl::Precision::promoted
-                                                                            : glsl::Precision::single};
+        truth_recipe_ = {pictures->settings, pictures->precision};
         if (!pictures->not_promoted.empty())
             remark("the reference is in single precision: " + pictures->not_promoted);
         set().picture_standard = std::move(pictures->standard);
@@ -149,8 +156,26 @@ private:
             truth_.hits = std::move(pictures->hits);
             truth_.footprints.assign(study().views.size(), plain_footprint(study().extent));
         }
+        if (study().precision != glsl::Precision::single && set().has_hits())
+            allow_for_read_back(set().hit_standard);
         watch_.advance();
         return {};
+    }
+
+    /// Distances computed in double come out of mainHit as floats: no error is known better than that.
+    void allow_for_read_back(Standard& standard) const {
+        double squares = 0;
+        size_t count = 0;
+        for (const Hits& hits : truth_.hits)
+            for (const double distance : hits.distance)
+                if (distance >= 0) {
+                    squares += distance * distance;
+                    ++count;
+                }
+        const double rounding = 0x1p-24 * std::sqrt(squares / double(std::max<size_t>(1, count)));
+        if (standard.uncertainty)
+            standard.uncertainty = std::max(*standard.uncertainty, rounding);
+        standard.check += fmt::format("; distances are read back as floats, to {:.2g}", rounding);
     }
 
     /// Where a march has a proof, the rays of the pictures' reference are held against it.
@@ -199,13 +224,13 @@ private:
         const std::optional<Share> model = model_share(true_sight);
         for (size_t i = 0; i < set().points.size() && going(); ++i) {
             WorkPrecision& point = set().points[i];
-            Recipe recipe{point.point.settings};
+            Recipe recipe{point.point.settings, study().precision};
             const Sight* before = &sights_[i];
             for (const ErrorSource& source : study().sources) {
                 if (!point.measured())
                     break;
                 recipe.settings.insert(recipe.settings.end(), source.settings.begin(), source.settings.end());
-                if (source.doubles)
+                if (source.doubles && recipe.precision == glsl::Precision::single)
                     recipe.precision = glsl::Precision::promoted;
                 const auto sight = sight_of(recipe);
                 if (!sight) {
@@ -253,8 +278,8 @@ private:
 } // namespace
 
 Result<Findings> conduct(const scene::Scene& scene, const Study& study, const Timing& timing,
-                         const Watch& watch) {
-    return Conductor(scene, study, timing, watch).run();
+                         const Watch& watch, const Circumstances& circumstances) {
+    return Conductor(scene, study, timing, watch, circumstances).run();
 }
 
 } // namespace tidemark::lab

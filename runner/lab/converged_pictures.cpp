@@ -117,7 +117,7 @@ double pooled_rmse(const std::vector<image::Image>& left, const std::vector<imag
 
 Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
                                         const KeepGoing& keep_going) {
-    auto first = show(scene, study, {strictest(study, 0)}, keep_going);
+    auto first = show(scene, study, {strictest(study, 0), study.precision}, keep_going);
     if (!first)
         return fail(std::move(first.error()));
     if (!*first)
@@ -131,7 +131,7 @@ Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& 
         std::vector<Setting> settings = strictest(study, step);
         if (settings == best.settings)
             break;
-        auto next = show(scene, study, {settings}, keep_going);
+        auto next = show(scene, study, {settings, study.precision}, keep_going);
         if (!next || !*next) {
             if (change)
                 break;
@@ -155,14 +155,21 @@ Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& 
             best.seconds > k_longest_step)
             break;
     }
-    std::string not_promoted = fmt::format("it took {:.0f} s in floats already", best.seconds);
-    if (best.seconds <= k_longest_step) {
+    // What is in double already, like the points, is stricter by its settings alone.
+    const bool to_promote = study.precision == glsl::Precision::single;
+    std::string not_promoted;
+    if (to_promote && best.seconds > k_longest_step)
+        not_promoted = fmt::format("it took {:.0f} s in floats already", best.seconds);
+    if (to_promote && not_promoted.empty()) {
         auto promoted = show(scene, study, {best.settings, glsl::Precision::promoted}, keep_going);
         not_promoted = !promoted ? to_string(promoted.error()) : !*promoted ? "interrupted" : "";
         if (promoted && *promoted)
             best = **std::move(promoted);
     }
     PictureTruth truth = truth_of(std::move(best), change, how);
+    truth.precision = !to_promote            ? study.precision
+                      : not_promoted.empty() ? glsl::Precision::promoted
+                                             : glsl::Precision::single;
     truth.not_promoted = std::move(not_promoted);
     return truth;
 }

@@ -27,16 +27,16 @@ struct Mark {
     std::string label;
 };
 
-std::vector<Mark> marks_of(const WorkPrecisionSet& set, Cost across, size_t series) {
+std::vector<Mark> marks_of(const WorkPrecisionSet& set, Across across, size_t series) {
     std::vector<Mark> marks;
     for (const WorkPrecision& point : set.points) {
         if (point.point.series != series || !point.measured())
             continue;
-        const TimeSummary& time = point.all.time;
+        const TimeSummary& time = point.all.time();
         const double work = point.all.hits ? point.all.hits->evaluations : 0;
         Mark mark{time.median,  time.confidence.low, time.confidence.high, error_of(set, point.all),
                   point.hollow, point.on_front,      point.point.knob};
-        if (across == Cost::work)
+        if (across == Across::work)
             mark.cost = mark.low = mark.high = work;
         if (mark.cost > 0 && mark.error > 0 && std::isfinite(mark.error))
             marks.push_back(std::move(mark));
@@ -62,10 +62,10 @@ std::string front(std::vector<Mark> marks) {
     return block("front", marks);
 }
 
-std::string plot_of(const std::string& name, const std::string& title, const char* colour, Cost across) {
+std::string plot_of(const std::string& name, const std::string& title, const char* colour, Across across) {
     std::string text =
         fmt::format("  ${0} using 1:2 with lines lw 1.2 lc rgb '{1}' notitle, \\\n", name, colour);
-    if (across == Cost::time)
+    if (across == Across::time)
         text += fmt::format("  ${0} using 1:2:3:4 with xerrorbars pt -1 lw 1 lc rgb '{1}' notitle, \\\n",
                             name, colour);
     text += fmt::format("  ${0} using ($5==0?$1:NaN):2 with points pt 7 ps 0.9 lc rgb '{1}' title {2}, \\\n"
@@ -77,7 +77,7 @@ std::string plot_of(const std::string& name, const std::string& title, const cha
 
 } // namespace
 
-std::string diagram_script(const WorkPrecisionSet& set, Cost across, const std::string& name) {
+std::string diagram_script(const WorkPrecisionSet& set, Across across, const std::string& name) {
     std::string blocks, plots;
     std::vector<Mark> all;
     for (size_t i = 0; i <= set.study.series.size(); ++i) {
@@ -86,7 +86,7 @@ std::string diagram_script(const WorkPrecisionSet& set, Cost across, const std::
             continue;
         const bool own = i < set.study.series.size();
         const std::string block_name = fmt::format("s{}", i);
-        std::string title = own ? set.study.series[i].name : "the scene as it is";
+        std::string title = own ? set.study.series[i].name : set.words.defaults;
         if (own && set.study.series[i].trust != Trust::unknown)
             title += fmt::format(" ({})", to_string(set.study.series[i].trust));
         blocks += block(block_name, marks);
@@ -98,12 +98,12 @@ std::string diagram_script(const WorkPrecisionSet& set, Cost across, const std::
         return {};
     std::string script = "set encoding utf8\nset logscale xy\nset format '%g'\nset grid lc rgb '#dddddd'\n"
                          "set key below noenhanced\nset border lc rgb '#666666'\n";
-    script += fmt::format("set xlabel {}\nset ylabel {} noenhanced\n",
-                          across == Cost::time ? "'milliseconds a frame, median with 95 % interval'"
-                                               : "'field evaluations a pixel'",
+    script += fmt::format("set xlabel {} offset 0,0.4\nset ylabel {} noenhanced\n",
+                          across == Across::time ? "'milliseconds, median with 95 % interval'"
+                                                 : quoted_text(set.words.work),
                           quoted_text(error_name(set)));
     script += blocks;
-    if (across == Cost::time) {
+    if (across == Across::time) {
         script += front(all);
         plots = "  $front using 1:2 with steps lw 6 lc rgb '#e8e8d0' title 'front', \\\n" + plots;
     }

@@ -71,7 +71,8 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
     std::vector<double> differences;
     size_t false_miss = 0, false_hit = 0, hundredth = 0, tenth = 0, pixel = 0, exhausted = 0, negative = 0,
            none = 0;
-    double squares = 0, evaluations = 0;
+    double squares = 0, right_squares = 0, evaluations = 0;
+    size_t right = 0;
     for (size_t i = 0; i < test.size(); ++i) {
         const double expected = reference.distance[i], found = test.distance[i];
         evaluations += double(test.evaluations[i]);
@@ -86,7 +87,12 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
         if (!met(expected) || !met(found))
             continue;
         differences.push_back(std::abs(found - expected));
-        squares += differences.back() * differences.back();
+        const double square = differences.back() * differences.back();
+        squares += square;
+        if (wrong(expected, found, k_wrong_distance))
+            continue;
+        ++right;
+        right_squares += square;
     }
     errors.both = differences.size();
     if (errors.both > 0) {
@@ -95,6 +101,7 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
             return differences[size_t(part * double(differences.size() - 1))];
         };
         errors.rms = std::sqrt(squares / double(errors.both));
+        errors.rms_right = right == 0 ? 0.0 : std::sqrt(right_squares / double(right));
         errors.median = at(0.5);
         errors.p95 = at(0.95);
         errors.p99 = at(0.99);

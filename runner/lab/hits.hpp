@@ -25,10 +25,14 @@ struct Hits {
 /// answer.
 Hits hits_of(const image::Image& image);
 
+/// A first hit that is off by more has met another wave, or stopped on its way to this one.
+inline constexpr double k_wrong_distance = 0.1;
+
 struct HitErrors {
     size_t pixels = 0;
-    size_t both = 0; ///< pixels where reference and test met something: the next five are over them
+    size_t both = 0; ///< pixels where reference and test met something: the next six are over them
     double rms = 0;
+    double rms_right = 0; ///< over those of them that are off by at most k_wrong_distance
     double median = 0;
     double p95 = 0;
     double p99 = 0;
@@ -60,8 +64,6 @@ enum class Cause : uint8_t {
 };
 inline constexpr size_t k_causes = 7;
 std::string_view to_string(Cause cause);
-
-inline constexpr double k_wrong_distance = 0.1;
 
 std::vector<Cause> causes(const Hits& reference, const Hits& test);
 

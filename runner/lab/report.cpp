@@ -45,15 +45,15 @@ private:
     }
 
     Result<void> write_diagrams() {
-        if (auto done = write_diagram(Cost::time, "error-vs-time"); !done)
+        if (auto done = write_diagram(Across::time, "error-vs-time"); !done)
             return done;
         if (!set_.has_hits())
             return {};
-        return write_diagram(Cost::work, "error-vs-work");
+        return write_diagram(Across::work, "error-vs-work");
     }
 
     /// The script is written in any case: who has gnuplot elsewhere can run it there.
-    Result<void> write_diagram(Cost across, const std::string& name) {
+    Result<void> write_diagram(Across across, const std::string& name) {
         const std::string script = diagram_script(set_, across, name);
         if (script.empty()) {
             remark(fmt::format("{} has no point: every error is 0, or nothing was timed", name));
@@ -105,10 +105,10 @@ private:
     }
 
     Result<void> write_maps() {
-        if (auto made = make_folder(folder_ / "maps"); !made)
-            return made;
         if (evidence_.reference.empty())
             return {};
+        if (auto made = make_folder(folder_ / "maps"); !made)
+            return made;
         const size_t view = shown_view();
         media_.pictures_view = set_.study.views[view].name;
         const image::Image& reference = evidence_.reference[view];

@@ -50,6 +50,7 @@ const std::vector<Column>& columns() {
     static const std::vector<Column> k_columns = [] {
         std::vector<Column> list{
             hit("rms_t", &HitErrors::rms),
+            hit("rms_right_t", &HitErrors::rms_right),
             hit("median_t", &HitErrors::median),
             hit("p95_t", &HitErrors::p95),
             hit("p99_t", &HitErrors::p99),
@@ -76,7 +77,8 @@ const std::vector<Column>& columns() {
                         return double(m.samples.one_non_finite + m.samples.both_non_finite);
                     }),
         };
-        for (const auto& [group, clock] : {std::pair{"wall_ms", &Outcome::time}, {"cpu_ms", &Outcome::cpu}}) {
+        for (const auto& [group, clock] :
+             {std::pair{"wall_ms", &Outcome::wall}, {"cpu_ms", &Outcome::cpu}, {"gpu_ms", &Outcome::gpu}}) {
             list.push_back(time(group, "median", clock, [](const TimeSummary& t) { return t.median; }));
             list.push_back(
                 time(group, "ci95_low", clock, [](const TimeSummary& t) { return t.confidence.low; }));
@@ -102,13 +104,20 @@ Json settings_json(const std::vector<Setting>& settings) {
     return json;
 }
 
+bool measured(const WorkPrecisionSet& set, const Outcome& outcome, std::string_view group) {
+    return group == "hits"      ? set.has_hits()
+           : group == "picture" ? set.has_pictures()
+           : group == "gpu_ms"  ? outcome.gpu.runs > 0
+                                : true;
+}
+
 Json outcome_json(const WorkPrecisionSet& set, const Outcome& outcome) {
     Json json;
     for (const Column& column : columns())
-        if (set.has_hits() || std::string_view(column.group) != "hits")
+        if (measured(set, outcome, column.group))
             json[column.group][column.name] = number(column.of(outcome));
-    if (outcome.time.runs > 0)
-        json["wall_ms"]["drifted"] = outcome.time.drifted;
+    if (outcome.wall.runs > 0)
+        json["wall_ms"]["drifted"] = outcome.wall.drifted;
     if (outcome.hits)
         for (size_t i = 1; i < k_causes; ++i)
             json["causes"][std::string(to_string(Cause(i)))] = outcome.causes[i];
@@ -180,12 +189,13 @@ std::string to_json(const WorkPrecisionSet& set) {
         {"tidemark", facts.tidemark},
         {"scene", {{"file", facts.scene}, {"sha256", facts.scene_sha256}}},
         {"about", set.study.about},
-        {"size", {set.study.extent.width, set.study.extent.height}},
+        {"size", set.has_pictures() ? Json{set.study.extent.width, set.study.extent.height} : Json(nullptr)},
+        {"precision", set.study.precision == glsl::Precision::single ? "single" : "double"},
         {"views", views_json(set.study)},
         {"error", error_name(set)},
         {"promise",
          {{"wrong_percent", set.study.promise.most_wrong_percent}, {"psnr", set.study.promise.least_psnr}}},
-        {"references", {{"picture", standard_json(set.picture_standard)}}},
+        {"references", Json::object()},
         {"machine",
          {{"renderer", facts.renderer},
           {"driver", facts.driver},
@@ -200,6 +210,8 @@ std::string to_json(const WorkPrecisionSet& set) {
         {"verdict", sentences(set)},
         {"remarks", facts.remarks},
         {"points", Json::array()}};
+    if (set.has_pictures())
+        json["references"]["picture"] = standard_json(set.picture_standard);
     if (set.has_hits())
         json["references"]["hits"] = standard_json(set.hit_standard);
     for (const WorkPrecision& point : set.points)
@@ -225,7 +237,8 @@ std::string to_csv(const WorkPrecisionSet& set) {
                             csv_text(all ? "all" : set.study.views[view].name), int(point.hollow),
                             int(point.on_front), point.compile_milliseconds, point.first_draw_milliseconds);
             for (const Column& column : columns()) {
-                const double value = column.of(all ? point.all : point.views[view]);
+                const Outcome& outcome = all ? point.all : point.views[view];
+                const double value = measured(set, outcome, column.group) ? column.of(outcome) : missing();
                 text += std::isnan(value) ? "," : fmt::format(",{:.9g}", value);
             }
             text += '\n';

@@ -19,7 +19,7 @@ h1 { margin-bottom: 0; } h2 { margin-top: 2.5rem; } .about { opacity: .75; }
 .verdict p { margin: .3rem 0; } .warning { border-color: #d55e00; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 13px; }
 .wide { overflow-x: auto; } th, td { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid var(--line); }
-th:first-child, td:first-child { text-align: left; } tr.front { background: #e6e6a040; font-weight: 600; }
+th:first-child, td:first-child { text-align: left; } td + td { white-space: nowrap; } tr.front { background: #e6e6a040; font-weight: 600; }
 tr.hollow td:first-child::after { content: " \25cb"; } .failed { color: #c03030; text-align: left; white-space: pre-wrap; }
 figure { margin: 1rem 0; } img { max-width: 100%; height: auto; background: #fff; }
 .slider { position: relative; display: inline-block; line-height: 0; max-width: 100%; }
@@ -65,6 +65,23 @@ struct Column {
     std::function<std::string(const WorkPrecision&)> cell;
 };
 
+void add_picture_columns(std::vector<Column>& columns) {
+    columns.push_back({"PSNR dB", [](const WorkPrecision& p) { return number(p.all.picture.samples.psnr); }});
+    columns.push_back(
+        {"SSIM", [](const WorkPrecision& p) { return fmt::format("{:.5f}", p.all.picture.ssim); }});
+    columns.push_back({"FLIP", [](const WorkPrecision& p) { return number(p.all.picture.flip); }});
+    columns.push_back({"not finite", [](const WorkPrecision& p) {
+                           const auto& s = p.all.picture.samples;
+                           return fmt::format("{}", s.one_non_finite + s.both_non_finite);
+                       }});
+}
+
+void add_compiling_columns(std::vector<Column>& columns) {
+    columns.push_back({"compile ms", [](const WorkPrecision& p) { return number(p.compile_milliseconds); }});
+    columns.push_back(
+        {"first draw ms", [](const WorkPrecision& p) { return number(p.first_draw_milliseconds); }});
+}
+
 std::vector<Column> columns_of(const WorkPrecisionSet& set) {
     std::vector<Column> columns;
     if (set.has_hits()) {
@@ -74,6 +91,7 @@ std::vector<Column> columns_of(const WorkPrecisionSet& set) {
                                }});
         };
         hit("RMS t", &HitErrors::rms);
+        hit("RMS t of right hits", &HitErrors::rms_right);
         hit("p99 t", &HitErrors::p99);
         hit("largest t", &HitErrors::largest);
         hit("false miss %", &HitErrors::false_miss);
@@ -82,24 +100,21 @@ std::vector<Column> columns_of(const WorkPrecisionSet& set) {
         hit("wrong by a pixel %", &HitErrors::wrong_footprint);
         hit("evaluations", &HitErrors::evaluations);
     }
-    columns.push_back({"PSNR dB", [](const WorkPrecision& p) { return number(p.all.picture.samples.psnr); }});
+    if (set.has_pictures())
+        add_picture_columns(columns);
     columns.push_back(
-        {"SSIM", [](const WorkPrecision& p) { return fmt::format("{:.5f}", p.all.picture.ssim); }});
-    columns.push_back({"FLIP", [](const WorkPrecision& p) { return number(p.all.picture.flip); }});
-    columns.push_back({"not finite", [](const WorkPrecision& p) {
-                           const auto& s = p.all.picture.samples;
-                           return fmt::format("{}", s.one_non_finite + s.both_non_finite);
-                       }});
-    columns.push_back({"ms a frame [95 %]", [](const WorkPrecision& p) {
-                           const TimeSummary& t = p.all.time;
-                           return fmt::format("{} [{}, {}]{}", number(t.median), number(t.confidence.low),
-                                              number(t.confidence.high), t.drifted ? " drift" : "");
-                       }});
-    columns.push_back({"least ms", [](const WorkPrecision& p) { return number(p.all.time.smallest); }});
+        {"ms [95 %]", [](const WorkPrecision& p) {
+             const TimeSummary& t = p.all.time();
+             const std::string interval =
+                 t.runs < k_fewest_runs
+                     ? fmt::format("[{} rounds]", t.runs)
+                     : fmt::format("[{}, {}]", number(t.confidence.low), number(t.confidence.high));
+             return fmt::format("{} {}{}", number(t.median), interval, t.drifted ? " drift" : "");
+         }});
+    columns.push_back({"least ms", [](const WorkPrecision& p) { return number(p.all.time().smallest); }});
     columns.push_back({"CPU ms", [](const WorkPrecision& p) { return number(p.all.cpu.median); }});
-    columns.push_back({"compile ms", [](const WorkPrecision& p) { return number(p.compile_milliseconds); }});
-    columns.push_back(
-        {"first draw ms", [](const WorkPrecision& p) { return number(p.first_draw_milliseconds); }});
+    if (set.has_pictures())
+        add_compiling_columns(columns);
     return columns;
 }
 
@@ -136,7 +151,8 @@ std::string views_table(const WorkPrecisionSet& set) {
             continue;
         html += fmt::format("<tr><td>{}</td>", escaped(point.point.label));
         for (const Outcome& view : point.views)
-            html += fmt::format("<td>{} / {} ms</td>", number(error_of(set, view)), number(view.time.median));
+            html +=
+                fmt::format("<td>{} / {} ms</td>", number(error_of(set, view)), number(view.time().median));
         html += "</tr>\n";
     }
     return html + "</table></div>\n";
@@ -166,7 +182,7 @@ std::string shares_table(const WorkPrecisionSet& set) {
 }
 
 std::string causes_table(const WorkPrecisionSet& set) {
-    if (!set.has_hits())
+    if (!set.has_hits() || !set.has_pictures())
         return {};
     std::string html =
         "<h2>Why first hits are wrong</h2>\n<p>Pixels wrong by more than 0.1, all views together; the "
@@ -226,20 +242,27 @@ std::string method(const WorkPrecisionSet& set) {
     std::string html = "<h2>How it was measured</h2>\n<dl>\n";
     if (set.has_hits())
         html += standard("hits", set.hit_standard);
-    html += standard("pictures", set.picture_standard);
+    if (set.has_pictures())
+        html += standard("pictures", set.picture_standard);
     html += fmt::format(
-        "<dt>Time</dt><dd>{}; {} warm-up rounds, then {} rounds; in each every setting draws every view "
+        "<dt>Time</dt><dd>{}; {} warm-up rounds, then {} rounds; in each every setting has its turn with "
+        "every view "
         "once, in an order shuffled anew (fixed seed); a setting that would take more than its share of the "
         "time sits "
         "rounds out. Medians with 95 % bootstrap intervals; compiling "
         "and the first draw apart. &ldquo;All&rdquo; is the mean over the views of each round.</dd>\n",
         escaped(facts.clock), facts.warm_up_rounds, facts.timed_rounds);
-    html += fmt::format(
-        "<dt>Machine</dt><dd>{}, OpenGL {}; {} cores; load {:.2f} before, {:.2f} after the timing.</dd>\n",
-        escaped(facts.renderer), escaped(facts.driver), facts.cores, facts.load_before, facts.load_after);
-    html += fmt::format("<dt>Scene</dt><dd>{} (SHA-256 of its text {}), {}x{} pixels, float target.</dd>\n",
+    html += fmt::format("<dt>Machine</dt><dd>{}{} cores; load {:.2f} before, {:.2f} after the timing.</dd>\n",
+                        facts.renderer.empty()
+                            ? std::string()
+                            : fmt::format("{}, OpenGL {}; ", escaped(facts.renderer), escaped(facts.driver)),
+                        facts.cores, facts.load_before, facts.load_after);
+    if (set.has_pictures())
+        html +=
+            fmt::format("<dt>Scene</dt><dd>{} (SHA-256 of its text {}), {}x{} pixels, float target{}.</dd>\n",
                         escaped(facts.scene), facts.scene_sha256.substr(0, 16), set.study.extent.width,
-                        set.study.extent.height);
+                        set.study.extent.height,
+                        set.study.precision == glsl::Precision::single ? "" : ", drawn in double");
     html += fmt::format("<dt>Program</dt><dd>tidemark {}, started {}.</dd>\n</dl>\n", facts.tidemark,
                         facts.started);
     return html;

@@ -1,5 +1,6 @@
 #include "lab/specimen.hpp"
 
+#include "gl/elapsed_time.hpp"
 #include "glsl/hit.hpp"
 
 #include <GL/glcorearb.h>
@@ -79,13 +80,21 @@ std::vector<std::string> Specimen::kept_hashes() const {
     return {names.begin(), names.end()};
 }
 
-Elapsed Specimen::time(const View& view) {
+Cost Specimen::time(const View& view, bool ask_gpu) {
     const render::FrameInputs inputs = inputs_of(view, extent_);
     glFinish();
     const Stopwatch watch;
+    std::optional<gl::ElapsedTime> gpu;
+    if (ask_gpu)
+        gpu.emplace();
     renderer_->draw(inputs);
+    if (gpu)
+        gpu->stop();
     glFinish();
-    return watch.elapsed();
+    Cost cost{watch.elapsed(), {}};
+    if (gpu)
+        cost.gpu = gpu->milliseconds();
+    return cost;
 }
 
 } // namespace tidemark::lab

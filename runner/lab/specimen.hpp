@@ -5,7 +5,7 @@
 #include "base/result.hpp"
 #include "lab/hits.hpp"
 #include "lab/setting.hpp"
-#include "lab/stopwatch.hpp"
+#include "lab/timing.hpp"
 #include "lab/view.hpp"
 #include "render/renderer.hpp"
 
@@ -30,9 +30,8 @@ public:
     bool has_hits() const { return hit_scene_.has_value(); }
     Result<Hits> hits(const View& view);
 
-    /// Milliseconds on the wall and of this process's CPU for one more picture of that view, from idle to
-    /// idle.
-    Elapsed time(const View& view);
+    /// One more picture of that view, from idle to idle.
+    Cost time(const View& view, bool ask_gpu);
 
     /// What computes in floats although the recipe says double: hashes, by the names of their functions.
     std::vector<std::string> kept_hashes() const;

@@ -3,6 +3,7 @@
 
 #include "base/extent.hpp"
 #include "base/result.hpp"
+#include "glsl/dialect.hpp"
 #include "lab/setting.hpp"
 #include "lab/view.hpp"
 
@@ -41,6 +42,7 @@ struct Promise {
 struct Study {
     std::string about; ///< a sentence for the report
     Extent extent{320, 180};
+    glsl::Precision precision = glsl::Precision::single; ///< that the points are drawn in
     std::vector<View> views;
     std::vector<Series> series;
     std::vector<Setting>

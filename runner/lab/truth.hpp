@@ -5,9 +5,9 @@
 #include "lab/hits.hpp"
 #include "lab/reference.hpp"
 #include "lab/specimen.hpp"
+#include "lab/watch.hpp"
 #include "lab/work_precision.hpp"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,9 +21,6 @@ struct HitTruth {
     std::vector<Reference> references;           ///< of each view, where there is one in double
 };
 
-/// Asked between two pieces of work; false: stop here.
-using KeepGoing = std::function<bool()>;
-
 /// Marches the scene's reference in double, for scenes that have one (lab/reference.hpp). Nothing: it has
 /// none, or it was stopped.
 Result<std::optional<HitTruth>> certified_hits(const scene::Scene& scene, const Study& study,
@@ -36,7 +33,8 @@ struct PictureTruth {
     std::vector<Hits> hits; ///< empty without mainHit
     Standard hit_standard;
     std::vector<Setting> settings; ///< that it was drawn with
-    std::string not_promoted;      ///< why it is in single precision, where it is
+    glsl::Precision precision = glsl::Precision::single;
+    std::string not_promoted; ///< why it is in single precision, where it is
 };
 
 /// Draws the scene with the study's reference settings or, without any, with the strictest value of every

@@ -9,7 +9,7 @@ namespace tidemark::lab {
 namespace {
 
 bool timed(const WorkPrecision& point) {
-    return point.measured() && point.all.time.runs > 0;
+    return point.measured() && point.all.time().runs > 0;
 }
 
 bool keeps(const WorkPrecisionSet& set, const WorkPrecision& point) {
@@ -17,14 +17,14 @@ bool keeps(const WorkPrecisionSet& set, const WorkPrecision& point) {
     const auto& hits = point.all.hits;
     if (set.has_hits() && !(hits && hits->wrong_tenth <= promise.most_wrong_percent))
         return false;
-    return point.all.picture.samples.psnr >= promise.least_psnr;
+    return !set.has_pictures() || point.all.picture.samples.psnr >= promise.least_psnr;
 }
 
 template <class Wanted>
 const WorkPrecision* cheapest(const WorkPrecisionSet& set, Wanted wanted) {
     const WorkPrecision* best = nullptr;
     for (const WorkPrecision& point : set.points)
-        if (timed(point) && wanted(point) && (!best || point.all.time.median < best->all.time.median))
+        if (timed(point) && wanted(point) && (!best || point.all.time().median < best->all.time().median))
             best = &point;
     return best;
 }
@@ -36,7 +36,7 @@ std::string promise_of(const WorkPrecisionSet& set) {
 }
 
 std::string cost_of(const WorkPrecision& point) {
-    const TimeSummary& time = point.all.time;
+    const TimeSummary& time = point.all.time();
     if (std::isnan(time.confidence.low))
         return fmt::format("{} ms, too few rounds for an interval", figure(time.median));
     return fmt::format("{} ms [{}, {}]", figure(time.median), figure(time.confidence.low),
@@ -68,15 +68,15 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
         return fmt::format("no verdict at equal error: too few rounds of {} and the defaults fit the budget",
                            best->point.label);
     if (best == &defaults)
-        return "nothing in this study is as exact as the scene's defaults and cheaper";
+        return fmt::format("nothing in this study is as exact as {} and cheaper", set.words.defaults);
     if (!gain->certain())
         return fmt::format(
-            "at equal error nothing is faster than the scene's defaults beyond noise (the nearest: {}, "
-            "{:.2f} x [{:.2f}, {:.2f}])",
-            best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high);
-    return fmt::format("at equal error {:.2f} x [{:.2f}, {:.2f}] {} than the scene's defaults: {}",
-                       gain->ratio, gain->confidence.low, gain->confidence.high,
-                       gain->ratio > 1 ? "faster" : "slower", best->point.label);
+            "at equal error nothing is faster than {} beyond noise (the nearest: {}, {:.2f} x [{:.2f}, "
+            "{:.2f}])",
+            set.words.defaults, best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high);
+    return fmt::format("at equal error {:.2f} x [{:.2f}, {:.2f}] {} than {}: {}", gain->ratio,
+                       gain->confidence.low, gain->confidence.high, gain->ratio > 1 ? "faster" : "slower",
+                       set.words.defaults, best->point.label);
 }
 
 } // namespace
@@ -88,7 +88,7 @@ std::string figure(double value) {
 std::optional<Speedup> speedup(const WorkPrecision& slow, const WorkPrecision& fast) {
     if (!timed(slow) || !timed(fast))
         return std::nullopt;
-    const std::vector<double> a = mean_of_views(slow.wall), b = mean_of_views(fast.wall);
+    const std::vector<double> a = mean_of_views(slow.rounds()), b = mean_of_views(fast.rounds());
     std::vector<double> ratios;
     for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
         if (!std::isnan(a[i] / b[i]))
@@ -108,19 +108,22 @@ const WorkPrecision* cheapest_as_exact(const WorkPrecisionSet& set) {
 }
 
 std::vector<std::string> sentences(const WorkPrecisionSet& set) {
-    std::vector<std::string> found{cheapest_sentence(set)};
+    std::vector<std::string> found;
+    if (set.has_pictures()) // a promise is about what is to be seen
+        found.push_back(cheapest_sentence(set));
     if (std::string sentence = equal_error_sentence(set); !sentence.empty())
         found.push_back(std::move(sentence));
     const auto drifted = std::ranges::count_if(
-        set.points, [](const WorkPrecision& point) { return point.measured() && point.all.time.drifted; });
+        set.points, [](const WorkPrecision& point) { return point.measured() && point.all.time().drifted; });
     if (drifted > 0)
         found.push_back(
             fmt::format("times of {} of {} points drifted while they were measured: the machine was busy",
                         drifted, set.points.size()));
     const auto hollow = std::ranges::count_if(set.points, &WorkPrecision::hollow);
     if (hollow > 0)
-        found.push_back(fmt::format(
-            "{} points are too near the reference to be told from its own error (hollow)", hollow));
+        found.push_back(
+            fmt::format("{} too near the reference to be told from its own error (hollow)",
+                        hollow == 1 ? std::string("1 point is") : fmt::format("{} points are", hollow)));
     if (!set.circumstances.complete)
         found.push_back("incomplete: the study was interrupted");
     return found;

@@ -9,13 +9,13 @@ namespace {
 constexpr double k_solid = 10; ///< an error is worth showing from so many uncertainties of the reference up
 
 bool timed(const WorkPrecision& point) {
-    return point.measured() && point.all.time.runs > 0;
+    return point.measured() && point.all.time().runs > 0;
 }
 
 /// At least as good in both, better in one.
 bool dominates(const WorkPrecisionSet& set, const WorkPrecision& a, const WorkPrecision& b) {
     const double error_a = error_of(set, a.all), error_b = error_of(set, b.all);
-    const double time_a = a.all.time.median, time_b = b.all.time.median;
+    const double time_a = a.all.time().median, time_b = b.all.time().median;
     return error_a <= error_b && time_a <= time_b && (error_a < error_b || time_a < time_b);
 }
 
@@ -26,7 +26,7 @@ double error_of(const WorkPrecisionSet& set, const Outcome& outcome) {
 }
 
 std::string error_name(const WorkPrecisionSet& set) {
-    return set.has_hits() ? "RMS error of the hit distance" : "RMSE of the picture";
+    return set.has_hits() ? set.words.distance_error : "RMSE of the picture";
 }
 
 std::vector<double> mean_of_views(const std::vector<std::vector<double>>& clock) {

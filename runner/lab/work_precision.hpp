@@ -22,8 +22,12 @@ struct Outcome {
     std::optional<double>
         normal_degrees; ///< median angle between the true normals at the true and the found hit
     std::array<size_t, k_causes> causes{};
-    TimeSummary time; ///< wall clock, milliseconds a frame
+    TimeSummary wall; ///< wall clock, milliseconds a frame
     TimeSummary cpu;  ///< CPU time of the process
+    TimeSummary gpu;  ///< the driver's timer, where it is believed; else without runs
+
+    /// By the clock that the study goes by.
+    const TimeSummary& time() const { return gpu.runs > 0 ? gpu : wall; }
 };
 
 /// What taking one source of error away changed.
@@ -44,11 +48,14 @@ struct WorkPrecision {
     /// comparable between points.
     std::vector<std::vector<double>> wall;
     std::vector<std::vector<double>> cpu;
+    std::vector<std::vector<double>> gpu; ///< empty where the driver's timer is not believed
     double compile_milliseconds = 0;
     double first_draw_milliseconds = 0;
     bool hollow = false;   ///< its error is under ten times the reference's uncertainty
     bool on_front = false; ///< no other point is both cheaper and better
 
+    /// By the clock that the study goes by.
+    const std::vector<std::vector<double>>& rounds() const { return gpu.empty() ? wall : gpu; }
     bool measured() const { return failure.empty() && !views.empty(); }
 };
 
@@ -77,21 +84,30 @@ struct Circumstances {
     std::vector<std::string> remarks; ///< omissions and what else a reader should know
 };
 
+/// What a report calls its subject.
+struct Words {
+    std::string distance_error = "RMS error of the hit distance"; ///< where there are hits
+    std::string work = "field evaluations a pixel";
+    std::string defaults = "the scene's defaults"; ///< the first point
+};
+
 struct WorkPrecisionSet {
     Study study;
+    Words words;
     Circumstances circumstances;
     Standard hit_standard;
     Standard picture_standard;
     std::vector<WorkPrecision> points; ///< points_of(study), in that order
 
     bool has_hits() const { return !hit_standard.method.empty(); }
+    bool has_pictures() const { return !picture_standard.method.empty(); }
 };
 
 /// The error that diagrams and verdicts are about: RMS of t where there are hits, else RMSE of the picture.
 double error_of(const WorkPrecisionSet& set, const Outcome& outcome);
 std::string error_name(const WorkPrecisionSet& set);
 
-/// The mean over the views of each round, from `wall` or `cpu`.
+/// The mean over the views of each round, of one clock.
 std::vector<double> mean_of_views(const std::vector<std::vector<double>>& clock);
 
 /// Marks hollow points and the Pareto front of error and median time.

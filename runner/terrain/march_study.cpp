@@ -149,17 +149,31 @@ MarchSample study_march(const KnownCase& known, int side, Stencil stencil) {
     const std::vector<double> source = known_from_circle(map, 1.0);
     MarchSample sample;
     sample.side = side;
+    sample.spacing = map.spacing();
     const double start = cpu_seconds();
     sample.work = fast_march(map, source, stencil);
     sample.seconds = cpu_seconds() - start;
 
     std::array<NormSum, 3> sums; // by Region
     for (int node = 0; node < side * side; ++node)
-        if (const Point p = map.position(node); map.is_water(node) && length(p) < 1.0)
-            sums[size_t(known.region(p))].add(std::abs(sample.work.of_node[size_t(node)] - known.exact(p)));
+        if (const Point p = map.position(node); map.is_water(node) && length(p) < 1.0) {
+            const Region region = known.region(p);
+            const double exact = known.exact(p), found = sample.work.of_node[size_t(node)];
+            sums[size_t(region)].add(std::abs(found - exact));
+            if (region == Region::left_out)
+                continue;
+            sample.ways.exact.push_back(exact);
+            sample.ways.found.push_back(found);
+        }
     sample.errors = {sums[0].norms(), sums[1].norms()};
     sample.work.of_node.clear();
     return sample;
+}
+
+std::function<void()> march_of(const KnownCase& known, int side, Stencil stencil) {
+    HeightMap map = map_of(known, side);
+    std::vector<double> source = known_from_circle(map, 1.0);
+    return [map = std::move(map), source = std::move(source), stencil] { fast_march(map, source, stencil); };
 }
 
 } // namespace tidemark::terrain

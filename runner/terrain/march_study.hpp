@@ -4,8 +4,10 @@
 #include "terrain/fast_marching.hpp"
 
 #include <array>
+#include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace tidemark::terrain {
 
@@ -37,14 +39,25 @@ struct ErrorNorms {
     double rms = 0.0;
 };
 
+/// Of every node that counts, in radii.
+struct Ways {
+    std::vector<double> exact;
+    std::vector<double> found;
+};
+
 /// One solution, in units of the circle's radius.
 struct MarchSample {
     int side = 0;
+    double spacing = 0.0;             ///< of the nodes
+    Ways ways;                        ///< of both regions
     std::array<ErrorNorms, 2> errors; ///< by Region
     double seconds = 0.0;             ///< CPU time of the march, the shore's polygons included
     Distances work;                   ///< `of_node` empty
 };
 
 MarchSample study_march(const KnownCase& known, int side, Stencil stencil);
+
+/// That march ready to be run again and again, for a clock.
+std::function<void()> march_of(const KnownCase& known, int side, Stencil stencil);
 
 } // namespace tidemark::terrain

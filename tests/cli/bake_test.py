@@ -1,4 +1,5 @@
 """`bake`: the pictures that scenes need, judged by their bytes."""
+import json
 import math
 
 from support import png
@@ -172,6 +173,25 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
             largest, _, rms, order = last[1].split()
             self.assertAlmostEqual(float(order), float(title[-1]), delta=0.1, msg=title)
             self.assertLess(float(rms), float(largest), title)
+
+    def test_study_as_a_report(self):
+        done = self.succeed("bake", "island", "--study", "-o", "march", "--budget", "0.01")
+        self.assertIn("wrote march/report.html", done.stderr)
+        study = json.loads((self.folder / "march/study.json").read_text())
+        self.assertEqual((study["schema"], study["complete"]), ("tidemark study 1", True))
+        points = {point["label"]: point for point in study["points"]}
+        self.assertEqual(len(points), 11)
+        rms = [points[f"order = 2, nodes a side = {n}"]["all"]["hits"]["rms_t"] for n in (64, 128, 256, 512, 1024)]
+        self.assertEqual(rms, sorted(rms, reverse=True))
+        self.assertEqual(points["defaults"]["all"]["hits"]["rms_t"], rms[3])
+        # The table's figure of the same marches: all nodes of open water but the middle, 2.7e-5 at 256.
+        table = [line.split("|") for line in done.stdout.decode().splitlines()]
+        smooth = [float(row[1].split()[2]) for row in table if row[0].strip() == "256"][1]
+        overall = points["order = 2, nodes a side = 256"]["views"]["open water"]["hits"]["rms_t"]
+        self.assertTrue(smooth < overall < 2 * smooth, (smooth, overall))
+        for name in ("points.csv", "error-vs-time.gp", "error-vs-work.gp", "report.html"):
+            self.assertGreater((self.folder / "march" / name).stat().st_size, 1000, name)
+        self.expect_failure(["bake", "island", "--budget", "3"], 2, "tidemark: error: --budget requires --study")
 
 
 class Usage(ProgramTest):

@@ -111,6 +111,9 @@ class Pictures(Study):
             self.assertLessEqual(times["smallest"], times["median"])
             self.assertLessEqual(times["ci95_low"], times["ci95_high"])
         self.assertEqual(study["timing"]["warm_up_rounds"], 10)
+        clock = "wall clock around glFinish"
+        if "llvmpipe" in study["machine"]["renderer"]:  # its timer sees some of the work only
+            self.assertRegex(study["timing"]["clock"], clock + r" \(the driver's GPU timer, .* is not believed\)")
 
     def test_one_bad_point_does_not_end_the_study(self):
         self.write("sum.glsl", SUM)
@@ -148,6 +151,27 @@ class Hits(Study):
         self.assertEqual(wrong, [87.5, 87.5, 0])
         self.assertEqual(points["N = 4"]["all"]["causes"]["exhaustion"], 2 * 14 * 9)
         self.assertEqual(study["error"], "RMS error of the hit distance")
+
+    def test_points_in_double(self):
+        self.write("plane.glsl", PLANE.replace("1e-9", "1e-12"))
+        single = self.points(self.study("plane.glsl", "--vary", "N=8,16,32", "--reference", "N=64"))
+        study = self.study("plane.glsl", "--vary", "N=8,16,32", "--reference", "N=64", "--precision", "double")
+        self.assertEqual(study["precision"], "double")
+        self.assertIn("promoted to double", study["references"]["picture"]["method"])
+        self.assertIn("read back as floats, to 3e-07", study["references"]["hits"]["self_check"])
+        double = self.points(study)
+        self.assertNotIn("rounding", [share["source"] for share in double["N = 8"]["shares"]])
+        for n in (8, 16):  # what the steps leave is larger than a rounding of either
+            self.assertAlmostEqual(double[f"N = {n}"]["all"]["hits"]["rms_t"] / (5 * 0.5 ** n), 1, places=2)
+        self.assertTrue(double["N = 32"]["hollow"])
+        self.assertAlmostEqual(single["N = 8"]["all"]["hits"]["rms_t"], double["N = 8"]["all"]["hits"]["rms_t"],
+                               places=6)
+
+    def test_a_point_that_cannot_be_promoted_ends_with_its_place(self):
+        self.write("deep.glsl", SUM.replace("c = vec4", "gl_FragDepth = 0.5; c = vec4"))
+        done = self.run_program("study", "deep.glsl", "--vary", "STEPS=4,8", "--precision", "double", *QUICK)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("deep.glsl:", done.stderr)
 
     def test_error_is_taken_apart(self):
         self.write("plane.glsl", PLANE)

@@ -31,7 +31,9 @@ Image picture(Extent extent, int (*sample)(int, int, int)) {
 /// RMSE, PSNR, relative MSE: NumPy 1.24. SSIM: scikit-image 0.19.3, structural_similarity of each channel
 /// with gaussian_weights, sigma 1.5, use_sample_covariance off, data_range 1, averaged. FLIP: the authors'
 /// own FLIP.h (NVlabs/flip 1.6, float), fed with the same pictures made linear; it differs from ours by 4e-6
-/// at most in any pixel.
+/// at most in any pixel. On the photograph that their bindings for Rust are tested with (nv-flip,
+/// etc/tree-ref and tree-test, 67 pixels a degree) a mean of 0.133285 and a largest value of 0.983044 are
+/// published: ours are 0.1332863 and 0.9830439.
 struct Published {
     Extent extent;
     double rmse, psnr, relative_mse, ssim, flip, largest_flip;

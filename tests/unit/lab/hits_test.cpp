@@ -47,6 +47,7 @@ TEST(HitErrors, count_what_is_wrong_in_each_way) {
     EXPECT_EQ(errors.pixels, 7u);
     EXPECT_EQ(errors.both, 3u);
     EXPECT_NEAR(errors.rms, std::sqrt((0.0025 + 0.25) / 3), 1e-12);
+    EXPECT_NEAR(errors.rms_right, std::sqrt(0.0025 / 2), 1e-12); // without the one that is off by 0.5
     EXPECT_NEAR(errors.median, 0.05, 1e-12);
     EXPECT_EQ(errors.largest, 0.5);
     EXPECT_DOUBLE_EQ(errors.false_miss, one);

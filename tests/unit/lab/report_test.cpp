@@ -26,7 +26,7 @@ WorkPrecision point(size_t series, const std::string& label, double rmse, double
     std::vector<double> rounds;
     for (int i = 0; i < 30; ++i)
         rounds.push_back(milliseconds * (1 + 0.01 * (i * 7 % 5)));
-    outcome.time = summary_of(rounds);
+    outcome.wall = summary_of(rounds);
     made.wall = made.cpu = {rounds};
     made.views = {outcome};
     made.all = outcome;
@@ -117,20 +117,20 @@ TEST(Data, csv_has_a_row_for_each_view_and_quotes_what_needs_it) {
 }
 
 TEST(Diagram, draws_every_series_the_front_and_hollow_points) {
-    const std::string script = diagram_script(usual(), Cost::time, "error-vs-time");
+    const std::string script = diagram_script(usual(), Across::time, "error-vs-time");
     EXPECT_THAT(script, HasSubstr("set output 'error-vs-time.svg'"));
     EXPECT_THAT(script, HasSubstr("set logscale xy"));
     EXPECT_THAT(script, HasSubstr("title 'N <of it> (heuristic)'"));
     EXPECT_THAT(script, HasSubstr("$front << EOD"));
     EXPECT_THAT(script, HasSubstr("5e-05"));
-    EXPECT_EQ(diagram_script(usual(), Cost::work, "w"), ""); // no hits, no work
+    EXPECT_EQ(diagram_script(usual(), Across::work, "w"), ""); // no hits, no work
 }
 
 TEST(Diagram, texts_are_no_commands) {
     WorkPrecisionSet set = usual();
     set.study.series[0].name = "x'; system('rm') ; \n'";
     set.points[1].point.knob = "a\"b";
-    const std::string script = diagram_script(set, Cost::time, "t");
+    const std::string script = diagram_script(set, Across::time, "t");
     EXPECT_THAT(script, HasSubstr("title 'x''; system(''rm'') ;  '' (heuristic)'"));
     EXPECT_THAT(script, HasSubstr("\"a'b\""));
 }
@@ -187,6 +187,77 @@ TEST(Timing, rounds_are_spread_evenly_and_end_together) {
         EXPECT_EQ(rounds, std::min<size_t>(affordable, 40));
         EXPECT_TRUE(takes_part(39, affordable, 40));
     }
+}
+
+TEST(Data, what_a_set_has_not_is_left_out) {
+    WorkPrecisionSet set = usual();
+    set.picture_standard = {};
+    set.hit_standard = {"closed forms", 1e-15, "exact"};
+    set.words = {"RMS error of the way", "local solutions a node", "the bake's own setting"};
+    for (WorkPrecision& p : set.points)
+        p.all.hits = p.views[0].hits = HitErrors{.pixels = 4, .both = 4, .rms = p.all.picture.samples.rmse};
+    judge(set);
+    const auto json = nlohmann::json::parse(to_json(set));
+    EXPECT_FALSE(json["references"].contains("picture"));
+    EXPECT_FALSE(json["points"][0]["all"].contains("picture"));
+    EXPECT_EQ(json["error"], "RMS error of the way");
+    const std::string page = to_html(set, {});
+    EXPECT_THAT(page, Not(HasSubstr("PSNR")));
+    EXPECT_THAT(page, Not(HasSubstr("float target")));
+    EXPECT_THAT(sentences(set), ElementsAre(HasSubstr("faster than the bake's own setting: 16")));
+    EXPECT_THAT(diagram_script(set, Across::work, "x"), testing::IsEmpty()); // nobody counted
+    EXPECT_THAT(diagram_script(set, Across::time, "x"), HasSubstr("title 'the bake''s own setting'"));
+}
+
+// ---- Clocks ---------------------------------------------------------------------------------------------
+
+/// A set of two points on one view, timed by a machine whose runs take 10 and 20 ms and whose driver says
+/// `ratio` of that; 0: it has no timer.
+WorkPrecisionSet timed_with(double ratio, size_t& asked) {
+    WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 20), point(0, "8", 0.1, 5)});
+    for (WorkPrecision& p : set.points)
+        p.wall.clear(), p.cpu.clear(), p.views[0].wall = p.all.wall = {};
+    asked = 0;
+    const Watch watch{[](const std::string&, size_t) {}, [] {}, [] { return true; }};
+    const Run run = [&](size_t index, size_t, bool ask_gpu) {
+        const double wall = index == 0 ? 20 : 10;
+        asked += ask_gpu;
+        Cost cost{{wall, 2 * wall}, {}};
+        if (ask_gpu && ratio > 0)
+            cost.gpu = ratio * wall;
+        return cost;
+    };
+    EXPECT_TRUE(time_points({4, 6, 1000}, watch, run, set));
+    return set;
+}
+
+TEST(Clock, the_drivers_timer_is_used_where_it_agrees_with_the_wall) {
+    size_t asked = 0;
+    const WorkPrecisionSet set = timed_with(0.95, asked);
+    EXPECT_EQ(asked, 2u * 10);
+    EXPECT_EQ(set.circumstances.clock,
+              "GPU timer, which says 0.95 to 0.95 of the wall clock around glFinish");
+    EXPECT_EQ(set.points[0].all.time().median, 19);
+    EXPECT_EQ(set.points[0].all.wall.median, 20);
+    EXPECT_EQ(set.points[0].all.cpu.median, 40);
+    const auto json = nlohmann::json::parse(to_json(set));
+    EXPECT_EQ(json["points"][1]["all"]["gpu_ms"]["median"], 9.5);
+    EXPECT_EQ(json["points"][1]["all"]["wall_ms"]["median"], 10);
+}
+
+TEST(Clock, a_timer_that_lies_is_found_out_and_asked_no_more) {
+    size_t asked = 0;
+    const WorkPrecisionSet set = timed_with(0.07, asked);
+    EXPECT_EQ(asked, 2u * 4); // the warm-up
+    EXPECT_THAT(set.circumstances.clock,
+                HasSubstr("GPU timer, which says 0.07 to 0.07 of it, is not believed"));
+    EXPECT_EQ(set.points[0].all.time().median, 20);
+    EXPECT_FALSE(nlohmann::json::parse(to_json(set))["points"][1]["all"].contains("gpu_ms"));
+}
+
+TEST(Clock, without_a_timer_it_is_the_wall) {
+    size_t asked = 0;
+    EXPECT_EQ(timed_with(0, asked).circumstances.clock, "wall clock around glFinish");
 }
 
 } // namespace

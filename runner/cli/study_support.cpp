@@ -1,0 +1,45 @@
+#include "cli/study_support.hpp"
+
+#include "base/file.hpp"
+#include "cli/console.hpp"
+#include "cli/version.hpp"
+#include "lab/verdict.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <thread>
+
+namespace tidemark::cli {
+
+lab::Watch StudyWatcher::watch() {
+    return {[this](const std::string& what, size_t total) {
+                progress_ = std::make_unique<Progress>(what, total);
+            },
+            [this] { progress_->advance(); }, [this] { return !interrupt_.requested(); }};
+}
+
+lab::Circumstances circumstances_now() {
+    lab::Circumstances facts;
+    facts.tidemark = k_version;
+    facts.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    facts.cores = int(std::thread::hardware_concurrency());
+    return facts;
+}
+
+Result<void> prepare_report(const std::filesystem::path& folder) {
+    if (auto made = make_folder(folder); !made)
+        return made;
+    return write_file(folder / "study.json", "{\"complete\": false}\n");
+}
+
+void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder) {
+    for (const std::string& sentence : lab::sentences(set))
+        say(sentence);
+    for (const std::string& remark : set.circumstances.remarks)
+        say(remark);
+    say(fmt::format("wrote {}", (folder / "report.html").string()));
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,37 @@
+// What every study on the command line needs: who watches it, and what is noted of the day.
+#pragma once
+
+#include "base/result.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "lab/watch.hpp"
+#include "lab/work_precision.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace tidemark::cli {
+
+/// A line of progress for each part of the study.
+class StudyWatcher {
+public:
+    explicit StudyWatcher(Interrupt& interrupt) : interrupt_(interrupt) {}
+
+    lab::Watch watch();
+    void finish() { progress_.reset(); }
+
+private:
+    Interrupt& interrupt_;
+    std::unique_ptr<Progress> progress_;
+};
+
+/// The program, the moment and the machine's cores.
+lab::Circumstances circumstances_now();
+
+/// The folder is made before anything is measured, so that an hour's work has a place to go.
+Result<void> prepare_report(const std::filesystem::path& folder);
+
+/// Sentences and remarks for people, and where the report is.
+void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder);
+
+} // namespace tidemark::cli
