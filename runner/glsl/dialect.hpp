@@ -40,6 +40,7 @@ struct Dialect {
         true; ///< variables without a value start at zero, and `out fragColor` as the site's does
     ChannelKinds channels{};
     Precision precision = Precision::single;
+    bool joins_overloads = false; ///< functions named as built-in ones stand beside them: glsl/overloads.hpp
 
     bool operator==(const Dialect&) const = default;
 };

@@ -1,6 +1,7 @@
 #include "glsl/pass_reading.hpp"
 
 #include "glsl/hit.hpp"
+#include "glsl/overloads.hpp"
 #include "glsl/prologue.hpp"
 #include "glsl/rewrite.hpp"
 
@@ -55,11 +56,14 @@ PassReading::PassReading(const scene::Scene& scene, const scene::Pass& pass)
 std::vector<Dialect> PassReading::dialects(Precision precision) const {
     const ChannelKinds channels = channel_kinds(scene_, pass_);
     const std::vector<MainPlace> places = places_to_try(facts_, pass_.kind);
+    const bool overloads = overloads_builtins(tokens_, preprocessed_);
     std::vector<Dialect> dialects;
     if (precision != Precision::single) {
         for (const MainPlace place : places)
             dialects.push_back({Version::core_450, place, true, channels, precision});
         dialects.push_back({Version::core_330, places.front(), true, channels, precision});
+        if (overloads)
+            dialects.push_back({Version::core_450, places.front(), true, channels, precision, true});
         if (precision == Precision::promoted)
             dialects.push_back(
                 {Version::core_450, places.front(), true, channels, Precision::promoted_whole});
@@ -69,6 +73,8 @@ std::vector<Dialect> PassReading::dialects(Precision precision) const {
         dialects.push_back({Version::core_330, place, true, channels});
     for (const Version version : {Version::core_450, Version::es_300})
         dialects.push_back({version, places.front(), true, channels});
+    if (overloads)
+        dialects.push_back({Version::core_330, places.front(), true, channels, Precision::single, true});
     dialects.push_back({Version::core_330, places.front(), false, channels});
     return dialects;
 }
@@ -78,6 +84,7 @@ Result<Assembly> PassReading::assemble(const Dialect& dialect) const {
     const Rewriting changes = rewrite(text_.text(), tokens_, preprocessed_, facts_, dialect);
     text::MappedText body;
     body.append_generated(prologue(scene_, pass_, facts_, dialect));
+    body.append_generated(changes.functions);
     if (dialect.main == MainPlace::first)
         body.append_generated(ours.prototype + ours.main);
     text::MappedText author = text_;

@@ -27,6 +27,7 @@ bool initialises_colour(const Survey& survey, const Dialect& dialect);
 struct Rewriting {
     std::vector<text::Edit> edits;       ///< sorted, without overlap
     std::vector<std::string> extensions; ///< the text's own #extension lines that go to the top
+    std::string functions;               ///< of ours, that the edited text calls
 };
 
 Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
