@@ -45,6 +45,7 @@ public:
         if (dialect_.initialise)
             add(initialise_variables(tokens_, preprocessed_));
         add(separate_signs(tokens_, preprocessed_));
+        add(settle_arguments(tokens_, preprocessed_));
         if (dialect_.joins_overloads) {
             JoinedOverloads joined = join_overloads(tokens_, preprocessed_);
             result_.functions = std::move(joined.functions);

@@ -38,6 +38,10 @@ Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
 std::vector<text::Edit> initialise_variables(const std::vector<text::Token>& tokens,
                                              const Preprocessed& preprocessed);
 
+/// Without the directives that stand among the arguments of a macro; see conditional_arguments.cpp.
+std::vector<text::Edit> settle_arguments(const std::vector<text::Token>& tokens,
+                                         const Preprocessed& preprocessed);
+
 /// A blank where two signs would meet once the macros are expanded; see spacing.cpp.
 std::vector<text::Edit> separate_signs(const std::vector<text::Token>& tokens,
                                        const Preprocessed& preprocessed);
