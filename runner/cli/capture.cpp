@@ -1,3 +1,4 @@
+#include "base/file.hpp"
 #include "cli/capture_run.hpp"
 #include "cli/capture_sound.hpp"
 #include "cli/commands.hpp"
@@ -157,6 +158,9 @@ Result<int> capture(const CaptureOptions& options) {
     auto scene = load(options.scene);
     if (!scene)
         return fail(std::move(scene.error()));
+    if (!plan->output.standard_output())
+        if (auto writable = check_writable(plan->output.of_frame(plan->frames.frames.front())); !writable)
+            return fail(std::move(writable.error()));
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());

@@ -215,6 +215,16 @@ class Json(CaptureTest):
 
 
 class CannotWrite(CaptureTest):
+    def test_is_said_before_anything_is_compiled(self):
+        self.write("broken.glsl", "void mainImage(out vec4 c, in vec2 p) { c = none; }\nvec2 mainSound(float t) { none; }\n")
+        for name in ("none/a.png", "none/%04d.exr", "none/a.mp4", "none/a.wav"):
+            with self.subTest(name=name):
+                done = self.run_program("capture", "broken.glsl", *SIZE, "-o", name)
+                self.assertEqual((done.returncode, done.stderr),
+                                 (4, f"tidemark: error: cannot write '{name.replace('%04d', '0000')}': "
+                                     "No such file or directory\n"))
+        self.assertEqual(self.files(), {"wave.glsl", "broken.glsl"})
+
     def test_folder_that_does_not_exist(self):
         self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "none/a.png"], 4,
                             "tidemark: error: cannot write 'none/a.png': No such file or directory")
