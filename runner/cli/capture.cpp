@@ -195,10 +195,10 @@ void add_capture(CLI::App& app, Action& chosen) {
     add_picture_options(*command, options->frames);
     add_time_options(*command, options->frames);
     command
-        ->add_option(
-            "-o,--output", options->output,
-            "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; a video: .mp4 .webm .gif; - for "
-            "raw RGB frames on standard output [SCENE.png]")
+        ->add_option("-o,--output", options->output,
+                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
+                     "a cube; a video: .mp4 .webm .gif; - for "
+                     "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
         ->add_option(
