@@ -12,6 +12,9 @@
 namespace tidemark::glsl {
 namespace {
 
+/// What tells a text that it runs in the VS Code extension or, here, in a host that gives it the same.
+constexpr std::string_view k_extension_macro = "SHADER_TOY";
+
 std::vector<MainPlace> places_to_try(const Survey& facts, scene::PassKind kind) {
     std::vector<MainPlace> places;
     if (!facts.mains.empty())
@@ -42,6 +45,8 @@ text::MappedText whole_text(const scene::Scene& scene, const scene::Pass& pass) 
     text::MappedText text;
     if (pass.kind == scene::PassKind::hit)
         text.append_generated(fmt::format("#define {} 1\n", k_hit_macro));
+    if (pass.bare_file && pass.text.text().find(k_extension_macro) != std::string::npos)
+        text.append_generated(fmt::format("#define {}\n", k_extension_macro));
     text.append(scene.common);
     text.append(pass.text);
     return text;

@@ -39,7 +39,7 @@ private:
             values_[count_++] = double(*begin);
     }
 
-    std::array<double, 16> values_{};
+    std::array<double, 3 * scene::k_channel_count> values_{};
     size_t count_ = 0;
 };
 
@@ -59,6 +59,8 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         {"iChannelTime", Source::channel_time},
         {"iChannelResolution", Source::channel_resolution},
         {scene::k_camera_uniform, Source::camera},
+        {scene::k_view_uniform, Source::view},
+        {scene::k_mouse_button_uniform, Source::mouse_button},
         // The VS Code extension fills these where a text declares them.
         {"resolution", Source::resolution},
         {"time", Source::time},
@@ -95,7 +97,7 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
 /// Whatever an author makes of our numbers: a number may be of any type, but a matrix is no vector and none
 /// of them is a texture.
 bool UniformTable::takes(GLenum type, Source source) {
-    if (source == Source::camera)
+    if (source == Source::camera || source == Source::view)
         return type == GL_FLOAT_MAT4 || type == GL_DOUBLE_MAT4;
     return gl::is_number(type);
 }
@@ -135,6 +137,8 @@ void UniformTable::upload(const gl::Program& program, const FrameInputs& inputs,
         case Source::channel_time: return Numbers::times(channels);
         case Source::channel_resolution: return Numbers::resolutions(channels);
         case Source::camera: return Numbers(inputs.camera);
+        case Source::view: return Numbers(inputs.view);
+        case Source::mouse_button: return {inputs.mouse_button.x, inputs.mouse_button.y, 0, 0};
         case Source::struct_size: return Numbers(channels[entry.index].resolution);
         case Source::struct_time: return {channels[entry.index].time};
         case Source::struct_loaded: return {channels[entry.index].loaded ? 1.0 : 0.0};

@@ -35,6 +35,7 @@ private:
         frame_rate,
         mouse,
         relative_mouse, ///< 0 to 1 across the picture
+        mouse_button,
         date,
         sample_rate,
         channel_time,
@@ -43,6 +44,7 @@ private:
         struct_time,   ///< iChN.time, iChannel[N].time
         struct_loaded, ///< iChN.loaded
         camera,
+        view,
         knob
     };
     /// What the member of a channel's struct tells; nothing for other uniforms.
