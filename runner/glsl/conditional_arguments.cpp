@@ -1,6 +1,9 @@
 // Mesa's preprocessor takes no directive among the arguments of a macro; the site's does. Where we know how a
-// condition turns out, what it leaves out of a call goes, and its directives with it.
+// condition turns out, what it leaves out of a call goes, and its directives with it. And it takes `(NAME)`
+// for the begin of such a call where NAME is also a macro with arguments: another name for it ends that.
 #include "glsl/rewrite.hpp"
+
+#include <fmt/format.h>
 
 #include <unordered_set>
 
@@ -9,6 +12,8 @@ namespace {
 
 using text::Edit;
 using text::Token;
+
+constexpr std::string_view k_plain_name = "tidemark_plain_";
 
 class ArgumentSettler {
 public:
@@ -79,7 +84,38 @@ private:
     std::vector<Edit> edits_;
 };
 
+/// The names of macros with arguments that stand before a `)`, if a directive follows at all.
+std::vector<size_t> plain_uses(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
+    std::unordered_set<std::string_view> macros;
+    for (const MacroLine& macro : preprocessed.macros)
+        if (macro.parameters)
+            macros.insert(macro.name);
+    const auto& code = preprocessed.code;
+    std::vector<size_t> uses, settled;
+    for (size_t i = 0; !macros.empty() && i + 1 < code.size(); ++i) {
+        if (macros.contains(tokens[code[i]].text) && tokens[code[i + 1]].is(")"))
+            uses.push_back(code[i]);
+        if (code[i + 1] == code[i] + 1 || uses.empty())
+            continue;
+        settled.insert(settled.end(), uses.begin(), uses.end()); // a directive stands between these tokens
+        uses.clear();
+    }
+    return settled;
+}
+
 } // namespace
+
+PlainNames name_plainly(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
+    PlainNames names;
+    std::unordered_set<std::string_view> known;
+    for (const size_t use : plain_uses(tokens, preprocessed)) {
+        const Token& token = tokens[use];
+        names.edits.push_back({token.begin, token.end(), fmt::format("{}{}", k_plain_name, token.text)});
+        if (known.insert(token.text).second)
+            names.macros += fmt::format("#define {}{} {}\n", k_plain_name, token.text, token.text);
+    }
+    return names;
+}
 
 std::vector<Edit> settle_arguments(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
     return ArgumentSettler(tokens, preprocessed).run();

@@ -46,9 +46,12 @@ public:
             add(initialise_variables(tokens_, preprocessed_));
         add(separate_signs(tokens_, preprocessed_));
         add(settle_arguments(tokens_, preprocessed_));
+        const PlainNames plain = name_plainly(tokens_, preprocessed_);
+        add(plain.edits);
+        result_.functions = plain.macros;
         if (dialect_.joins_overloads) {
             JoinedOverloads joined = join_overloads(tokens_, preprocessed_);
-            result_.functions = std::move(joined.functions);
+            result_.functions += joined.functions;
             add(joined.edits);
         }
         sort_edits();
