@@ -161,6 +161,16 @@ Result<void> write_file(const fs::path& path, std::string_view text) {
     return write_file(path, std::as_bytes(std::span(text)));
 }
 
+Result<void> check_writable(const fs::path& path) {
+    if (is_stream(path))
+        return {};
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        return cannot_write(path, EISDIR);
+    const StagedFile attempt(path);
+    return write_bytes(attempt.path(), path, {});
+}
+
 Result<void> make_folder(const fs::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);

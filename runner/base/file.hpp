@@ -46,6 +46,10 @@ private:
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Whether `write_file` would come to writing (ErrorCode::write as there): asked before long work. Leaves
+/// nothing behind.
+Result<void> check_writable(const std::filesystem::path& path);
+
 /// Makes the folder and those above it, where they are missing (ErrorCode::write, naming it and the reason).
 Result<void> make_folder(const std::filesystem::path& folder);
 

@@ -1,3 +1,4 @@
+#include "base/file.hpp"
 #include "cli/capture_run.hpp"
 #include "cli/capture_sound.hpp"
 #include "cli/commands.hpp"
@@ -224,6 +225,9 @@ Result<int> capture(const CaptureOptions& options) {
     auto scene = load(options.scene);
     if (!scene)
         return fail(std::move(scene.error()));
+    if (!plan->output.standard_output())
+        if (auto writable = check_writable(plan->output.of_frame(plan->frames.frames.front())); !writable)
+            return fail(std::move(writable.error()));
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
@@ -258,10 +262,10 @@ void add_capture(CLI::App& app, Action& chosen) {
     add_picture_options(*command, options->frames);
     add_time_options(*command, options->frames);
     command
-        ->add_option(
-            "-o,--output", options->output,
-            "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; a video: .mp4 .webm .gif; - for "
-            "raw RGB frames on standard output [SCENE.png]")
+        ->add_option("-o,--output", options->output,
+                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
+                     "a cube; a video: .mp4 .webm .gif; - for "
+                     "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
         ->add_option(

@@ -69,6 +69,10 @@ Result<bool> Capture::run(Interrupt& interrupt) {
 }
 
 Result<void> Capture::open_output() {
+    if (plan_.output.six_faces() && renderer_.shown_pass().kind != scene::PassKind::cubemap)
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
+                                plan_.output.pattern().string()));
     if (plan_.output.video()) {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
         auto video =
@@ -185,11 +189,12 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     return std::make_unique<BandOutput>(std::move(stream), plan_.hashes);
 }
 
-/// A cube is saved as the panorama that ShaderToy exports.
+/// A cube is saved as the panorama that ShaderToy exports, or as its faces, which are one picture until then.
 image::Image Capture::read_back() const {
-    if (renderer_.shown_pass().kind == scene::PassKind::cubemap)
-        return image::equirectangular_of(renderer_.read_back_cube());
-    return renderer_.read_back();
+    if (renderer_.shown_pass().kind != scene::PassKind::cubemap)
+        return renderer_.read_back();
+    const image::CubeFaces faces = renderer_.read_back_cube();
+    return plan_.output.six_faces() ? image::column_of(faces) : image::equirectangular_of(faces);
 }
 
 /// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,
@@ -208,7 +213,14 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
         return video_->push(image).map([] { return true; });
     if (!writer_)
         return put_raw(image).map([] { return true; });
-    return writer_->push({record.frame, record.file, std::move(image), format_of(record)});
+    if (!plan_.output.six_faces())
+        return writer_->push({record.frame, record.file, std::move(image), format_of(record)});
+    const auto faces = image::cube_of_picture(image);
+    bool wanted = faces.has_value();
+    for (size_t i = 0; wanted && i < faces->size(); ++i)
+        wanted = writer_->push({record.frame, file_of_face(record.file, i),
+                                image::flipped((*faces)[i]), format_of(record)});
+    return wanted;
 }
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {

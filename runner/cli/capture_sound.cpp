@@ -1,5 +1,6 @@
 #include "cli/capture_sound.hpp"
 
+#include "base/file.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
@@ -21,6 +22,9 @@ constexpr double k_longest = 3600;
 
 Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
                                         double duration, const Interrupt& interrupt) {
+    if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
+        return fail(ErrorCode::usage,
+                    fmt::format("sound ends at {} s: iSampleOffset counts its samples in an int", k_last));
     auto renderer = render::SoundRenderer::create(scene, render::Date{}, precision);
     if (!renderer)
         return fail(std::move(renderer.error()));
@@ -46,6 +50,8 @@ Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest&
     const auto scene = load(scene_request);
     if (!scene)
         return fail(scene.error());
+    if (auto writable = check_writable(request.output); !writable)
+        return fail(std::move(writable.error()));
     const auto context = platform::HeadlessContext::create(request.device);
     if (!context)
         return fail(context.error());

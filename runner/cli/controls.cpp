@@ -1,5 +1,7 @@
 #include "cli/controls.hpp"
 
+#include <glm/matrix.hpp>
+
 #include <variant>
 
 namespace tidemark::cli {
@@ -31,6 +33,8 @@ bool Controls::take(const platform::ButtonPressed& event) {
         mouse_.press(event.at.x, event.at.y);
     } else if (event.button == Button::middle) {
         panning_ = true;
+    } else {
+        right_down_ = true;
     }
     return true;
 }
@@ -41,6 +45,8 @@ bool Controls::take(const platform::ButtonReleased& event) {
         mouse_.release();
     } else if (event.button == Button::middle) {
         panning_ = false;
+    } else {
+        right_down_ = false;
     }
     return true;
 }
@@ -63,7 +69,9 @@ bool Controls::take(const platform::KeyReleased& event) {
 void Controls::fill(render::FrameInputs& inputs) const {
     inputs.mouse = mouse_.uniform();
     inputs.keyboard = keyboard_.texels();
+    inputs.mouse_button = {turning_ ? 1 : 0, right_down_ ? 1 : 0};
     inputs.camera = camera_.matrix();
+    inputs.view = inverse(initial_camera_.matrix()) * inputs.camera;
 }
 
 void Controls::frame_drawn() {

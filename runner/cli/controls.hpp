@@ -18,7 +18,7 @@ public:
     bool handle(const platform::InputEvent& event, double height);
     void reset_camera() { camera_ = initial_camera_; }
 
-    /// Sets iMouse, the keyboard and iCamera.
+    /// Sets iMouse, iMouseButton, the keyboard, iCamera and iViewMatrix.
     void fill(render::FrameInputs& inputs) const;
     /// To be called when a frame has been drawn: what was new in it is then no longer new.
     void frame_drawn();
@@ -43,6 +43,7 @@ private:
     double height_ = 1;
     bool turning_ = false;
     bool panning_ = false;
+    bool right_down_ = false;
 };
 
 } // namespace tidemark::cli

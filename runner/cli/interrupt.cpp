@@ -16,8 +16,16 @@ Interrupt::Interrupt() {
                 return;
             if (signal != SIGUSR1 && (requested_.exchange(true) || immediate_))
                 ::_exit(k_exit_code);
+            const std::lock_guard lock(mutex_);
+            if (wake_)
+                wake_();
         }
     });
+}
+
+void Interrupt::wake_by(void (*wake)()) {
+    const std::lock_guard lock(mutex_);
+    wake_ = wake;
 }
 
 Interrupt::~Interrupt() {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <mutex>
 #include <thread>
 
 namespace tidemark::cli {
@@ -31,14 +32,30 @@ public:
         Interrupt& interrupt_;
     };
 
+    /// While it lives a request calls `wake`, on a thread of its own: for whoever waits for something else.
+    class Waking {
+    public:
+        Waking(Interrupt& interrupt, void (*wake)()) : interrupt_(interrupt) { interrupt_.wake_by(wake); }
+        ~Waking() { interrupt_.wake_by(nullptr); }
+        Waking(const Waking&) = delete;
+        Waking& operator=(const Waking&) = delete;
+
+    private:
+        Interrupt& interrupt_;
+    };
+
     static constexpr int k_exit_code = 130; ///< as shells report SIGINT
 
 private:
+    void wake_by(void (*wake)());
+
     sigset_t signals_{};
     sigset_t previous_mask_{};
     std::atomic<bool> requested_ = false;
     std::atomic<bool> immediate_ = false;
     std::atomic<bool> ending_ = false;
+    std::mutex mutex_;
+    void (*wake_)() = nullptr; ///< under the mutex
     std::thread listener_;
 };
 

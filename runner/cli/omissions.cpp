@@ -83,7 +83,9 @@ private:
                 const scene::Channel& channel = scene_.passes[pass.pass].channels[size_t(i)];
                 const bool read =
                     std::find(pass.channels.begin(), pass.channels.end(), i) != pass.channels.end();
-                if (read || (several && std::holds_alternative<scene::Unbound>(channel.input)))
+                const bool named = !channel.where.file.empty();
+                if (read || (several && std::holds_alternative<scene::Unbound>(channel.input)) ||
+                    (i >= scene::k_site_channel_count && !named))
                     continue;
                 names.push_back(several ? fmt::format("iChannel{} of {}", i, scene_.passes[pass.pass].name)
                                         : fmt::format("iChannel{}", i));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace tidemark::cli {
@@ -13,6 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int k_most_digits = 20;
+constexpr std::string_view k_face = "{}";
 
 } // namespace
 
@@ -35,6 +37,7 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
     }
     if (auto known = image::check_picture_name(name.pattern_); !known)
         return fail(std::move(known.error()));
+    name.six_faces_ = pattern.find(k_face) != std::string_view::npos;
     for (size_t i = 0; i < pattern.size(); ++i) {
         std::string& part = name.numbered_ ? name.after_ : name.before_;
         if (pattern[i] != '%' && pattern[i] != '#') {
@@ -69,6 +72,11 @@ fs::path OutputName::of_frame(int frame) const {
     if (!numbered_)
         return before_;
     return fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+fs::path file_of_face(std::string file, size_t face) {
+    static constexpr std::array<std::string_view, 6> k_faces{"px", "nx", "py", "ny", "pz", "nz"};
+    return file.replace(file.find(k_face), k_face.size(), k_faces[face]);
 }
 
 } // namespace tidemark::cli

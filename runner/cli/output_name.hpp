@@ -1,4 +1,5 @@
-// File names for frames: `out/wave.%04d.png`, `out/wave.####.png`, one name for one picture, or for a video.
+// File names for frames: `out/wave.%04d.png`, `out/wave.####.png`, one name for one picture, or for a video;
+// `sky_{}.png` for the six faces of a cube.
 #pragma once
 
 #include "base/result.hpp"
@@ -22,6 +23,8 @@ public:
     bool standard_output() const { return standard_output_; }
     /// All frames go into one file.
     bool video() const { return video_; }
+    /// A picture's name has `{}` in it: each face of a cube is a file.
+    bool six_faces() const { return six_faces_; }
     const std::filesystem::path& pattern() const { return pattern_; }
 
 private:
@@ -32,6 +35,11 @@ private:
     bool numbered_ = false;
     bool standard_output_ = false;
     bool video_ = false;
+    bool six_faces_ = false;
 };
+
+/// What stands for `{}` in `file` (its first one): px nx py ny pz nz, as in names of cubemaps that scenes
+/// read.
+std::filesystem::path file_of_face(std::string file, size_t face);
 
 } // namespace tidemark::cli

@@ -95,6 +95,7 @@ render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
     if (request.time) // the frames that lead to it go before it
         inputs.time = *request.time - (render::frame_at(*request.time, request.fps) - frame) / request.fps;
     inputs.mouse = request.mouse;
+    inputs.mouse_button.x = request.mouse.w > 0 ? 1 : 0;
     inputs.date = request.date;
     inputs.camera = request.camera.matrix();
     return inputs;

@@ -22,8 +22,6 @@ constexpr int64_t k_unheard = k_rate / 10;
 constexpr std::chrono::milliseconds k_turn{20};
 /// Drawn at a time: 0.19 s.
 constexpr int k_rows = 16;
-/// Samples are counted in an int in the shader: some thirteen hours.
-constexpr double k_longest_seconds = 48'000;
 
 std::string text_to_play(const scene::Scene& scene, const scene::Pass& pass) {
     return scene.common.text() + pass.text.text();
@@ -39,7 +37,8 @@ public:
 
     /// Hands over what is to be heard next, `time` being iTime now.
     void keep_up(double time) {
-        const auto now = int64_t(std::clamp(time, 0.0, k_longest_seconds) * double(k_rate));
+        const auto now =
+            int64_t(std::clamp(time, 0.0, render::SoundRenderer::k_longest_seconds) * double(k_rate));
         if (!speaking_ || next_ < now - k_unheard || next_ > now + k_ahead + k_unheard) {
             device_.silence();
             next_ = now;

@@ -1,5 +1,7 @@
+#include "base/file.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/viewer.hpp"
 
@@ -34,10 +36,15 @@ Result<int> view(const ViewOptions& options) {
     settings.record = options.record;
     if (options.frames.date)
         settings.date = settings.frames.date;
+    if (!options.record.empty())
+        if (auto writable = check_writable(options.record); !writable)
+            return fail(std::move(writable.error()));
+    Interrupt interrupt;
     auto viewer = Viewer::open(std::move(settings));
     if (!viewer)
         return fail(std::move(viewer.error()));
-    auto outcome = viewer->run();
+    const Interrupt::Waking waking(interrupt, platform::Window::wake);
+    auto outcome = viewer->run(interrupt);
     if (viewer->busy()) { // a driver that compiles cannot be waited for
         if (!outcome)
             say(to_string(outcome.error()));

@@ -66,8 +66,8 @@ Result<Viewer> Viewer::open(Settings settings) {
     return Viewer(std::move(settings), *std::move(window), *std::move(live));
 }
 
-Result<int> Viewer::run() {
-    while (!closing_) {
+Result<int> Viewer::run(const Interrupt& interrupt) {
+    while (!closing_ && !interrupt.requested()) {
         for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds()))) {
             let_the_scene_know(event);
             std::visit([this](const auto& happened) { handle(happened); }, event);
@@ -80,14 +80,14 @@ Result<int> Viewer::run() {
         show_title(now);
         sound_->follow(clock_.time(now), !clock_.paused());
     }
-    return finish();
+    return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
 }
 
-Result<int> Viewer::finish() {
+Result<void> Viewer::finish() {
     if (!settings_.record.empty())
         if (auto written = write_file(settings_.record, to_string(recorded_)); !written)
-            return fail(std::move(written.error()));
-    return writer_ ? writer_->finish().map([] { return 0; }) : Result<int>(0);
+            return written;
+    return writer_ ? writer_->finish() : Result<void>();
 }
 
 bool Viewer::wants_frame(double now) const {

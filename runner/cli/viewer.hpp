@@ -5,6 +5,7 @@
 #include "cli/controls.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/input_script.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/live_scene.hpp"
 #include "cli/requests.hpp"
 #include "cli/sound_player.hpp"
@@ -32,8 +33,9 @@ public:
     /// Opens the window and begins to compile. Fails like `load` and Window do.
     static Result<Viewer> open(Settings settings);
 
-    /// Until the person closes it. Fails when the scene that it began with does not compile.
-    Result<int> run();
+    /// Until the person closes it or interrupts the program. Fails when the scene that it began with does not
+    /// compile.
+    Result<int> run(const Interrupt& interrupt);
 
     /// A thread is at work in the driver, which cannot be stopped: whoever wants to end must end the process.
     bool busy() const { return scene_.busy() || sound_->busy(); }
@@ -66,7 +68,7 @@ private:
 
     void draw(double now);
     void show_title(double now);
-    Result<int> finish();
+    Result<void> finish();
     double seconds_to_sleep(double now) const;
     bool wants_frame(double now) const;
     bool moving() const;

@@ -41,8 +41,8 @@ Shape shape_of(GLenum type) {
     }
 }
 
-/// The longest value the host ever sets is one matrix.
-constexpr size_t k_most_numbers = 16;
+/// The longest value the host ever sets: vec3 iChannelResolution[10].
+constexpr size_t k_most_numbers = 30;
 
 using Numbers = std::array<double, k_most_numbers>;
 

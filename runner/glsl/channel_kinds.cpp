@@ -51,7 +51,7 @@ std::set<int> lines_of_complaints(std::string_view log) {
 
 int channel_of(std::string_view word) {
     for (size_t i = 0; i < k_channels; ++i)
-        if (word == k_channel_names[i] || word == k_channel_structs[i])
+        if (word == k_channel_names[i] || (i < k_channel_structs.size() && word == k_channel_structs[i]))
             return int(i);
     return -1;
 }
@@ -74,8 +74,10 @@ Mentions mentions(const text::MappedText& source, const std::set<int>& lines) {
     return found;
 }
 
-/// Every way to give the suspects other kinds; those that change most come first, cubes before volumes.
-std::vector<ChannelKinds> combinations(const std::vector<size_t>& suspects) {
+/// Every way to give the first suspects other kinds; those that change most come first, cubes before volumes.
+std::vector<ChannelKinds> combinations(std::vector<size_t> suspects) {
+    constexpr size_t k_most_suspects = 4; // as many as ShaderToy has channels: 81 ways
+    suspects.resize(std::min(suspects.size(), k_most_suspects));
     constexpr TextureKind k_order[] = {TextureKind::cube, TextureKind::volume, TextureKind::flat};
     size_t count = 1;
     for (size_t i = 0; i < suspects.size(); ++i)

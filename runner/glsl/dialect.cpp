@@ -17,8 +17,8 @@ std::string to_string(const Dialect& dialect) {
                                  : dialect.precision == Precision::promoted
                                      ? ", in double precision"
                                      : ", in double precision, hashes too";
-    return fmt::format("{}{}{}{}", version, main, dialect.initialise ? "" : ", nothing initialised",
-                       precision);
+    return fmt::format("{}{}{}{}{}", version, main, dialect.initialise ? "" : ", nothing initialised",
+                       precision, dialect.joins_overloads ? ", built-in functions overloaded" : "");
 }
 
 std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass) {

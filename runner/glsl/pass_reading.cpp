@@ -1,6 +1,7 @@
 #include "glsl/pass_reading.hpp"
 
 #include "glsl/hit.hpp"
+#include "glsl/overloads.hpp"
 #include "glsl/prologue.hpp"
 #include "glsl/rewrite.hpp"
 
@@ -10,6 +11,9 @@
 
 namespace tidemark::glsl {
 namespace {
+
+/// What tells a text that it runs in the VS Code extension or, here, in a host that gives it the same.
+constexpr std::string_view k_extension_macro = "SHADER_TOY";
 
 std::vector<MainPlace> places_to_try(const Survey& facts, scene::PassKind kind) {
     std::vector<MainPlace> places;
@@ -41,6 +45,8 @@ text::MappedText whole_text(const scene::Scene& scene, const scene::Pass& pass) 
     text::MappedText text;
     if (pass.kind == scene::PassKind::hit)
         text.append_generated(fmt::format("#define {} 1\n", k_hit_macro));
+    if (pass.bare_file && pass.text.text().find(k_extension_macro) != std::string::npos)
+        text.append_generated(fmt::format("#define {}\n", k_extension_macro));
     text.append(scene.common);
     text.append(pass.text);
     return text;
@@ -55,11 +61,14 @@ PassReading::PassReading(const scene::Scene& scene, const scene::Pass& pass)
 std::vector<Dialect> PassReading::dialects(Precision precision) const {
     const ChannelKinds channels = channel_kinds(scene_, pass_);
     const std::vector<MainPlace> places = places_to_try(facts_, pass_.kind);
+    const bool overloads = overloads_builtins(tokens_, preprocessed_);
     std::vector<Dialect> dialects;
     if (precision != Precision::single) {
         for (const MainPlace place : places)
             dialects.push_back({Version::core_450, place, true, channels, precision});
         dialects.push_back({Version::core_330, places.front(), true, channels, precision});
+        if (overloads)
+            dialects.push_back({Version::core_450, places.front(), true, channels, precision, true});
         if (precision == Precision::promoted)
             dialects.push_back(
                 {Version::core_450, places.front(), true, channels, Precision::promoted_whole});
@@ -69,6 +78,8 @@ std::vector<Dialect> PassReading::dialects(Precision precision) const {
         dialects.push_back({Version::core_330, place, true, channels});
     for (const Version version : {Version::core_450, Version::es_300})
         dialects.push_back({version, places.front(), true, channels});
+    if (overloads)
+        dialects.push_back({Version::core_330, places.front(), true, channels, Precision::single, true});
     dialects.push_back({Version::core_330, places.front(), false, channels});
     return dialects;
 }
@@ -78,6 +89,7 @@ Result<Assembly> PassReading::assemble(const Dialect& dialect) const {
     const Rewriting changes = rewrite(text_.text(), tokens_, preprocessed_, facts_, dialect);
     text::MappedText body;
     body.append_generated(prologue(scene_, pass_, facts_, dialect));
+    body.append_generated(changes.functions);
     if (dialect.main == MainPlace::first)
         body.append_generated(ours.prototype + ours.main);
     text::MappedText author = text_;

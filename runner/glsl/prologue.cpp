@@ -119,6 +119,14 @@ std::string macros(const Survey& survey, const Dialect& dialect) {
     return text;
 }
 
+/// The site's four; all of the extension's for a text that reads one of the others.
+int channel_count(const Survey& survey) {
+    for (size_t i = scene::k_site_channel_count; i < k_channel_names.size(); ++i)
+        if (survey.wants(k_channel_names[i]))
+            return scene::k_channel_count;
+    return scene::k_site_channel_count;
+}
+
 std::string uniforms(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
                      const Dialect& dialect) {
     std::string text;
@@ -128,18 +136,26 @@ std::string uniforms(const scene::Scene& scene, const scene::Pass& pass, const S
                                : fmt::format("uniform {} {};\n", type, name);
     };
     const bool sound = pass.kind == scene::PassKind::sound;
+    const int channels = channel_count(survey);
     for (const SiteUniform& uniform : k_site_uniforms)
         if (sound ? uniform.sound : uniform.image)
-            declare(uniform.type, uniform.name, uniform.length);
+            declare(uniform.type, uniform.name, uniform.length > 0 ? channels : 0);
     for (size_t i = 0; i < k_channel_names.size(); ++i) {
         const std::string_view type = sampler_type(dialect.channels[i]);
-        declare(type, k_channel_names[i]);
-        if (survey.wants(k_channel_structs[i]))
+        const bool site = i < size_t(scene::k_site_channel_count);
+        if (site || survey.wants(k_channel_names[i]))
+            declare(type, k_channel_names[i]);
+        if (site && survey.wants(k_channel_structs[i]))
             text += fmt::format("uniform struct {{ {} sampler; vec3 size; float time; int loaded; }} {};\n",
                                 type, k_channel_structs[i]);
     }
     if (survey.wants("iChannel"))
         text += "uniform struct { vec3 resolution; float time; } iChannel[4];\n";
+    if (survey.wants(scene::k_mouse_button_uniform))
+        declare("vec4", scene::k_mouse_button_uniform);
+    if (survey.wants(scene::k_view_uniform))
+        text += scene.moves_view ? fmt::format("uniform mat4 {};\n", scene::k_view_uniform)
+                                 : fmt::format("const mat4 {} = mat4(1.0);\n", scene::k_view_uniform);
     for (const scene::Knob& knob : scene.knobs)
         if (survey.uses(knob.name))
             declare(scene::info(knob.type).glsl_name, knob.name);

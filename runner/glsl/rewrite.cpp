@@ -1,5 +1,6 @@
 #include "glsl/rewrite.hpp"
 
+#include "glsl/overloads.hpp"
 #include "glsl/words.hpp"
 
 #include <fmt/format.h>
@@ -44,6 +45,15 @@ public:
         if (dialect_.initialise)
             add(initialise_variables(tokens_, preprocessed_));
         add(separate_signs(tokens_, preprocessed_));
+        add(settle_arguments(tokens_, preprocessed_));
+        const PlainNames plain = name_plainly(tokens_, preprocessed_);
+        add(plain.edits);
+        result_.functions = plain.macros;
+        if (dialect_.joins_overloads) {
+            JoinedOverloads joined = join_overloads(tokens_, preprocessed_);
+            result_.functions += joined.functions;
+            add(joined.edits);
+        }
         sort_edits();
         return std::move(result_);
     }

@@ -27,6 +27,7 @@ bool initialises_colour(const Survey& survey, const Dialect& dialect);
 struct Rewriting {
     std::vector<text::Edit> edits;       ///< sorted, without overlap
     std::vector<std::string> extensions; ///< the text's own #extension lines that go to the top
+    std::string functions;               ///< of ours, and macros, that the edited text uses
 };
 
 Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
@@ -36,6 +37,18 @@ Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
 /// Members, parameters, arrays and variables of the author's own types are left alone.
 std::vector<text::Edit> initialise_variables(const std::vector<text::Token>& tokens,
                                              const Preprocessed& preprocessed);
+
+/// Without the directives that stand among the arguments of a macro; see conditional_arguments.cpp.
+std::vector<text::Edit> settle_arguments(const std::vector<text::Token>& tokens,
+                                         const Preprocessed& preprocessed);
+
+struct PlainNames {
+    std::string macros; ///< go in front of the text
+    std::vector<text::Edit> edits;
+};
+
+/// Other names for what is no call of the macro of that name; see conditional_arguments.cpp.
+PlainNames name_plainly(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed);
 
 /// A blank where two signs would meet once the macros are expanded; see spacing.cpp.
 std::vector<text::Edit> separate_signs(const std::vector<text::Token>& tokens,

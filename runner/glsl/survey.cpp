@@ -13,9 +13,17 @@ using text::Token;
 using text::TokenKind;
 
 /// Names that are looked for and stand in no table of words.hpp.
-constexpr std::string_view k_other_names[] = {"GL_ES",     "__VERSION__",  "gl_FragColor",
-                                              "st_assert", "iChannel",     "iKeyboard",
-                                              "main",      "gl_FragCoord", "HW_PERFORMANCE"};
+constexpr std::string_view k_other_names[] = {"GL_ES",
+                                              "__VERSION__",
+                                              "gl_FragColor",
+                                              "st_assert",
+                                              "iChannel",
+                                              "iKeyboard",
+                                              "main",
+                                              "gl_FragCoord",
+                                              "HW_PERFORMANCE",
+                                              scene::k_mouse_button_uniform,
+                                              scene::k_view_uniform};
 
 std::unordered_map<std::string_view, NameUse> names_of_interest() {
     std::unordered_map<std::string_view, NameUse> names;

@@ -6,6 +6,7 @@
 #include "render/keyboard.hpp"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <string_view>
@@ -35,7 +36,9 @@ struct FrameInputs {
     double frame_rate = 60;       ///< iFrameRate
     glm::vec4 mouse{0};           ///< iMouse, whole pixels, ShaderToy's signs
     Date date{};
-    glm::mat4 camera{1}; ///< iCamera, camera to world
+    glm::mat4 camera{1};       ///< iCamera, camera to world
+    glm::mat4 view{1};         ///< iViewMatrix: the same camera, from where it stood at first
+    glm::vec2 mouse_button{0}; ///< iMouseButton: 1 while down; left, right
     KeyboardTexels keyboard{};
 };
 

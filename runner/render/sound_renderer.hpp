@@ -18,6 +18,9 @@ namespace tidemark::render {
 
 class SoundRenderer {
 public:
+    /// Samples are counted in an int, here and in the shader: some thirteen hours.
+    static constexpr double k_longest_seconds = 48'000;
+
     /// `date` is iDate; without milliseconds, as on the site. Fails when the scene has no Sound pass, or one
     /// that does not compile.
     static Result<SoundRenderer> create(const scene::Scene& scene, const Date& date,

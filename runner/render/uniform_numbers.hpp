@@ -1,6 +1,8 @@
 // The values of uniforms, comparable to the bit.
 #pragma once
 
+#include "scene/channel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -32,7 +34,7 @@ public:
     }
 
 private:
-    std::array<double, 16> values_{};
+    std::array<double, 3 * scene::k_channel_count> values_{}; ///< no value is longer than iChannelResolution
     size_t count_ = 0;
 };
 

@@ -47,6 +47,8 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         {"iChannelTime", Source::channel_time},
         {"iChannelResolution", Source::channel_resolution},
         {scene::k_camera_uniform, Source::camera},
+        {scene::k_view_uniform, Source::view},
+        {scene::k_mouse_button_uniform, Source::mouse_button},
         // The VS Code extension fills these where a text declares them.
         {"resolution", Source::resolution},
         {"time", Source::time},
@@ -70,7 +72,7 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
     if (!absent_too)
         return;
     const auto absent = [&](std::string_view name, Source source, size_t index = 0) {
-        const GLenum type = source == Source::camera ? GL_FLOAT_MAT4 : GL_FLOAT_VEC4;
+        const GLenum type = is_matrix(source) ? GL_FLOAT_MAT4 : GL_FLOAT_VEC4;
         if (!reflection.has(name)) // GL ignores what is set at location -1
             entries_.push_back({{std::string(name), type, 1, -1}, source, index});
     };
@@ -83,7 +85,7 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
 /// Whatever an author makes of our numbers: a number may be of any type, but a matrix is no vector and none
 /// of them is a texture.
 bool UniformTable::takes(GLenum type, Source source) {
-    if (source == Source::camera)
+    if (is_matrix(source))
         return type == GL_FLOAT_MAT4 || type == GL_DOUBLE_MAT4;
     return gl::is_number(type);
 }
@@ -126,6 +128,8 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
         case Source::channel_time: return times_of(channels);
         case Source::channel_resolution: return resolutions_of(channels);
         case Source::camera: return elements_of(inputs.camera);
+        case Source::view: return elements_of(inputs.view);
+        case Source::mouse_button: return {inputs.mouse_button.x, inputs.mouse_button.y, 0, 0};
         case Source::struct_size: return UniformNumbers(channels[entry.index].resolution);
         case Source::struct_time: return {channels[entry.index].time};
         case Source::struct_loaded: return {channels[entry.index].loaded ? 1.0 : 0.0};
@@ -157,6 +161,7 @@ bool UniformTable::follows_clock() const {
     return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
         switch (entry.source) {
         case Source::time:
+        case Source::time_low:
         case Source::time_delta:
         case Source::frame:
         case Source::frame_rate:

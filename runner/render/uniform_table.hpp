@@ -41,6 +41,7 @@ private:
         frame_rate,
         mouse,
         relative_mouse, ///< 0 to 1 across the picture
+        mouse_button,
         date,
         sample_rate,
         channel_time,
@@ -49,10 +50,12 @@ private:
         struct_time,   ///< iChN.time, iChannel[N].time
         struct_loaded, ///< iChN.loaded
         camera,
+        view,
         knob
     };
     /// What the member of a channel's struct tells; nothing for other uniforms.
     static bool takes(GLenum type, Source source);
+    static bool is_matrix(Source source) { return source == Source::camera || source == Source::view; }
     static std::optional<Source> struct_member(std::string_view name, size_t channel);
 
     struct Entry {

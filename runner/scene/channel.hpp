@@ -11,8 +11,9 @@
 
 namespace tidemark::scene {
 
-/// `iChannel0` … `iChannel3`.
-inline constexpr int k_channel_count = 4;
+/// `iChannel0` … `iChannel9`, as in the VS Code extension; the site has the first four of them.
+inline constexpr int k_channel_count = 10;
+inline constexpr int k_site_channel_count = 4;
 
 enum class Filter { nearest, linear };
 enum class Mipmaps { none, nearest, linear };

@@ -176,14 +176,19 @@ Result<void> DirectiveReader::read_directive() {
         directives_.keyboard_helpers = true;
         return {};
     }
-    if (keyword == "iVertex")
-        if (auto name = expect_string(); !name)
-            return fail(std::move(name.error()));
-    const std::string_view instead = keyword == "iVertex"
-                                         ? "every pass is drawn as one triangle"
-                                         : "a scene that declares iCamera has an orbit camera";
-    directives_.warnings.push_back(
-        {where, Severity::warning, fmt::format("#{} is left out: {}", keyword, instead)});
+    if (keyword == "iFirstPersonControls") {
+        directives_.moves_view = true;
+        directives_.warnings.push_back({where, Severity::warning,
+                                        "#iFirstPersonControls: mouse and wheel move iViewMatrix, around "
+                                        "what is in front; keys do not"});
+        return {};
+    }
+    auto name = expect_string(); // #iVertex
+    if (!name)
+        return fail(std::move(name.error()));
+    if (*name != "default")
+        directives_.warnings.push_back(
+            {where, Severity::warning, "#iVertex is left out: every pass is drawn as one triangle"});
     return {};
 }
 

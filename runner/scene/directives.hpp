@@ -19,6 +19,7 @@ struct Directives {
     std::array<std::string, k_channel_count> sources;
     std::vector<Knob> knobs;
     bool keyboard_helpers = false;    ///< `#iKeyboard`
+    bool moves_view = false;          ///< `#iFirstPersonControls`
     std::vector<Diagnostic> warnings; ///< what we read and leave out
 };
 

@@ -31,9 +31,15 @@ inline constexpr SiteUniform k_site_uniforms[] = {
     {"iSampleOffset", "int", 0, false, true},
 };
 
-inline constexpr std::array<std::string_view, 4> k_channel_names{"iChannel0", "iChannel1", "iChannel2",
-                                                                 "iChannel3"};
+inline constexpr std::array<std::string_view, 10> k_channel_names{
+    "iChannel0", "iChannel1", "iChannel2", "iChannel3", "iChannel4",
+    "iChannel5", "iChannel6", "iChannel7", "iChannel8", "iChannel9"};
 inline constexpr std::array<std::string_view, 4> k_channel_structs{"iCh0", "iCh1", "iCh2", "iCh3"};
+
+/// What the VS Code extension gives beside those: the buttons of the mouse that are down (x left, y right),
+/// and a camera to world that is the identity until a person moves it.
+inline constexpr std::string_view k_mouse_button_uniform = "iMouseButton";
+inline constexpr std::string_view k_view_uniform = "iViewMatrix";
 
 /// Ours, for scenes that declare them: the matrix of the orbit camera, and what iTime, rounded to a float, leaves
 /// of the seconds.
@@ -45,8 +51,8 @@ inline bool is_host_uniform(std::string_view name) {
     const auto is_name = [&](std::string_view taken) { return taken == name; };
     return std::ranges::any_of(k_site_uniforms, is_name, &SiteUniform::name) ||
            std::ranges::any_of(k_channel_names, is_name) || std::ranges::any_of(k_channel_structs, is_name) ||
-           name == k_camera_uniform || name == k_time_low_uniform || name == "iChannel" || name == "iKeyboard" ||
-           name.starts_with("tidemark_");
+           name == k_camera_uniform || name == k_time_low_uniform || name == k_mouse_button_uniform ||
+           name == k_view_uniform || name == "iChannel" || name == "iKeyboard" || name.starts_with("tidemark_");
 }
 
 } // namespace tidemark::scene

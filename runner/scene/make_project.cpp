@@ -121,7 +121,10 @@ private:
             const std::string channel = fmt::format("iChannel{}", i);
             const bool mentioned = pass.text.text().find(channel) != std::string::npos ||
                                    scene_.common.text().find(channel) != std::string::npos;
-            if (mentioned && !std::holds_alternative<Unbound>(pass.channels[i].input))
+            if (mentioned && i >= size_t(k_site_channel_count))
+                warn(pass.channels[i].where,
+                     fmt::format("'{}' reads {}: ShaderToy has four channels", pass.name, channel));
+            else if (mentioned && !std::holds_alternative<Unbound>(pass.channels[i].input))
                 inputs.push_back(input_of(pass.channels[i], int(i)));
         }
         return {{"inputs", std::move(inputs)}, {"outputs", Json::array({{{"id", output}, {"channel", 0}}})},

@@ -97,6 +97,8 @@ Result<void> PassLoader::load(size_t draft) {
             return fail(std::move(file.error()));
         drafts_[draft].pass.text = std::move(file->text);
         drafts_[draft].pass.keyboard_helpers = file->directives.keyboard_helpers;
+        drafts_[draft].pass.bare_file = conditional_ == Conditional::read;
+        scene_.moves_view = scene_.moves_view || file->directives.moves_view;
         included_[draft] = std::move(file->files);
         loading_.push_back(draft);
         auto bound = bind(draft, file->directives);

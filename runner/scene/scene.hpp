@@ -28,6 +28,7 @@ struct Pass {
     text::MappedText text; ///< includes pasted, directives blanked out, every line where its author put it
     Channels channels;
     bool keyboard_helpers = false; ///< says `#iKeyboard`: wants isKeyDown(Key_A) and the like declared
+    bool bare_file = false;        ///< of no project: finds SHADER_TOY defined, as in the VS Code extension
 };
 
 struct Scene {
@@ -35,6 +36,7 @@ struct Scene {
     text::MappedText common;    ///< stands in front of every pass
     std::vector<Pass> passes;   ///< in the order of drawing; a sound pass, if any, last
     std::vector<Knob> knobs;
+    bool moves_view = false; ///< says `#iFirstPersonControls`: iViewMatrix follows the person
     std::vector<std::filesystem::path> files; ///< all files the scene read or will read, pictures included
     std::vector<Diagnostic> warnings;         ///< what was replaced by a stand-in, and why
 

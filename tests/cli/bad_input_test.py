@@ -78,8 +78,8 @@ class BadScene(ProgramTest):
                                       "ivec2, ivec3 or ivec4) but found 'flaot'")
 
     def test_channel_that_does_not_exist(self):
-        self.write("a.glsl", f'#iChannel4 "noise"\n{GOOD}')
-        self.expect_refusal("a.glsl", "a.glsl:1: error: #iChannel4: the channels are iChannel0 to iChannel3")
+        self.write("a.glsl", f'#iChannel10 "noise"\n{GOOD}')
+        self.expect_refusal("a.glsl", "a.glsl:1: error: #iChannel10: the channels are iChannel0 to iChannel9")
 
     def test_picture_from_the_net(self):
         self.write("a.glsl", f'#iChannel0 "https://example.org/a.png"\n{READS_CHANNEL}')

@@ -214,7 +214,50 @@ class Json(CaptureTest):
                          hashlib.sha256(struct.pack("<140f", *floats)).hexdigest())
 
 
+class SixFaces(ProgramTest):
+    """A cube as six files, which another scene reads as that cube."""
+    CUBE = """void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) {
+    c = vec4(0.5 + 0.5 * d, 1) * (p.x < 300.0 ? 0.5 : 1.0) + (float(iFrame) + floor(p.y / 512.0)) * 0.01;
+}
+"""
+    LOOK = """void mainImage(out vec4 c, in vec2 p) {
+    vec3 d = vec3(fract(p.x / 32.0) * 1.8 - 0.9, fract(p.y / 32.0) * 1.8 - 0.9, p.y < 32.0 ? 1 : -1);
+    c = texture(iChannel0, p.x < 32.0 ? d : p.x < 64.0 ? d.zxy : d.yzx);
+}
+"""
+
+    def test_are_read_back_as_that_cube(self):
+        self.write("s/cube_a.glsl", self.CUBE)
+        self.write("s/image.glsl", '#iChannel0 "cube_a"\n' + self.LOOK)
+        self.write("files.glsl", '#iChannel0 "sky_{}.3.png"\n#iChannel0::Type "CubeMap"\n'
+                                 '#iChannel0::WrapMode "Clamp"\n' + self.LOOK)
+        done = self.succeed("capture", "s", "--pass", "Cube A", "--frame", "3", "-o", "sky_{}.%d.png")
+        self.assertEqual(done.stderr, "wrote sky_{}.3.png\n")
+        self.assertLessEqual({f"sky_{side}{axis}.3.png" for side in "pn" for axis in "xyz"}, self.files())
+        size = ("--size", "96x64")
+        self.succeed("capture", "s", *size, "--frame", "3", "-o", "pass.png")
+        self.succeed("capture", "files.glsl", *size, "-o", "files.png")
+        drawn, read = (png.read(self.folder / name).rgba_from_bottom() for name in ("pass.png", "files.png"))
+        self.assertGreater(len(set(drawn)), 100)
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(drawn, read)), 1)
+
+    def test_are_of_a_cube_only(self):
+        self.write("wave.glsl", SHADER)
+        self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "a{}.png"], 2,
+                            'tidemark: error: -o a{}.png: {} stands for a face of a cube: give --pass "Cube A"')
+
+
 class CannotWrite(CaptureTest):
+    def test_is_said_before_anything_is_compiled(self):
+        self.write("broken.glsl", "void mainImage(out vec4 c, in vec2 p) { c = none; }\nvec2 mainSound(float t) { none; }\n")
+        for name in ("none/a.png", "none/%04d.exr", "none/a.mp4", "none/a.wav"):
+            with self.subTest(name=name):
+                done = self.run_program("capture", "broken.glsl", *SIZE, "-o", name)
+                self.assertEqual((done.returncode, done.stderr),
+                                 (4, f"tidemark: error: cannot write '{name.replace('%04d', '0000')}': "
+                                     "No such file or directory\n"))
+        self.assertEqual(self.files(), {"wave.glsl", "broken.glsl"})
+
     def test_folder_that_does_not_exist(self):
         self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "none/a.png"], 4,
                             "tidemark: error: cannot write 'none/a.png': No such file or directory")

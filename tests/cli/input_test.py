@@ -40,6 +40,25 @@ class Input(ProgramTest):
         told = probe.read(png.from_raw(64, 8, done.stdout), {"clicks": ""})
         self.assertEqual(told["clicks"], 3)
 
+    def test_buttons_and_view_of_the_extension(self):
+        values = probe.vector("iMouseButton", "xyzw") | {f"view{i}{j}": f"iViewMatrix[{i}][{j}]"
+                                                         for i, j in ((0, 0), (2, 0), (3, 0), (3, 2))}
+        self.write("a.glsl", probe.shader(values, "#iFirstPersonControls"))
+        self.write("take.txt", "1 press left 10 4\n2 press right 10 4\n3 release left\n3 wheel 2\n4 release right\n"
+                               "4 press left 10 4\n5 move 18 4\n")
+        at = {}
+        for frame in range(6):
+            done = self.succeed("capture", "a.glsl", *SIZE, "--input", "take.txt", "-o", "-", "--frame", str(frame))
+            at[frame] = list(probe.read(png.from_raw(64, 8, done.stdout), values).values())
+        for frame, buttons in enumerate(([0, 0], [1, 0], [1, 1], [0, 1], [1, 0], [1, 0])):
+            self.assertEqual(at[frame][:4], [*buttons, 0, 0])
+        for got, identity in zip(at[2][4:], (1, 0, 0, 0)):
+            self.assertAlmostEqual(got, identity, places=5)
+        self.assertLess(at[3][7], -0.5)  # the wheel went ahead, along -z
+        # A drag once across the height turns by half a circle: it now looks back from the other side.
+        self.assertAlmostEqual(at[5][4], -1, places=5)
+        self.assertLess(at[5][7], 2 * at[3][7])
+
     def test_errors(self):
         self.write("bad.txt", "0 move 1 2\n1 mvoe 1 2\n")
         self.expect_failure(["capture", "a.glsl", "--input", "bad.txt"], 3,

@@ -1,8 +1,8 @@
-// `--define` and assembly: the first line is the setting, the rest the scene. No line moves, and every line
+// `--define` and assembly in every dialect: the first line is the setting, the rest the scene. No line moves, and every line
 // of the author's is found again.
 #include "fuzz.hpp"
-#include "glsl/assemble.hpp"
 #include "glsl/overrides.hpp"
+#include "glsl/pass_reading.hpp"
 
 #include <string>
 
@@ -22,13 +22,16 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     REQUIRE(done || (done.error().code == ErrorCode::usage && !done.error().message.empty()));
     REQUIRE(lines(text.text()) == lines(before));
 
-    const glsl::ShaderSource source = glsl::assemble(scene, scene.image());
-    REQUIRE(source.line_count() == lines(source.text()));
-    int next = 1;
-    for (int line = 1; line <= source.line_count(); ++line) {
-        const SourceLocation where = source.lines().locate(line);
-        REQUIRE(where.file.empty() || where.line == next++);
+    const glsl::PassReading reading(scene, scene.image());
+    for (const glsl::Dialect& dialect : reading.dialects(glsl::Precision::single)) {
+        const text::MappedText source = reading.assemble(dialect)->source;
+        REQUIRE(source.line_count() == lines(source.text()));
+        int next = 1;
+        for (int line = 1; line <= source.line_count(); ++line) {
+            const SourceLocation where = source.lines().locate(line);
+            REQUIRE(where.file.empty() || where.line == next++);
+        }
+        REQUIRE(next == text.line_count() + 1);
     }
-    REQUIRE(next == text.line_count() + 1);
     return 0;
 }

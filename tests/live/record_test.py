@@ -1,4 +1,6 @@
 """What a person does in the window, recorded and replayed: in the window and by capture."""
+import signal
+
 from support import png, probe
 from support.live import LiveTest, main
 
@@ -38,12 +40,23 @@ class Record(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 30 and told["iMouse.w"] == -20 and
                              told["iMouse.z"] == -10 and told["toggled"] == 1)
 
-    def test_recording_that_cannot_be_written_is_an_error_at_the_end(self):
+    def test_interrupted_window_keeps_what_was_recorded(self):
         self.write("a.glsl", SCENE)
-        view = self.view("a.glsl", *SIZE, "--record", "no/such/take.txt")
-        view.key("Escape")
-        self.assertEqual(view.wait_for_end(), 4)
-        self.assertIn("cannot write 'no/such/take.txt'", view.stderr())
+        for stop in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(stop=stop.name):
+                view = self.view("a.glsl", *SIZE, "--record", f"{stop.name}.txt")
+                view.key("ctrl+space") # a paused window sleeps until something happens
+                view.wait_for_title(" - paused at ")
+                view.drag((100, 50), (60, 70))
+                view.key("ctrl+Right")
+                view.program.send_signal(stop)
+                self.assertEqual(view.wait_for_end(), 130)
+                self.assertRegex((self.folder / f"{stop.name}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
+
+    def test_recording_that_cannot_be_written_is_an_error_at_the_start(self):
+        self.write("a.glsl", "not GLSL")
+        self.expect_failure(["view", "a.glsl", "--record", "no/such/take.txt"], 4,
+                            "tidemark: error: cannot write 'no/such/take.txt': No such file or directory")
 
 
 if __name__ == "__main__":

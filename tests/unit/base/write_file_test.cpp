@@ -113,6 +113,20 @@ TEST(WriteFile, a_full_disk_leaves_the_old_as_it_was) {
     EXPECT_EQ(refusal_under_limit(1000, path, std::string(1000, 'x')), "it was written");
 }
 
+TEST(WriteFile, whether_a_file_could_be_written_is_known_before) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(write_file(folder / "a.txt", "kept"));
+    EXPECT_TRUE(check_writable(folder / "a.txt"));
+    EXPECT_TRUE(check_writable(folder / "new.txt"));
+    EXPECT_TRUE(check_writable("/dev/full")); // a device is asked when it is written to
+    EXPECT_EQ(files_in(folder), 1u);
+    EXPECT_EQ(read_file(folder / "a.txt"), "kept");
+    const std::string missing = (folder / "none/a.txt").string();
+    EXPECT_EQ(refusal(check_writable(missing)), "cannot write '" + missing + "': No such file or directory");
+    const std::string taken = folder.path().string();
+    EXPECT_EQ(refusal(check_writable(taken)), "cannot write '" + taken + "': Is a directory");
+}
+
 TEST(WriteFile, a_pipe_takes_the_bytes_and_stays_a_pipe) {
     const TemporaryFolder folder;
     const fs::path path = folder / "pipe";

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -42,6 +43,24 @@ TEST(Interrupt, the_first_signal_asks) {
         ::kill(::getpid(), signal);
         EXPECT_TRUE(comes_true([&] { return interrupt.requested(); }));
     }
+}
+
+TEST(Interrupt, a_sleeper_is_woken_as_long_as_it_wants_to_be) {
+    static std::atomic<int> woken;
+    woken = 0;
+    Interrupt interrupt;
+    {
+        const Interrupt::Waking waking(interrupt, [] { ++woken; });
+        ::kill(::getpid(), SIGINT);
+        EXPECT_TRUE(comes_true([] { return woken == 1; }));
+    }
+    EXPECT_EQ(status_of_child([] {
+                  Interrupt another;
+                  { const Interrupt::Waking past(another, [] { ::_exit(7); }); }
+                  ::kill(::getpid(), SIGTERM);
+                  comes_true([&] { return another.requested(); });
+              }),
+              0);
 }
 
 TEST(Interrupt, other_threads_are_left_in_peace) {

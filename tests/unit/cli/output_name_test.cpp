@@ -34,6 +34,14 @@ TEST(OutputName, one_video_for_all_frames) {
     EXPECT_EQ(name_of("", 0), "-o : give the name of a file, or - for standard output");
 }
 
+TEST(OutputName, six_faces_of_a_cube) {
+    EXPECT_EQ(file_of_face(name_of("sky_{}.%02d.png", 7), 0), "sky_px.07.png");
+    EXPECT_EQ(file_of_face("{}.exr", 5), "nz.exr");
+    EXPECT_TRUE(OutputName::parse("sky_{}.png", 1)->six_faces());
+    EXPECT_FALSE(OutputName::parse("sky_px.png", 1)->six_faces());
+    EXPECT_FALSE(OutputName::parse("sky_{}.mp4", 1)->six_faces());
+}
+
 TEST(OutputName, numbers_as_hashes) {
     EXPECT_EQ(name_of("a.####.png", 7, 2), "a.0007.png");
     EXPECT_EQ(name_of("a#.exr", 7), "a7.exr");

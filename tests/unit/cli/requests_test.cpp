@@ -149,8 +149,8 @@ TEST(Load, the_first_error_is_the_answer) {
               "tidemark: error: the scene has no knob 'k': it declares none with #iUniform");
     EXPECT_EQ(message({path, {}, {"A=2"}, {}}),
               "tidemark: error: the scene has no #define or const 'A': it defines none");
-    EXPECT_EQ(message({path, {}, {}, {"9=noise"}}),
-              "tidemark: error: --channel 9=noise: give it as N=FILE, N=noise or N=none, N from 0 to 3");
+    EXPECT_EQ(message({path, {}, {}, {"10=noise"}}),
+              "tidemark: error: --channel 10=noise: give it as N=FILE, N=noise or N=none, N from 0 to 9");
     EXPECT_EQ(message({folder / "b.glsl", {"k"}, {}, {}}),
               "tidemark: error: cannot read '" + (folder / "b.glsl").string() + "': no such file");
 }

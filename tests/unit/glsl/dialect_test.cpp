@@ -28,6 +28,12 @@ TEST(Dialects, desktop_first_and_main_before_the_text) {
                                                              "300 es", "330 core, nothing initialised"}));
 }
 
+TEST(Dialects, overloads_of_built_in_functions_are_offered_beside_them_when_all_else_fails) {
+    const std::vector<std::string> offered = names("float mix(vec2 a) { return a.x; }\n" + k_main_image);
+    EXPECT_EQ(offered.front(), "330 core");
+    EXPECT_EQ(offered[4], "330 core, built-in functions overloaded");
+}
+
 TEST(Dialects, an_entry_point_that_is_a_macro_is_called_behind_it) {
     EXPECT_EQ(names("#define mainImage(O, U) O = vec4(U, 0, 1)\n").front(), "330 core, main last");
     EXPECT_EQ(names("#if 0\n#define mainImage(O, U)\n#endif\n" + k_main_image).front(), "330 core");

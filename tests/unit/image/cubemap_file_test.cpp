@@ -130,6 +130,7 @@ TEST(CubemapFile, strips_hold_the_faces_in_order) {
     }
     EXPECT_EQ(*cube_of_picture(row), faces);
     EXPECT_EQ(*cube_of_picture(column), faces);
+    EXPECT_EQ(column_of(faces), column);
 }
 
 TEST(CubemapFile, first_row_of_a_face_is_the_top_row_of_its_file) {

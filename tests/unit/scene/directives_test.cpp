@@ -35,14 +35,16 @@ TEST(Directives, strict_compatibility_is_what_we_do_anyway) {
 }
 
 TEST(Directives, we_do_not_have_are_said_and_left_out) {
-    const auto directives = read("a;\n#iVertex \"a.glsl\"\n#iFirstPersonControls\n");
+    const auto directives = read("#iVertex \"default\"\n#iVertex \"a.glsl\"\n#iFirstPersonControls\n");
     ASSERT_TRUE(directives);
+    EXPECT_TRUE(directives->moves_view);
     ASSERT_EQ(directives->warnings.size(), 2u);
     EXPECT_EQ(to_string(directives->warnings[0]),
               "dir/a.glsl:2: warning: #iVertex is left out: every pass is drawn as one triangle");
-    EXPECT_EQ(to_string(directives->warnings[1]),
-              "dir/a.glsl:3: warning: #iFirstPersonControls is left out: a scene "
-              "that declares iCamera has an orbit camera");
+    EXPECT_EQ(
+        to_string(directives->warnings[1]),
+        "dir/a.glsl:3: warning: #iFirstPersonControls: mouse and wheel move iViewMatrix, around what is in "
+        "front; keys do not");
     EXPECT_EQ(refusal("#iVertex 1"), "dir/a.glsl:1: error: expected a name in quotes but found '1'");
 }
 

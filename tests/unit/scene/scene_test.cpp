@@ -174,9 +174,9 @@ TEST_F(Overrides, a_channel_reads_what_it_is_told) {
 }
 
 TEST_F(Overrides, channels_that_there_are_not) {
-    for (const std::string setting : {"4=noise", "-1=noise", "00=noise", "x=noise", "0="})
+    for (const std::string setting : {"10=noise", "-1=noise", "00=noise", "x=noise", "0="})
         EXPECT_EQ(message(override_channel(scene, setting)),
-                  "--channel " + setting + ": give it as N=FILE, N=noise or N=none, N from 0 to 3");
+                  "--channel " + setting + ": give it as N=FILE, N=noise or N=none, N from 0 to 9");
     EXPECT_EQ(message(override_channel(scene, "noise")), "--channel noise: give it as 0=noise");
 }
 
