@@ -15,6 +15,8 @@ constexpr size_t k_most_rounds = 60;
 
 constexpr Omission k_omissions[] = {
     {"passes", "passes that nobody reads, drawn", [](Way& way) { way.options.extras.passes = true; }},
+    {"unchanged", "passes that read what they read in the frame before, drawn",
+     [](Way& way) { way.options.extras.unchanged = true; }},
     {"frames", "ten frames before the one that is wanted, drawn",
      [](Way& way) { way.frames_before = k_frames_before; }},
     {"uniforms", "uniforms and knobs that the programs do not have, handed over",
@@ -124,7 +126,7 @@ Result<SavedTime> time_starts(Contender& without, Contender& with_it, double sec
 SavedTime time_frames(Contender& without, Contender& with_it, double seconds, bool& same_pixels) {
     Rounds rounds;
     const Stopwatch watch;
-    for (int frame = k_frame + 1; more_rounds(rounds, watch, seconds); ++frame) {
+    for (int frame = k_frame + 2; more_rounds(rounds, watch, seconds); ++frame) {
         Contender& first = frame % 2 ? without : with_it;
         Contender& second = frame % 2 ? with_it : without;
         const Elapsed costs[] = {first.draw(frame), second.draw(frame)};
@@ -153,6 +155,8 @@ Result<Saving> measure_saving(const scene::Scene& scene, const render::RenderOpt
     Contender with_it(scene, way);
     if (auto started = with_it.start(); !started)
         return fail(std::move(started.error()));
+    without.draw(k_frame + 1); // a frame that another one precedes
+    with_it.draw(k_frame + 1);
     Saving saving{without.work(), with_it.work()};
     if (!saving.left_out())
         return saving;

@@ -245,6 +245,7 @@ void Renderer::warm_up(const FrameInputs& inputs) {
 }
 
 void Renderer::draw(const FrameInputs& inputs) {
+    draws_in_frame_ = 0;
     textures_.update(inputs);
     for (const PlannedPass& planned : plan_.passes)
         if (!tile_ || planned.pass != shown_)
@@ -356,6 +357,7 @@ void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
     target.flip();
     pass.drawn.drew(std::move(reads), target.edition());
     ++passes_drawn_;
+    draws_in_frame_ += scene_.passes[index].kind == PassKind::cubemap ? 6 : 1;
 }
 
 void Renderer::draw_stand_in(size_t index, const gl::Program& program, const FrameInputs& inputs,
@@ -380,9 +382,8 @@ void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& int
 }
 
 FrameWork Renderer::work() const {
-    FrameWork work{0, 0, 0, textures_.bytes(), 0};
+    FrameWork work{draws_in_frame_, 0, 0, textures_.bytes(), 0};
     for (const PlannedPass& planned : plan_.passes) {
-        work.draws += scene_.passes[planned.pass].kind == PassKind::cubemap ? 6 : 1;
         work.uniforms += passes_[planned.pass].uniforms.size();
         work.channels += passes_[planned.pass].channels.size();
         work.texture_bytes += targets_[planned.pass].bytes();

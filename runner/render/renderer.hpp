@@ -44,7 +44,7 @@ struct RenderOptions {
 
 /// What a frame takes, in things that can be counted.
 struct FrameWork {
-    size_t draws = 0;
+    size_t draws = 0;    ///< in the last frame
     size_t uniforms = 0; ///< handed over
     size_t channels = 0; ///< with a texture
     size_t texture_bytes = 0;
@@ -174,6 +174,7 @@ private:
     ChannelTextures textures_;
     std::vector<PassTarget> targets_; ///< one for each of the scene's; empty where nothing is drawn
     size_t passes_drawn_ = 0;
+    size_t draws_in_frame_ = 0; ///< the last one
 };
 
 } // namespace tidemark::render

@@ -139,8 +139,8 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
     };
     UniformValues values;
     values.reserve(entries_.size());
-    for (const Entry& entry : entries_)
-        values.push_back(numbers_of(entry));
+    for (const Entry& entry : entries_) // what the program does not have is no reason to draw anew
+        values.push_back(entry.uniform.location < 0 ? UniformNumbers{0} : numbers_of(entry));
     return values;
 }
 
@@ -159,6 +159,8 @@ void UniformTable::upload(const gl::Program& program, const UniformValues& value
 
 bool UniformTable::follows_clock() const {
     return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
+        if (entry.uniform.location < 0)
+            return false;
         switch (entry.source) {
         case Source::time:
         case Source::time_low:

@@ -266,6 +266,39 @@ TEST_F(ChangedTest, passes_in_front_of_one_that_is_looked_at_are_drawn_when_they
     EXPECT_EQ(draw(at(1)), 0u);
 }
 
+TEST_F(ChangedTest, a_renderer_of_a_changed_scene_goes_on_from_what_buffers_hold) {
+    const auto count = [&](const char* step) {
+        open({{"buffer_a.glsl",
+               fmt::format("#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) {{\n"
+                           "    c = texelFetch(iChannel0, ivec2(p), 0) + vec4(p, {}, 0.0);\n}}\n",
+                           step)},
+              {"cube_a.glsl", "#iChannel0 \"self\"\n"
+                              "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) {\n"
+                              "    c = texture(iChannel0, d) + 1.0;\n}\n"},
+              {"image.glsl",
+               "#iChannel0 \"buffer_a.glsl\"\n#iChannel1 \"cube_a.glsl\"\n"
+               "void mainImage(out vec4 c, in vec2 p) {\n"
+               "    c = texelFetch(iChannel0, ivec2(p), 0) + texture(iChannel1, vec3(0, 0, 1));\n}\n"}});
+    };
+    count("1.0");
+    for (int i = 0; i < 3; ++i)
+        draw(at(i));
+    const std::optional<Renderer> before = std::move(sparing_);
+    count("10.0");
+    both([&](Renderer& renderer) {
+        EXPECT_TRUE(renderer.resize({k_extent.width + 2, k_extent.height - 1}));
+        renderer.continue_from(*before);
+    });
+    draw(at(3));
+    const size_t buffer = sparing_->plan().passes[0].pass;
+    const image::Image drawn = sparing_->read_floats(buffer);
+    EXPECT_EQ(floats_at(drawn, 6, 3), (Floats4{4 * 6.5f, 4 * 3.5f, 13, 0}));
+    EXPECT_EQ(floats_at(drawn, 7, 3), (Floats4{7.5f, 3.5f, 10, 0})) << "there was nothing";
+    for (int face = 0; face < 6; ++face)
+        EXPECT_EQ(floats_at(sparing_->read_floats(sparing_->plan().passes[1].pass, face), 9, 9)[0], 4)
+            << face;
+}
+
 /// Everything at once, in any order.
 TEST_F(ChangedTest, whatever_happens_nobody_can_tell) {
     open({{"common.glsl", "vec4 at(sampler2D s, vec2 p) { return texelFetch(s, ivec2(p), 0); }\n"},

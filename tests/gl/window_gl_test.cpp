@@ -177,19 +177,24 @@ TEST_F(WindowTest, a_second_context_serves_a_thread_and_then_the_window) {
     auto context = window_->create_context();
     ASSERT_TRUE(context) << context.error().message;
     GLuint texture = 0;
+    GLuint vertices = 0;
     std::thread([&] {
         EXPECT_TRUE(context->make_current());
         glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+        glCreateVertexArrays(1, &vertices);
+        glFinish();
         context->leave();
     }).join();
-    EXPECT_FALSE(glIsTexture(texture)); // the window's first context is current, and shares nothing
+    EXPECT_FALSE(glIsVertexArray(vertices)); // the window's first context is current
+    EXPECT_TRUE(glIsTexture(texture));       // and shares textures
     {
         const KeepCurrent first;
         ASSERT_TRUE(context->make_current());
-        EXPECT_TRUE(glIsTexture(texture));
+        EXPECT_TRUE(glIsVertexArray(vertices));
     }
-    EXPECT_FALSE(glIsTexture(texture));
+    EXPECT_FALSE(glIsVertexArray(vertices));
     ASSERT_TRUE(context->make_current_in_window());
+    EXPECT_TRUE(glIsVertexArray(vertices));
     EXPECT_TRUE(glIsTexture(texture));
     EXPECT_EQ(cleared_pixel(), k_pixel);
     window_->swap();
