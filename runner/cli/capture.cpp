@@ -98,16 +98,14 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     return CapturePlan{*std::move(frames), *std::move(output), *depth, options.timeout, options.json};
 }
 
-/// From this many frames on it pays to try two programs.
-constexpr size_t k_frames_worth_a_trial = 30;
+/// In fewer frames a trial of another program does not pay.
+constexpr size_t k_frames_worth_a_trial = 64;
 
-/// The frames that a trial looks at: the first that is drawn and, where it can be drawn alone, the last.
-std::vector<render::FrameInputs> frames_to_try(const scene::Scene& scene, const FrameRequest& request) {
-    const bool feedback = scene.passes.size() > 1;
-    std::vector<render::FrameInputs> frames{inputs_of(request, feedback ? 0 : request.frames.front())};
-    if (!feedback)
-        frames.push_back(inputs_of(request, request.frames.back()));
-    return frames;
+/// A trial looks at the first frame that is drawn and at the last.
+TrialPlan plan_trial(const scene::Scene& scene, const CaptureOptions& options, const FrameRequest& request) {
+    const int first = scene.passes.size() > 1 ? 0 : request.frames.front(); // buffers begin at frame 0
+    return {inputs_of(request, first), inputs_of(request, request.frames.back()), request.frames.size(),
+            options.allowed_difference};
 }
 
 Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions& options,
@@ -119,13 +117,11 @@ Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions
     render::RenderOptions target{plan.frames.extent, samples, options.frames.pass,
                                  precision_of(options.scene),
                                  options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable};
-    const bool long_enough = plan.frames.frames.size() >= k_frames_worth_a_trial;
+    const bool long_enough = plan.frames.frames.size() >= k_frames_worth_a_trial && !plan.timeout;
     if (options.plain || !(options.allowed_difference || long_enough))
         return render::Renderer::create(scene, target);
-    target.specialise =
-        options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled;
-    auto trial =
-        choose_program(scene, target, frames_to_try(scene, plan.frames), options.allowed_difference);
+    target.specialise = options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled;
+    auto trial = choose_program(scene, target, plan_trial(scene, options, plan.frames));
     if (!trial)
         return fail(std::move(trial.error()));
     if (!trial->said.empty())
@@ -248,7 +244,8 @@ void add_capture(CLI::App& app, Action& chosen) {
                      "Makes knobs constants where that is faster and moves no sample by more")
         ->type_name("MAX")
         ->check(number<double>("a number"))
-        ->excludes(plain);
+        ->excludes(plain)
+        ->excludes("--timeout"); // a trial's frames have no limit
     command->add_flag("--json", options->json, "One JSON object about the frames on standard output");
     command->callback([options, &chosen] { chosen = [options] { return capture(*options); }; });
 }
