@@ -106,16 +106,14 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     return CapturePlan{*std::move(frames), *std::move(output), *depth, options.timeout, options.json};
 }
 
-/// From this many frames on it pays to try two programs.
-constexpr size_t k_frames_worth_a_trial = 30;
+/// In fewer frames a trial of another program does not pay.
+constexpr size_t k_frames_worth_a_trial = 64;
 
-/// The frames that a trial looks at: the first that is drawn and, where it can be drawn alone, the last.
-std::vector<render::FrameInputs> frames_to_try(const scene::Scene& scene, const FrameRequest& request) {
-    const bool feedback = scene.passes.size() > 1;
-    std::vector<render::FrameInputs> frames{inputs_of(request, feedback ? 0 : request.frames.front())};
-    if (!feedback)
-        frames.push_back(inputs_of(request, request.frames.back()));
-    return frames;
+/// A trial looks at the first frame that is drawn and at the last.
+TrialPlan plan_trial(const scene::Scene& scene, const CaptureOptions& options, const FrameRequest& request) {
+    const int first = scene.passes.size() > 1 ? 0 : request.frames.front(); // buffers begin at frame 0
+    return {inputs_of(request, first), inputs_of(request, request.frames.back()), request.frames.size(),
+            options.allowed_difference};
 }
 
 /// The size of the tiles; nothing where frames are drawn whole.
@@ -127,7 +125,9 @@ Result<std::optional<Extent>> choose_tile(const CaptureOptions& options, const C
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
                                                   extent.height, render::k_largest_tiled_side));
     if (options.tile)
-        return render::tile_of_side(*options.tile, limit).map([](Extent tile) { return std::optional(tile); });
+        return render::tile_of_side(*options.tile, limit).map([](Extent tile) {
+            return std::optional(tile);
+        });
     if (plan.output.video())
         return std::nullopt;
     return render::tile_for(extent, 4 * image::size_of(samples), limit);
@@ -135,13 +135,12 @@ Result<std::optional<Extent>> choose_tile(const CaptureOptions& options, const C
 
 /// Where it pays, the faster of two programs; in tiles too large a picture is drawn to draw it for a trial.
 Result<render::Renderer> choose_renderer(const scene::Scene& scene, const CaptureOptions& options,
-                                         const FrameRequest& frames, render::RenderOptions target) {
-    const bool long_enough = frames.frames.size() >= k_frames_worth_a_trial;
+                                         const CapturePlan& plan, render::RenderOptions target) {
+    const bool long_enough = plan.frames.frames.size() >= k_frames_worth_a_trial && !plan.timeout;
     if (options.plain || target.tile || !(options.allowed_difference || long_enough))
         return render::Renderer::create(scene, target);
-    target.specialise =
-        options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled;
-    auto trial = choose_program(scene, target, frames_to_try(scene, frames), options.allowed_difference);
+    target.specialise = options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled;
+    auto trial = choose_program(scene, target, plan_trial(scene, options, plan.frames));
     if (!trial)
         return fail(std::move(trial.error()));
     if (!trial->said.empty())
@@ -159,7 +158,7 @@ Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions
     if (!tile)
         return fail(tile.error());
     auto renderer = choose_renderer(
-        scene, options, plan.frames,
+        scene, options, plan,
         {.extent = plan.frames.extent,
          .samples = samples,
          .pass = options.frames.pass,
@@ -291,7 +290,8 @@ void add_capture(CLI::App& app, Action& chosen) {
                      "Makes knobs constants where that is faster and moves no sample by more")
         ->type_name("MAX")
         ->check(number<double>("a number"))
-        ->excludes(plain);
+        ->excludes(plain)
+        ->excludes("--timeout"); // a trial's frames have no limit
     command
         ->add_option("--tile", options->tile,
                      "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")

@@ -1,26 +1,32 @@
-// Which program draws a sequence: the one that was specialised in ways that a driver may round differently, or
-// the plain one. Both are tried on frames of the sequence, and the bytes decide.
+// Which program draws a sequence: the one that was specialised in ways that a driver may round differently,
+// or the one that the driver surely rounds alike. Both are tried on frames of the sequence, and the bytes
+// decide.
 #pragma once
 
 #include "base/result.hpp"
 #include "render/renderer.hpp"
 
 #include <optional>
-#include <span>
 #include <string>
 
 namespace tidemark::cli {
 
-/// What a renderer may leave out, and what was found out about it.
+/// What is tried.
+struct TrialPlan {
+    render::FrameInputs first{}; ///< of the frames that are looked at, drawn one after the other from zero
+    render::FrameInputs last{};
+    size_t frames = 1; ///< of the sequence: a trial may cost a twentieth of it
+    /// The largest difference of a sample (0..1 in a picture) that is consented to, whatever the trial costs.
+    std::optional<double> allowed{};
+};
+
 struct Trial {
-    render::Renderer renderer;
+    render::Renderer renderer; ///< its buffers are zero
     std::string said{}; ///< for people: a difference that was allowed or that decided against it; else empty
 };
 
-/// `frames` are those that are looked at, as a plain program would draw them one after the other from zero.
-/// `allowed`: the largest difference of a sample (0..1 in a picture) that is consented to; nothing: none. The
-/// winner's buffers are zero.
+/// `options.specialise` says how far it may go.
 Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOptions& options,
-                             std::span<const render::FrameInputs> frames, std::optional<double> allowed);
+                             const TrialPlan& plan);
 
 } // namespace tidemark::cli

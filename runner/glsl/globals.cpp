@@ -57,10 +57,10 @@ private:
         const NodeId type = tree_.child(global.node, 0);
         if (const NodeId structure = tree_.child(type, 0); structure != k_no_node)
             global.names.push_back(text_.word_of(structure));
-        size_t values = 0;
+        size_t values = 0; // each declarator may have one
         for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next) {
             global.names.push_back(text_.word_of(name));
-            values += 1;
+            ++values;
         }
         size_t assignments = 0;
         for (size_t i = tree_[global.node].begin; i < tree_[global.node].end; ++i) {
@@ -69,9 +69,9 @@ private:
             global.root = global.root || changes_something(word) ||
                           (word.kind == text::TokenKind::identifier && functions_.contains(word.text));
         }
-        const bool ours_not = std::any_of(global.names.begin(), global.names.end(),
-                                          [](std::string_view name) { return name.starts_with("gl_"); });
-        global.root = global.root || global.names.empty() || assignments > values || ours_not ||
+        const bool of_the_driver = std::any_of(global.names.begin(), global.names.end(),
+                                               [](std::string_view name) { return name.starts_with("gl_"); });
+        global.root = global.root || global.names.empty() || assignments > values || of_the_driver ||
                       is_interface(text_, type);
     }
 

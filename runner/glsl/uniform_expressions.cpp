@@ -57,7 +57,7 @@ void UniformExpressions::enter(const Global& function) {
         if (is_expression(tree_[id].kind))
             values_[id - first_] = evaluate(id);
         else if (tree_[id].kind == NodeKind::declaration)
-            find_aliases(id, id);
+            find_aliases(id);
     }
 }
 
@@ -111,21 +111,18 @@ void UniformExpressions::find_written(NodeId first, NodeId last) {
     }
 }
 
-void UniformExpressions::find_aliases(NodeId first, NodeId last) {
-    for (NodeId id = first; id <= last; ++id) {
-        const NodeId type = tree_.child(id, 0);
-        const auto numeric = value_type(type_name(text_, type));
-        for (NodeId name = tree_[type].next; numeric && name != k_no_node; name = tree_[name].next) {
-            const std::string_view word = text_.word_of(name);
-            const NodeId initial = tree_.child(name, 0);
-            if (initial == k_no_node || dimensions(text_, type, name) > 0 || locals_[word].times != 1 ||
-                written_.contains(word) || globals_.contains(word) || functions_.contains(word))
-                continue;
-            const Value known = value(initial);
-            if (!known || (known->type != *numeric && !(known->type.base == 'i' && numeric->base == 'f')))
-                continue;
+void UniformExpressions::find_aliases(NodeId declaration) {
+    const NodeId type = tree_.child(declaration, 0);
+    const auto numeric = value_type(type_name(text_, type));
+    for (NodeId name = tree_[type].next; numeric && name != k_no_node; name = tree_[name].next) {
+        const std::string_view word = text_.word_of(name);
+        const NodeId initial = tree_.child(name, 0);
+        if (initial == k_no_node || dimensions(text_, type, name) > 0 || locals_[word].times != 1 ||
+            written_.contains(word) || globals_.contains(word) || functions_.contains(word))
+            continue;
+        const Value known = value(initial);
+        if (known && (known->type == *numeric || (known->type.base == 'i' && numeric->base == 'f')))
             aliases_[word] = {initial, *numeric};
-        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include "glsl/value_types.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -49,7 +50,7 @@ private:
 
     void read_globals(const std::vector<Global>& globals);
     void find_written(NodeId first, NodeId last);
-    void find_aliases(NodeId first, NodeId last);
+    void find_aliases(NodeId declaration);
     Value evaluate(NodeId expression) const;
     Value name(std::string_view name) const;
     Value call(NodeId call) const;

@@ -261,7 +261,7 @@ class Specialised(ProgramTest):
              "    if (foam > 0.0)\n"
              "        c += unused();\n"
              "}\n")
-    SEQUENCE = ("--size", "16x9", "--frames", "0-39", "-o", "-")
+    SEQUENCE = ("--size", "160x90", "--frames", "0-99", "-o", "-")
 
     def drawn(self, *options: str) -> bytes:
         return self.succeed("capture", "a.glsl", *self.SEQUENCE, *options).stdout
@@ -269,9 +269,9 @@ class Specialised(ProgramTest):
     def test_bytes(self):
         self.write("a.glsl", "float unused() { return 1.0; }\n" + self.SCENE)
         frames = self.drawn()
-        self.assertEqual(len(frames), 40 * 16 * 9 * 3)
+        self.assertEqual(len(frames), 100 * 160 * 90 * 3)
         self.assertEqual(frames, self.drawn("--plain"))
-        self.assertNotEqual(frames[:16 * 9 * 3], frames[-16 * 9 * 3:])
+        self.assertNotEqual(frames[:160 * 90 * 3], frames[-160 * 90 * 3:])
 
     def test_plain_compiles_what_nobody_calls(self):
         self.write("a.glsl", "float unused() { return 1.0; }\nfloat broken() { return undeclared; }\n" + self.SCENE)

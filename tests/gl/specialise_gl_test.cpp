@@ -164,24 +164,25 @@ TEST_F(SpecialiseTest, a_trial_gives_the_plain_bytes_unless_a_difference_is_allo
         scene_of("#iUniform float power = 4.0 in { 1.0, 9.0 }\n"
                  "void mainImage(out vec4 c, vec2 p) {\n"
                  "    for (int i = 0; i < 9; ++i) c += pow(fract(p.x * 0.37 + sin(iTime)), power); }");
-    const std::vector<FrameInputs> frames = {inputs_of_frame(0, 60), inputs_of_frame(100, 60)};
+    cli::TrialPlan plan{inputs_of_frame(0, 60), inputs_of_frame(100, 60), 1'000'000};
     RenderOptions options{.extent = k_extent, .samples = image::SampleType::f32};
     Renderer plain = made(scene, Specialise::nothing);
-    const image::Image expected = frame(plain, frames[1]);
+    const image::Image expected = frame(plain, plan.last);
 
     options.specialise = Specialise::settled;
-    auto trial = cli::choose_program(scene, options, frames, std::nullopt);
+    auto trial = cli::choose_program(scene, options, plan);
     ASSERT_TRUE(trial);
     EXPECT_EQ(trial->said, "");
-    EXPECT_TRUE(frame(trial->renderer, frames[1]) == expected);
+    EXPECT_TRUE(frame(trial->renderer, plan.last) == expected);
 
     options.specialise = Specialise::constants; // the driver makes products of that power
     ASSERT_FALSE(drawn(scene, Specialise::constants) == drawn(scene, Specialise::nothing));
-    trial = cli::choose_program(scene, options, frames, 1e-12);
+    plan.allowed = 1e-12;
+    trial = cli::choose_program(scene, options, plan);
     ASSERT_TRUE(trial);
     EXPECT_THAT(trial->said,
                 testing::StartsWith("not specialised: it would differ from the plain program by "));
-    EXPECT_TRUE(frame(trial->renderer, frames[1]) == expected);
+    EXPECT_TRUE(frame(trial->renderer, plan.last) == expected);
 }
 
 } // namespace
