@@ -111,7 +111,9 @@ Result<std::optional<Extent>> choose_tile(const CaptureOptions& options, const C
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
                                                   extent.height, render::k_largest_tiled_side));
     if (options.tile)
-        return render::tile_of_side(*options.tile, limit).map([](Extent tile) { return std::optional(tile); });
+        return render::tile_of_side(*options.tile, limit).map([](Extent tile) {
+            return std::optional(tile);
+        });
     if (plan.output.video())
         return std::nullopt;
     return render::tile_for(extent, 4 * image::size_of(samples), limit);
@@ -126,12 +128,11 @@ Result<render::Renderer> compile(scene::Scene scene, const CaptureOptions& optio
     const auto tile = choose_tile(options, plan, samples);
     if (!tile)
         return fail(tile.error());
-    auto renderer =
-        render::Renderer::create(std::move(scene), {.extent = plan.frames.extent,
-                                                    .samples = samples,
-                                                    .pass = options.frames.pass,
-                                                    .precision = precision_of(options.scene),
-                                                    .tile = *tile});
+    auto renderer = render::Renderer::create(std::move(scene), {.extent = plan.frames.extent,
+                                                                .samples = samples,
+                                                                .pass = options.frames.pass,
+                                                                .precision = precision_of(options.scene),
+                                                                .tile = *tile});
     if (renderer && options.tile && !renderer->tiles())
         return fail(ErrorCode::usage,
                     fmt::format("--tile: {} must be drawn whole: it is a cube, or a pass reads it",
