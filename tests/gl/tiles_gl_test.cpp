@@ -1,5 +1,6 @@
 // A picture drawn in tiles is the picture drawn whole, byte for byte.
 #include "gl_test.hpp"
+#include "glsl/assemble.hpp"
 #include "render/bands.hpp"
 
 #include <gmock/gmock.h>
@@ -145,8 +146,20 @@ TEST_F(TilesTest, a_pass_that_somebody_reads_is_drawn_whole) {
         testing::EndsWith(fmt::format("{} cannot be drawn in tiles, because a pass reads it", what.pass)));
 }
 
-TEST_F(TilesTest, every_dialect_knows_the_tile) {
-    // A main of the author's own, an entry point that is a macro, and a text that only ES links.
+TEST_F(TilesTest, every_version_knows_the_tile) {
+    const scene::Scene scene = scene_of(k_seams);
+    for (const auto version : {glsl::Version::core_330, glsl::Version::core_450, glsl::Version::es_300}) {
+        glsl::Dialect dialect;
+        dialect.version = version;
+        dialect.tiled = true;
+        const auto program = gl::Program::link(glsl::vertex_shader(version),
+                                               glsl::assemble(scene, scene.image(), dialect).text());
+        ASSERT_TRUE(program) << to_string(dialect) << ": " << program.error();
+        EXPECT_TRUE(program->reflection().has("tidemark_tile")) << to_string(dialect);
+    }
+}
+
+TEST_F(TilesTest, a_main_of_the_authors_own_and_an_entry_point_that_is_a_macro) {
     for (const char* text :
          {"void main() { gl_FragColor = vec4(gl_FragCoord.xy / iResolution.xy, 0.5, 1.0); }",
           "#define entry mainImage\nvoid entry(out vec4 c, in vec2 p) { c = vec4(p, gl_FragCoord.yx); }"})
