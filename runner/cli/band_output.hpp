@@ -39,7 +39,7 @@ private:
 
     std::optional<image::PictureStream> stream_;
     std::optional<Sha256> hash_;
-    image::Image band_; ///< in hand
+    image::Image band_;                 ///< in hand
     std::future<Result<void>> writing_; ///< last: its end is waited for while all else is still there
 };
 

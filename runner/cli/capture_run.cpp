@@ -52,8 +52,8 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
-        const auto outcome = renderer_.tiles() ? make_in_tiles(frame, interrupt, record)
-                                               : make(frame, interrupt, record);
+        const auto outcome =
+            renderer_.tiles() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record);
         if (!outcome)
             return fail(outcome.error());
         if (*outcome == Outcome::interrupted) {
@@ -151,7 +151,6 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     auto output = open_bands(record);
     if (!output)
         return fail(std::move(output.error()));
-    const auto end_watch = [&] { work.watch.reset(), bands_ = nullptr; };
     bands_ = output->get();
     Progress progress("tiles", renderer_.tiles()->count());
     const auto before_tile = [&] {
@@ -167,12 +166,15 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         progress.advance();
         drawn = bands_->finish().map([] { return true; });
     }
-    end_watch();
+    work.watch.reset();
+    bands_ = nullptr;
     if (!drawn)
         return fail(std::move(drawn.error()));
+    if (!*drawn)
+        return Outcome::interrupted;
     record.milliseconds = milliseconds_since(work.start);
     record.sha256 = (*output)->sha256();
-    return *drawn ? Outcome::made : Outcome::interrupted;
+    return Outcome::made;
 }
 
 Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& record) const {
@@ -180,8 +182,7 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     if (!plan_.output.standard_output()) {
         // Image's alpha is 1.
         const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
-        auto made =
-            image::PictureStream::create(record.file, renderer_.extent(), alpha, format_of(record));
+        auto made = image::PictureStream::create(record.file, renderer_.extent(), alpha, format_of(record));
         if (!made)
             return fail(std::move(made.error()));
         stream.emplace(*std::move(made));

@@ -10,7 +10,8 @@
 
 namespace tidemark::glsl {
 
-/// #version and what must follow it at once; what every text needs untouched. `extensions` are the author's own lines that go to the top.
+/// #version and what must follow it at once; what every text needs untouched. `extensions` are the author's
+/// own lines that go to the top.
 std::string version_lines(const Dialect& dialect, std::span<const std::string> extensions);
 
 /// From there to the last helper.

@@ -33,7 +33,7 @@ struct WrittenFormat {
     FileFormat format;
     bool has_alpha;
     std::vector<SampleDepth> depths; ///< the natural one first
-    int longest_side = 1'000'000; ///< libpng's own limit, and sense
+    int longest_side = 1'000'000;    ///< libpng's own limit, and sense
 };
 
 const std::vector<WrittenFormat>& written_formats() {
@@ -231,8 +231,8 @@ Result<void> write_picture(const fs::path& path, const Image& image, const Pictu
     return write_file(path, std::as_bytes(std::span(**file)));
 }
 
-/// A stream for encoders, which learn nothing of a disk that is full: libjpeg would end the process, and others
-/// do not say why.
+/// A stream for encoders, which learn nothing of a disk that is full: libjpeg would end the process, and
+/// others do not say why.
 class PictureStream::File {
 public:
     explicit File(const fs::path& path)
@@ -304,8 +304,8 @@ Result<void> PictureStream::check_extent(const fs::path& path, Extent extent) {
     const int longest = written_format(path)->longest_side;
     if (std::max(extent.width, extent.height) <= longest)
         return {};
-    return fail(ErrorCode::usage, fmt::format("--size {}x{}: a {} has at most {} pixels on a side", extent.width,
-                                              extent.height, lower_extension(path), longest));
+    return fail(ErrorCode::usage, fmt::format("--size {}x{}: a {} has at most {} pixels on a side",
+                                              extent.width, extent.height, lower_extension(path), longest));
 }
 
 Result<PictureStream> PictureStream::create(const fs::path& path, Extent extent, bool alpha,

@@ -57,7 +57,8 @@ void put(png_structp png, png_bytep data, size_t size) {
 class Writer : public RowEncoder {
 public:
     Writer(const EncodeJob& job, Sink sink, void* into)
-        : row_bytes_(size_t(job.extent.width) * size_t(job.channels) * (job.depth == SampleDepth::u16 ? 2 : 1)),
+        : row_bytes_(size_t(job.extent.width) * size_t(job.channels) *
+                     (job.depth == SampleDepth::u16 ? 2 : 1)),
           png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &error_, keep_error, drop_warning)) {
         if (png_)
             info_ = png_create_info_struct(png_);

@@ -1,4 +1,5 @@
-// A frame that is drawn tile by tile, as the bands that its tiles make: from the top, as files have their rows.
+// A frame that is drawn tile by tile, as the bands that its tiles make: from the top, as files have their
+// rows.
 #pragma once
 
 #include "render/renderer.hpp"
@@ -9,8 +10,8 @@ namespace tidemark::render {
 
 /// Is told before each tile; false stops there.
 using BeforeTile = std::function<bool()>;
-/// Takes a band and gives one back, of whatever size, for the next to be drawn into: so one can be encoded while
-/// the next is drawn, and two are all that memory holds.
+/// Takes a band and gives one back, of whatever size, for the next to be drawn into: so one can be encoded
+/// while the next is drawn, and two are all that memory holds.
 using TakeBand = std::function<Result<image::Image>(image::Image band)>;
 
 /// After the `draw` of the same frame, of a renderer that has tiles. False: stopped.

@@ -161,8 +161,9 @@ Result<void> Renderer::make_targets() {
         auto target = make_target(planned.pass);
         if (!target) {
             if (planned.pass != shown_ || !can_be_tiled())
-                target.error().message += fmt::format("; {} cannot be drawn in tiles, because a pass reads it",
-                                                      scene_.passes[planned.pass].name);
+                target.error().message +=
+                    fmt::format("; {} cannot be drawn in tiles, because a pass reads it",
+                                scene_.passes[planned.pass].name);
             return fail(std::move(target.error()));
         }
         targets_[planned.pass] = *std::move(target);

@@ -81,8 +81,8 @@ public:
 
     /// The tiles of the shown pass; nothing where it is drawn whole.
     std::optional<TileGrid> tiles() const;
-    /// One tile, after the `draw` of the same frame, and its pixels in their place in `band`: a picture of the
-    /// whole width whose bottom row is the tile's. The same bytes as in a picture drawn whole.
+    /// One tile, after the `draw` of the same frame, and its pixels in their place in `band`: a picture of
+    /// the whole width whose bottom row is the tile's. The same bytes as in a picture drawn whole.
     void draw_tile(const FrameInputs& inputs, const Tile& tile, image::Image& band) const;
 
     /// Buffers back to zero, as before frame 0.
@@ -93,7 +93,8 @@ public:
     /// drawing.
     void continue_from(const Renderer& before);
 
-    /// The pixels of the shown pass, drawn whole. A buffer that is shown in bytes is clamped; of a cube, face +x.
+    /// The pixels of the shown pass, drawn whole. A buffer that is shown in bytes is clamped; of a cube, face
+    /// +x.
     image::Image read_back() const { return read_back(shown_); }
     /// The faces of a shown cubemap pass, +x -x +y -y +z -z.
     std::array<image::Image, 6> read_back_cube() const;

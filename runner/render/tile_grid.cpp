@@ -31,8 +31,8 @@ std::optional<Extent> tile_for(Extent whole, size_t pixel_bytes, int largest_tar
 
 Result<Extent> tile_of_side(int side, int largest_target) {
     if (side < 2 || side > largest_target || side % 2 != 0)
-        return fail(ErrorCode::usage, fmt::format("--tile {}: give an even number of pixels from 2 to {}", side,
-                                                  largest_target));
+        return fail(ErrorCode::usage, fmt::format("--tile {}: give an even number of pixels from 2 to {}",
+                                                  side, largest_target));
     return Extent{side, side};
 }
 

@@ -41,8 +41,8 @@ private:
 };
 
 /// The tiles for a picture of that many bytes a pixel: as many pixels as a frame of the default size has, so
-/// that none keeps a GPU longer, in bands that memory can hold. Nothing where the picture is best drawn whole:
-/// no side is longer than `largest_target`, and there are no more pixels than 4K has.
+/// that none keeps a GPU longer, in bands that memory can hold. Nothing where the picture is best drawn
+/// whole: no side is longer than `largest_target`, and there are no more pixels than 4K has.
 std::optional<Extent> tile_for(Extent whole, size_t pixel_bytes, int largest_target);
 
 /// Square tiles of `side` pixels, as `--tile` asks for; fails (ErrorCode::usage) on a side that no target may

@@ -1,5 +1,6 @@
 // A picture drawn in tiles is the picture drawn whole, byte for byte.
 #include "gl_test.hpp"
+#include "glsl/assemble.hpp"
 #include "render/bands.hpp"
 
 #include <gmock/gmock.h>
@@ -114,36 +115,51 @@ TEST_F(TilesTest, a_discarded_pixel_shows_nothing_of_another_tile) {
 }
 
 TEST_F(TilesTest, buffers_stay_whole_and_keep_their_frames) {
-    put("buffer_a.glsl", "#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) {\n"
-                         "    vec2 uv = p / iResolution.xy;\n"
-                         "    c = texture(iChannel0, uv * 0.9 + 0.07) * 0.8 + vec4(uv, fract(iTime), 1.0);\n}\n");
-    const scene::Scene scene = scene_of(
-        "#iChannel0 \"buffer_a.glsl\"\n#iChannel0::MinFilter \"LinearMipMapLinear\"\n"
-        "void mainImage(out vec4 c, in vec2 p) {\n"
-        "    c = texture(iChannel0, p.yx / iResolution.xy * 2.3) + texelFetch(iChannel0, ivec2(1, 2), 0);\n}\n");
+    put("buffer_a.glsl",
+        "#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+        "    vec2 uv = p / iResolution.xy;\n"
+        "    c = texture(iChannel0, uv * 0.9 + 0.07) * 0.8 + vec4(uv, fract(iTime), 1.0);\n}\n");
+    const scene::Scene scene =
+        scene_of("#iChannel0 \"buffer_a.glsl\"\n#iChannel0::MinFilter \"LinearMipMapLinear\"\n"
+                 "void mainImage(out vec4 c, in vec2 p) {\n"
+                 "    c = texture(iChannel0, p.yx / iResolution.xy * 2.3) + texelFetch(iChannel0, ivec2(1, "
+                 "2), 0);\n}\n");
     expect_same(scene, {75, 41}, {16, 8}, {.frame = 5});
 }
 
 TEST_F(TilesTest, a_pass_that_somebody_reads_is_drawn_whole) {
     put("buffer_a.glsl", "#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) {"
                          " c = texelFetch(iChannel0, ivec2(p), 0) + 0.1; }\n");
-    const scene::Scene scene = scene_of("#iChannel0 \"buffer_a.glsl\"\nvoid mainImage(out vec4 c, in vec2 p) {"
-                                        " c = texelFetch(iChannel0, ivec2(p), 0); }\n");
+    const scene::Scene scene =
+        scene_of("#iChannel0 \"buffer_a.glsl\"\nvoid mainImage(out vec4 c, in vec2 p) {"
+                 " c = texelFetch(iChannel0, ivec2(p), 0); }\n");
     Case what;
     EXPECT_TRUE(make(scene, {9, 9}, Extent{4, 4}, what).tiles());
     EXPECT_FALSE(make(scene, {9, 9}, std::nullopt, what).tiles());
     what.pass = scene.passes.front().name;
     EXPECT_FALSE(make(scene, {9, 9}, Extent{4, 4}, what).tiles());
-    const auto refused =
-        Renderer::create(scene, {.extent = {1 << 20, 2}, .tile = Extent{64, 2}});
+    const auto refused = Renderer::create(scene, {.extent = {1 << 20, 2}, .tile = Extent{64, 2}});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::usage);
-    EXPECT_THAT(refused.error().message,
-                testing::EndsWith(fmt::format("{} cannot be drawn in tiles, because a pass reads it", what.pass)));
+    EXPECT_THAT(
+        refused.error().message,
+        testing::EndsWith(fmt::format("{} cannot be drawn in tiles, because a pass reads it", what.pass)));
 }
 
-TEST_F(TilesTest, every_dialect_knows_the_tile) {
-    // A main of the author's own, an entry point that is a macro, and a text that only ES links.
+TEST_F(TilesTest, every_version_knows_the_tile) {
+    const scene::Scene scene = scene_of(k_seams);
+    for (const auto version : {glsl::Version::core_330, glsl::Version::core_450, glsl::Version::es_300}) {
+        glsl::Dialect dialect;
+        dialect.version = version;
+        dialect.tiled = true;
+        const auto program = gl::Program::link(glsl::vertex_shader(version),
+                                               glsl::assemble(scene, scene.image(), dialect).text());
+        ASSERT_TRUE(program) << to_string(dialect) << ": " << program.error();
+        EXPECT_TRUE(program->reflection().has("tidemark_tile")) << to_string(dialect);
+    }
+}
+
+TEST_F(TilesTest, a_main_of_the_authors_own_and_an_entry_point_that_is_a_macro) {
     for (const char* text :
          {"void main() { gl_FragColor = vec4(gl_FragCoord.xy / iResolution.xy, 0.5, 1.0); }",
           "#define entry mainImage\nvoid entry(out vec4 c, in vec2 p) { c = vec4(p, gl_FragCoord.yx); }"})

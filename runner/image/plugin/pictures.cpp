@@ -144,8 +144,7 @@ public:
     RowEncoder::Done add(const std::byte* samples, int rows) {
         const std::byte* top = samples + row_bytes_ * (rows - 1);
         const int first = std::exchange(next_, next_ + rows);
-        return done(
-            output_->write_scanlines(first, next_, 0, given_, top, OIIO::AutoStride, -row_bytes_));
+        return done(output_->write_scanlines(first, next_, 0, given_, top, OIIO::AutoStride, -row_bytes_));
     }
     RowEncoder::Done finish() { return done(output_->close()); }
 

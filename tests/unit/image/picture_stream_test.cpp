@@ -12,8 +12,8 @@ constexpr Extent k_extent{23, 37};
 class PictureStreamTest : public PictureTest {
 protected:
     /// In bands of those heights from the top.
-    Result<void> stream(const std::string& name, const Image& picture, bool alpha, const PictureFormat& format,
-                        const std::vector<int>& heights) const {
+    Result<void> stream(const std::string& name, const Image& picture, bool alpha,
+                        const PictureFormat& format, const std::vector<int>& heights) const {
         auto stream = PictureStream::create(in_folder(name), picture.extent, alpha, format);
         if (!stream)
             return fail(std::move(stream.error()));
@@ -38,7 +38,8 @@ TEST_F(PictureStreamTest, bands_make_the_file_of_the_whole) {
     for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"})
         for (const SampleType type : {SampleType::u8, SampleType::f32})
             for (const bool alpha : {false, true}) {
-                Image picture = type == SampleType::u8 ? patterned_u8(k_extent, 4) : patterned_f32(k_extent, 4);
+                Image picture =
+                    type == SampleType::u8 ? patterned_u8(k_extent, 4) : patterned_f32(k_extent, 4);
                 if (!alpha)
                     picture = opaque(std::move(picture));
                 const PictureFormat format{natural_depth(name), {{"Scene", "waves.glsl"}}};
