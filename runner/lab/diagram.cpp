@@ -98,7 +98,8 @@ std::string diagram_script(const WorkPrecisionSet& set, Across across, const std
         return {};
     std::string script = "set encoding utf8\nset logscale xy\nset format '%g'\nset grid lc rgb '#dddddd'\n"
                          "set key below noenhanced\nset border lc rgb '#666666'\n";
-    script += fmt::format("set xlabel {} offset 0,0.4\nset ylabel {} noenhanced\n",
+    // The empty line keeps the legend off the label.
+    script += fmt::format("set xlabel {}.\"\\n\"\nset ylabel {} noenhanced\n",
                           across == Across::time ? "'milliseconds, median with 95 % interval'"
                                                  : quoted_text(set.words.work),
                           quoted_text(error_name(set)));

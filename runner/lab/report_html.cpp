@@ -19,7 +19,7 @@ h1 { margin-bottom: 0; } h2 { margin-top: 2.5rem; } .about { opacity: .75; }
 .verdict p { margin: .3rem 0; } .warning { border-color: #d55e00; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 13px; }
 .wide { overflow-x: auto; } th, td { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid var(--line); }
-th:first-child, td:first-child { text-align: left; } td + td { white-space: nowrap; } tr.front { background: #e6e6a040; font-weight: 600; }
+th:first-child, td:first-child { text-align: left; min-width: 14rem; } td + td { white-space: nowrap; } tr.front { background: #e6e6a040; font-weight: 600; }
 tr.hollow td:first-child::after { content: " \25cb"; } .failed { color: #c03030; text-align: left; white-space: pre-wrap; }
 figure { margin: 1rem 0; } img { max-width: 100%; height: auto; background: #fff; }
 .slider { position: relative; display: inline-block; line-height: 0; max-width: 100%; }
@@ -84,6 +84,15 @@ void add_compiling_columns(std::vector<Column>& columns) {
 
 std::vector<Column> columns_of(const WorkPrecisionSet& set) {
     std::vector<Column> columns;
+    columns.push_back(
+        {"ms [95 %]", [](const WorkPrecision& p) {
+             const TimeSummary& t = p.all.time();
+             const std::string interval =
+                 t.runs < k_fewest_runs
+                     ? fmt::format("[{} rounds]", t.runs)
+                     : fmt::format("[{}, {}]", number(t.confidence.low), number(t.confidence.high));
+             return fmt::format("{} {}{}", number(t.median), interval, t.drifted ? " drift" : "");
+         }});
     if (set.has_hits()) {
         const auto hit = [&](const char* head, double HitErrors::*field) {
             columns.push_back({head, [field](const WorkPrecision& p) {
@@ -102,15 +111,6 @@ std::vector<Column> columns_of(const WorkPrecisionSet& set) {
     }
     if (set.has_pictures())
         add_picture_columns(columns);
-    columns.push_back(
-        {"ms [95 %]", [](const WorkPrecision& p) {
-             const TimeSummary& t = p.all.time();
-             const std::string interval =
-                 t.runs < k_fewest_runs
-                     ? fmt::format("[{} rounds]", t.runs)
-                     : fmt::format("[{}, {}]", number(t.confidence.low), number(t.confidence.high));
-             return fmt::format("{} {}{}", number(t.median), interval, t.drifted ? " drift" : "");
-         }});
     columns.push_back({"least ms", [](const WorkPrecision& p) { return number(p.all.time().smallest); }});
     columns.push_back({"CPU ms", [](const WorkPrecision& p) { return number(p.all.cpu.median); }});
     if (set.has_pictures())
