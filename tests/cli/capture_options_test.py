@@ -244,9 +244,9 @@ class Channels(Told):
         self.assertEqual(list(self.told(self.SIZE, "--channel", "0=none").values()), [0, 0, 0, 0])
 
     def test_errors(self):
-        for wrong in ("4=noise", "-1=noise", "x=noise", "00=noise", "0="):
+        for wrong in ("10=noise", "-1=noise", "x=noise", "00=noise", "0="):
             self.refused(f"--channel {wrong}",
-                         f"--channel {wrong}: give it as N=FILE, N=noise or N=none, N from 0 to 3")
+                         f"--channel {wrong}: give it as N=FILE, N=noise or N=none, N from 0 to 9")
         self.refused("--channel noise", "--channel noise: give it as 0=noise")
 
 
