@@ -26,7 +26,7 @@ public:
     const scene::Scene& scene() const { return scene_; }
     const Promises& promises() const { return promises_; }
 
-    /// RGB of Image, floats. A scene with feedback is drawn from its start, k_run_up frames before that
+    /// RGB of Image, floats. A scene with feedback is drawn from its start, run_up_of frames before that
     /// moment.
     Result<image::Image> picture(const Situation& situation,
                                  glsl::Precision precision = glsl::Precision::single);
@@ -41,8 +41,6 @@ public:
 
     /// The promoted scene's hashes; the error of a scene that cannot be promoted.
     Result<std::vector<glsl::KeptHash>> hashes();
-
-    static constexpr int k_run_up = 8;
 
 private:
     enum class Entry { picture, hit };

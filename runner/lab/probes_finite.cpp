@@ -66,7 +66,7 @@ Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations)
                           fmt::format("{} of {} samples of {} ({}), first at pixel {},{}",
                                       census.non_finite(), census.samples, pass.pass, counts(census), at.x,
                                       at.y),
-                          situation, marked(pass.picture)};
+                          situation, marked(pass.picture), true};
                 answer.where->pass = pass.pass == bench.scene().image().name ? "" : pass.pass;
             }
             seen = true;

@@ -61,6 +61,35 @@ class Check(ProgramTest):
         self.assertEqual(command[:3], ["tidemark", "capture", str(scene)])
         self.succeed(*command[1:-1], str(self.folder / "again.exr"))
 
+    def test_what_is_not_finite_is_traced_to_its_line(self):
+        scene = self.write("waves.glsl", "float wave(float t) { return sqrt(0.5 - t); }\n" + FAULTS["times"].replace(
+            "sqrt(1.0 - iTime)", "wave(iTime)"))
+        entry = self.verdicts(scene, "--probe", "times")["times"]
+        first = entry["trace"]["first"]
+        self.assertEqual((first["line"], first["operation"]), (1, "sqrt(0.5 - t)"))
+        self.assertEqual(first["calls"][-1]["line"], 2)
+        text = self.run_program("check", str(scene), "--probe", "times").stdout.decode()
+        self.assertIn(f"{scene}:1:30: `return sqrt(0.5 - t)` gave NaN: 0.5 - t = -0.5 (square root of a negative", text)
+
+    def test_the_trace_looks_at_the_situation_of_the_failure(self):
+        entry = self.verdicts(self.write("deep.glsl", FAULTS["knobs"]), "--probe", "knobs")["knobs"]
+        self.assertEqual(entry["trace"]["first"]["operands"], [{"text": "depth", "value": "0"}])
+
+    def test_a_feedback_scene_is_traced_late_without_its_whole_past(self):
+        scene = self.write("late.glsl", '#iChannel0 "self"\n'
+                                        "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    c = texelFetch(iChannel0, ivec2(p), 0) * 0.5 + log(2e4 - iTime);\n}\n")
+        entry = self.verdicts(scene, "--probe", "times", "--budget", "20")["times"]
+        self.assertEqual(entry["trace"]["first"]["line"], 3, entry["traced"])
+
+    def test_the_budget_ends_a_probe_that_does_not(self):
+        scene = self.write("slow.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
+                                        "    for (int i = 0; i < 60000; ++i)\n"
+                                        "        for (int k = 0; k < 60000; ++k) c += sin(c + p.x);\n}\n")
+        entries = self.verdicts(scene, "--budget", "1")
+        self.assertEqual(entries["times"]["found"], "cut: --budget is spent")
+        self.assertEqual(entries["mouse"]["found"], "not asked: --budget is spent")
+
     def test_a_large_sine_is_named_with_its_line(self):
         scene = self.write("hash.glsl", "float hash(vec2 p) {\n"
                                         "    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);\n}\n"
