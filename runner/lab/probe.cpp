@@ -31,6 +31,12 @@ std::span<const Probe> all_probes() {
          ask_jumps},
         {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
          ask_hashes},
+        {"unassigned", "variables that are read before they have a value, `out` that never get one",
+         ask_unassigned},
+        {"undefined",
+         "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
+         "nothing, smoothstep with equal edges, mod by 0: where the picture hangs on what a GPU makes of it",
+         ask_undefined},
         {"horizon", "until when float and double show the same, to 1/255 in 99 % of the pixels", ask_horizon},
         {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
          ask_witnesses},

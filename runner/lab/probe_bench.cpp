@@ -47,8 +47,8 @@ Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry
     return &renderer;
 }
 
-Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry entry,
-                                            glsl::Precision precision) {
+Result<render::Renderer*> ProbeBench::poised(const Situation& situation, Entry entry,
+                                             glsl::Precision precision) {
     auto made = renderer(situation, entry, precision);
     if (!made)
         return made;
@@ -57,7 +57,18 @@ Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry en
         for (int before = run_up_of(situation); before > 0; --before)
             (*made)->draw(inputs_of(situation, before));
     }
-    (*made)->draw(inputs_of(situation));
+    return made;
+}
+
+Result<render::Renderer*> ProbeBench::poised(const Situation& situation) {
+    return poised(situation, Entry::picture, glsl::Precision::single);
+}
+
+Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry entry,
+                                            glsl::Precision precision) {
+    auto made = poised(situation, entry, precision);
+    if (made)
+        (*made)->draw(inputs_of(situation));
     return made;
 }
 

@@ -36,6 +36,9 @@ public:
     bool has_hits() const { return hit_scene_.has_value(); }
     Result<Hits> hits(const Situation& situation);
 
+    /// A renderer in that situation, for what is drawn in the place of a pass: all frames before are drawn.
+    Result<render::Renderer*> poised(const Situation& situation);
+
     /// Compiles anew, where `picture` takes what it has.
     Result<image::Image> fresh_picture(const Situation& situation);
 
@@ -44,6 +47,7 @@ public:
 
 private:
     enum class Entry { picture, hit };
+    Result<render::Renderer*> poised(const Situation& situation, Entry entry, glsl::Precision precision);
     Result<render::Renderer*> drawn(const Situation& situation, Entry entry, glsl::Precision precision);
     Result<render::Renderer*> renderer(const Situation& situation, Entry entry, glsl::Precision precision);
 

@@ -12,6 +12,12 @@ Result<Answer> ask_sizes(ProbeBench& bench);
 Result<Answer> ask_inputs(ProbeBench& bench);
 Result<Answer> ask_knobs(ProbeBench& bench);
 
+// probes_undefined.cpp
+Result<Answer> ask_undefined(ProbeBench& bench);
+
+// probes_text.cpp
+Result<Answer> ask_unassigned(ProbeBench& bench);
+
 // probes_time.cpp
 Result<Answer> ask_horizon(ProbeBench& bench);
 Result<Answer> ask_jumps(ProbeBench& bench);

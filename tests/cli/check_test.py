@@ -98,6 +98,47 @@ class Check(ProgramTest):
         self.assertEqual(entry["verdict"], "warn")
         self.assertIn("hash.glsl:1 hash", entry["found"])
 
+    def test_a_function_outside_of_its_domain_is_named_where_it_shows(self):
+        scene = self.write("tone.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    float x = p.x / iResolution.x - 0.5;\n"
+                                        "    float root = sqrt(x);\n    if (x < 0.0) root = 0.0;\n"
+                                        "    c = vec4(root, pow(x, 0.45), smoothstep(0.5, 0.5, x), 1.0);\n}\n")
+        entry = self.verdicts(scene, "--probe", "undefined")["undefined"]
+        self.assertEqual(entry["verdict"], "warn")
+        self.assertIn(f"pow of a negative number (-0.492, first at pixel 0,0) at {scene}:5: 50 % of the pixels",
+                      entry["found"])
+        self.assertNotIn("sqrt", entry["found"])  # its value is thrown away
+
+    def test_each_function_has_its_domain(self):
+        for call in ("pow(x, 2.5)", "sqrt(x)", "inversesqrt(x)", "log(x)", "log2(x)", "asin(3.0 + x)", "acos(x - 3.0)",
+                     "acosh(x)", "atanh(3.0 + x)", "atan(floor(0.1 * x), floor(0.1 * x))", "mod(1.0, floor(0.1 * x) + 1.0)",
+                     "normalize(vec2(floor(0.1 * x) + 1.0)).x", "smoothstep(x, x, 0.5)",
+                     "pow(vec3(x), vec3(0.45)).y", "mod(vec2(1.0), floor(0.1 * x) + 1.0).y"):
+            with self.subTest(call):
+                x = "-iTime" if "floor" not in call or "mod" in call or "norm" in call else "0.01 * iTime"
+                scene = self.write("call.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                                f"    float x = {x};\n    c = vec4({call});\n}}\n")
+                entry = self.verdicts(scene, "--probe", "undefined")["undefined"]
+                self.assertEqual(entry["verdict"], "warn", entry["found"])
+                self.assertIn(call.split("(")[0] + " ", entry["found"])
+                self.assertIn(f"{scene}:3", entry["found"])
+
+    def test_a_variable_without_a_value_is_named(self):
+        scene = self.write("sum.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float sum;\n"
+                                       "    for (int i = 0; i < 3; ++i)\n        sum += 0.1;\n    c = vec4(sum);\n}\n")
+        entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
+        self.assertEqual(entry["verdict"], "warn")
+        self.assertIn(f"sum ({scene}:4)", entry["found"])
+
+    def test_sound_shaders_stay_silent(self):
+        probes = [word for name in ("unassigned", "undefined") for word in ("--probe", name)]
+        for scene in sorted((ROOT / "tests/cases/trace/sound").glob("*.glsl")):
+            if scene.stem == "golf":  # counts on variables that begin at zero, and is told so
+                continue
+            with self.subTest(scene.name):
+                for probe, entry in self.verdicts(scene, *probes).items():
+                    self.assertEqual(entry["verdict"], "pass", probe + ": " + entry["found"])
+
     def test_promises_are_held_and_probes_left_out(self):
         scene = self.write("late.glsl", FAULTS["horizon"])
         self.write("late.check.json", '{"time_horizon": 1, "skip": {"camera": "it has none"}}')
