@@ -90,6 +90,7 @@ public:
     }
     std::string operator()(const scene::Video& video) const { return video.file.string(); }
     std::string operator()(const scene::StandIn&) const { return "stand-in"; }
+    std::string operator()(const scene::Constant&) const { return "one value"; }
 
 private:
     const scene::Scene& scene_;

@@ -21,7 +21,8 @@ std::span<const Probe> all_probes() {
          ask_times},
         {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, held down", ask_mouse},
         {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},
-        {"inputs", "NaN or infinity with each input unbound, or noise in its place", ask_inputs},
+        {"inputs", "NaN or infinity with each input of Image unbound, black, white, one texel or noise; how far a NaN in it "
+         "spreads", ask_inputs},
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
         {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
          ask_repeats},
@@ -38,6 +39,14 @@ std::span<const Probe> all_probes() {
          "nothing, smoothstep with equal edges, mod by 0: where the picture hangs on what a GPU makes of it",
          ask_undefined},
         {"horizon", "until when float and double show the same, to 1/255 in 99 % of the pixels", ask_horizon},
+        {"sine",
+         "the picture with sines and cosines a unit in the last place up and down, and reduced and rounded "
+         "as NVIDIA's: apart by more than 1/255 in 1 % of the pixels",
+         ask_sine},
+        {"rounding",
+         "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, and with "
+         "every second + - * / a unit off, as contracting and reordering do: apart by as much",
+         ask_rounding},
         {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
          ask_witnesses},
         {"budget", "rays that run out of steps (mainHit)", ask_budget},

@@ -9,8 +9,10 @@ namespace tidemark::lab {
 Result<Answer> ask_times(ProbeBench& bench);
 Result<Answer> ask_mouse(ProbeBench& bench);
 Result<Answer> ask_sizes(ProbeBench& bench);
-Result<Answer> ask_inputs(ProbeBench& bench);
 Result<Answer> ask_knobs(ProbeBench& bench);
+
+// probes_inputs.cpp
+Result<Answer> ask_inputs(ProbeBench& bench);
 
 // probes_undefined.cpp
 Result<Answer> ask_undefined(ProbeBench& bench);
@@ -26,6 +28,10 @@ Result<Answer> ask_hashes(ProbeBench& bench);
 // probes_motion.cpp
 Result<Answer> ask_repeats(ProbeBench& bench);
 Result<Answer> ask_camera(ProbeBench& bench);
+
+// probes_portable.cpp
+Result<Answer> ask_sine(ProbeBench& bench);
+Result<Answer> ask_rounding(ProbeBench& bench);
 
 // probes_hit.cpp
 Result<Answer> ask_witnesses(ProbeBench& bench);
