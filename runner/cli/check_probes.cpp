@@ -10,9 +10,12 @@
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <csignal>
 #include <span>
 #include <sstream>
 
@@ -28,7 +31,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Once there is something to trace, no probe is begun beyond this part of --budget.
+/// Once there is something to trace, the probes end at this part of --budget.
 constexpr double k_share_of_probes = 0.75;
 constexpr const char* k_not_asked = "not asked: --budget is spent";
 
@@ -104,6 +107,14 @@ Result<Asked> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name,
 
 using Probes = std::span<const lab::Probe* const>;
 
+/// By SIGALRM, whatever it is at. Nothing when the time is over: then no probe is begun.
+void end_process_after(double seconds) {
+    itimerval timer{};
+    timer.it_value.tv_sec = time_t(std::max(seconds, 0.0));
+    timer.it_value.tv_usec = suseconds_t(1e6 * std::fmod(std::max(seconds, 0.0), 1.0));
+    ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
 /// In a process of its own: one line for each probe.
 Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, const lab::Promises& promises,
                      Probes probes, Clock::time_point start, const Tell& tell) {
@@ -119,9 +130,11 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
             return fail(std::move(asked.error()));
         if (auto kept = keep_picture(request.output, *asked); !kept)
             return kept;
-        if (asked->answer.non_finite)
-            limit = k_share_of_probes * request.budget;
         tell(dump(told(*asked)));
+        if (asked->answer.non_finite && limit == request.budget) {
+            limit = k_share_of_probes * request.budget;
+            end_process_after(limit - seconds_since(start));
+        }
         progress.advance();
     }
     return {};
@@ -144,13 +157,18 @@ Result<void> take(const std::string& output, std::vector<Asked>& all) {
 Result<std::vector<Asked>> answers(const ProbesRequest& request, const scene::Scene& scene,
                                    const lab::Promises& promises, Probes probes, Clock::time_point start) {
     std::vector<Asked> all;
+    const auto seconds_left = [&] {
+        const bool to_trace = std::ranges::any_of(all, [](const Asked& a) { return a.answer.non_finite; });
+        return (to_trace ? k_share_of_probes : 1) * request.budget - seconds_since(start);
+    };
     while (all.size() < probes.size()) {
-        const double left = request.budget - seconds_since(start);
+        const double left = seconds_left();
         if (left <= 0) {
             all.push_back({probes[all.size()], {Verdict::not_applicable, k_not_asked}});
             continue;
         }
         const size_t before = all.size();
+        const Clock::time_point began = Clock::now();
         const auto run = run_forked(
             [&](const Tell& tell) {
                 if (auto done = ask_all(request, scene, promises, probes.subspan(before), start, tell); !done)
@@ -164,9 +182,9 @@ Result<std::vector<Asked>> answers(const ProbesRequest& request, const scene::Sc
         if (all.size() == probes.size())
             break;
         Asked cut{probes[all.size()], {Verdict::not_applicable, "cut: --budget is spent"}};
-        if (run->signal != 0)
+        if (run->signal != 0 && run->signal != SIGALRM)
             cut.answer = {Verdict::fail, fmt::format("the driver crashed (signal {})", run->signal)};
-        cut.seconds = left - (request.budget - seconds_since(start));
+        cut.seconds = seconds_since(began);
         for (const Asked& asked : std::span(all).subspan(before))
             cut.seconds -= asked.seconds;
         all.push_back(std::move(cut));

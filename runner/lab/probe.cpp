@@ -24,12 +24,6 @@ std::span<const Probe> all_probes() {
         {"inputs", "NaN or infinity with each input of Image unbound, black, white, one texel or noise; how far a NaN in it "
          "spreads", ask_inputs},
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
-        {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
-         ask_repeats},
-        {"camera", "turns of the picture under a one-pixel step of the mouse", ask_camera},
-        {"jumps",
-         "cuts: an instant that is less like the next than before and after, at every number in the text",
-         ask_jumps},
         {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
          ask_hashes},
         {"unassigned", "variables that are read before they have a value, `out` that never get one",
@@ -38,6 +32,8 @@ std::span<const Probe> all_probes() {
          "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
          "nothing, smoothstep with equal edges, mod by 0: where the picture hangs on what a GPU makes of it",
          ask_undefined},
+        {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
+         ask_repeats},
         {"horizon", "until when float and double show the same, to 1/255 in 99 % of the pixels", ask_horizon},
         {"sine",
          "the picture with sines and cosines a unit in the last place up and down, and reduced and rounded "
@@ -52,6 +48,10 @@ std::span<const Probe> all_probes() {
         {"budget", "rays that run out of steps (mainHit)", ask_budget},
         {"stiffness", "the same, and distances that are no number, with each knob at both ends (mainHit)",
          ask_stiffness},
+        {"camera", "turns of the picture under a one-pixel step of the mouse", ask_camera},
+        {"jumps",
+         "cuts: an instant that is less like the next than before and after, at every number in the text",
+         ask_jumps},
     };
     return probes;
 }

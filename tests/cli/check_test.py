@@ -103,6 +103,14 @@ class Check(ProgramTest):
         self.assertEqual(entries["times"]["found"], "cut: --budget is spent")
         self.assertEqual(entries["mouse"]["found"], "not asked: --budget is spent")
 
+    def test_a_part_of_the_budget_is_kept_for_the_trace(self):
+        scene = self.write("slow.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(sqrt(0.5 - iTime));\n"
+                                        "    if (iMouse.x > 0.0)\n        for (int i = 0; i < 60000; ++i)\n"
+                                        "            for (int k = 0; k < 60000; ++k) c += sin(c + p.x);\n}\n")
+        entries = self.verdicts(scene, "--budget", "10")
+        self.assertTrue(any(entry["found"] == "cut: --budget is spent" for entry in entries.values()))
+        self.assertEqual(entries["times"]["trace"]["first"]["line"], 2, entries["times"]["traced"])
+
     def test_a_large_sine_is_named_with_its_line(self):
         scene = self.write("hash.glsl", "float hash(vec2 p) {\n"
                                         "    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);\n}\n"
