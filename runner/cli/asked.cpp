@@ -36,12 +36,9 @@ lab::Situation told_situation(const Json& json) {
 } // namespace
 
 Json told(const Asked& asked) {
-    Json json = {{"probe", asked.probe->name},
-                 {"verdict", int(asked.answer.verdict)},
-                 {"sentence", asked.answer.sentence},
-                 {"non_finite", asked.answer.non_finite},
-                 {"seconds", asked.seconds},
-                 {"picture", asked.picture.string()}};
+    Json json = {{"probe", asked.probe->name},        {"verdict", int(asked.answer.verdict)},
+                 {"sentence", asked.answer.sentence}, {"non_finite", asked.answer.non_finite},
+                 {"seconds", asked.seconds},          {"picture", asked.picture.string()}};
     if (asked.answer.where)
         json["where"] = told(*asked.answer.where);
     return json;

@@ -251,9 +251,9 @@ std::string report(const ProbesRequest& request, const std::vector<Asked>& all) 
     json["probes"] = Json::array();
     for (const Asked& asked : all) {
         Json entry = {{"probe", asked.probe->name},
-                                        {"verdict", lab::to_string(asked.answer.verdict)},
-                                        {"found", asked.answer.sentence},
-                                        {"seconds", asked.seconds}};
+                      {"verdict", lab::to_string(asked.answer.verdict)},
+                      {"found", asked.answer.sentence},
+                      {"seconds", asked.seconds}};
         if (asked.answer.where)
             entry["reproduction"] = reproduction(request, *asked.answer.where);
         if (!asked.picture.empty())

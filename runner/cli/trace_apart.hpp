@@ -20,9 +20,9 @@ struct TraceJob {
 
 /// The best that was told until the end.
 struct TraceFound {
-    bool found = false; ///< something is not finite
-    std::string text{}; ///< for people, whole lines
-    Json json{};        ///< for scripts; null where nothing was found
+    bool found = false;  ///< something is not finite
+    std::string text{};  ///< for people, whole lines
+    Json json{};         ///< for scripts; null where nothing was found
     std::string ended{}; ///< why it did not come to its end; empty: it did
 };
 

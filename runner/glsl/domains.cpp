@@ -66,10 +66,10 @@ std::string overloads(const Domain& domain, std::string_view prefix) {
     std::string passed;
     for (size_t i = 0; i < count; ++i)
         passed += fmt::format("{}{}", i > 0 ? "," : "", k_names[i]);
-    std::string text = fmt::format("float {0}{1}({2},int i){{float r={1}({3});if({4})r={0}undefined(i,{5},r);"
-                                   "return r;}}\n",
-                                   prefix, domain.name, domain.arguments, passed, domain.undefined,
-                                   domain.told);
+    std::string text =
+        fmt::format("float {0}{1}({2},int i){{float r={1}({3});if({4})r={0}undefined(i,{5},r);"
+                    "return r;}}\n",
+                    prefix, domain.name, domain.arguments, passed, domain.undefined, domain.told);
     for (const unsigned shape : shapes(domain))
         for (size_t size = 2; size <= 4; ++size) {
             std::string declared, parts;
@@ -99,8 +99,7 @@ std::optional<double> number_of(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     if (tree[id].kind == NodeKind::parenthesis)
         return number_of(text, tree.child(id, 0));
-    if (tree[id].kind == NodeKind::prefix && text.word_of(id) == "-")
-        {
+    if (tree[id].kind == NodeKind::prefix && text.word_of(id) == "-") {
         const auto inside = number_of(text, tree.child(id, 0));
         return inside ? std::optional(-*inside) : std::nullopt;
     }

@@ -118,8 +118,8 @@ Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
     WordEdits edits(text);
     for (NodeId id = 1; id < tree.nodes.size(); ++id) {
         const NodeKind kind = tree[id].kind;
-        if ((kind != NodeKind::binary && kind != NodeKind::assign) || !is_watched_operation(text, facts, id) ||
-            must_stay_constant(text, id))
+        if ((kind != NodeKind::binary && kind != NodeKind::assign) ||
+            !is_watched_operation(text, facts, id) || must_stay_constant(text, id))
             continue;
         if (kind == NodeKind::binary) {
             edits.wrap(id, prefix + "off(", ")");
@@ -142,8 +142,8 @@ Variation vary_precision(const ParsedText& text, const TreeFacts&) {
         if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
             continue;
         const NodeId type = tree.child(id, 0);
-        if (class_of_type(type_name(text, type)) != TypeClass::floating || has_qualifier(text, type, "const") ||
-            has_qualifier(text, type, "precise"))
+        if (class_of_type(type_name(text, type)) != TypeClass::floating ||
+            has_qualifier(text, type, "const") || has_qualifier(text, type, "precise"))
             continue;
         edits.wrap(type, "precise ", "");
         ++result.places;

@@ -20,7 +20,7 @@ struct Variation {
 /// Of vary_sines.
 enum class SineMode {
     as_is,
-    unit_up,   ///< each sine and cosine a unit in the last place larger in magnitude
+    unit_up, ///< each sine and cosine a unit in the last place larger in magnitude
     unit_down,
     like_nvidia ///< fract(x * (1 / 2 pi in binary32)) of a turn, results on a grid of 2^-22
 };

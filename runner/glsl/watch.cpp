@@ -18,8 +18,7 @@ bool contains(const std::vector<NodeId>& ids, NodeId id) {
 class Watcher {
 public:
     Watcher(const ParsedText& text, const TreeFacts& facts, const WatchRequest& request)
-        : text_(text), tree_(text.tree()), facts_(facts), request_(request),
-          prefix_(fresh_prefix(text)) {
+        : text_(text), tree_(text.tree()), facts_(facts), request_(request), prefix_(fresh_prefix(text)) {
         if (request.capture != k_no_node) {
             result_.operands = operands_of(request.capture);
             reach_ = find_reach(text, facts, request.capture);

@@ -41,8 +41,7 @@ std::string headers_with_buffers(const ParsedText& text) {
     std::string headers = text.headers();
     const size_t es = headers.find("#version 300 es");
     if (es != headers.npos)
-        return headers.replace(es, 15, "#version 310 es") +
-               "precision highp float;\nprecision highp int;\n";
+        return headers.replace(es, 15, "#version 310 es") + "precision highp float;\nprecision highp int;\n";
     return headers + "#extension GL_ARB_shader_storage_buffer_object : enable\n"
                      "#extension GL_ARB_shading_language_420pack : enable\n"
                      "#extension GL_ARB_shader_bit_encoding : enable\n";

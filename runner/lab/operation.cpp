@@ -109,7 +109,8 @@ public:
             if (!is_finite_word(result_.bits[i]))
                 if (const auto reason = of_numbers(arguments(i)); !reason.empty())
                     return {BirthCause::born, std::string(reason)};
-        return is_known_function() ? Explanation{BirthCause::undefined, "an undefined value", 0} : Explanation{};
+        return is_known_function() ? Explanation{BirthCause::undefined, "an undefined value", 0}
+                                   : Explanation{};
     }
 
 private:

@@ -21,8 +21,11 @@ std::span<const Probe> all_probes() {
          ask_times},
         {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, held down", ask_mouse},
         {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},
-        {"inputs", "NaN or infinity with each input of Image unbound, black, white, one texel or noise; how far a NaN in it "
-         "spreads", ask_inputs},
+        {"inputs",
+         "NaN or infinity with each input of Image unbound, black, white, one texel or noise; how far a NaN "
+         "in it "
+         "spreads",
+         ask_inputs},
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
         {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
          ask_hashes},

@@ -32,10 +32,10 @@ Result<Answer> ask_mouse(ProbeBench& bench) {
     const Extent size = Situation().extent;
     const int w = size.width, h = size.height;
     std::vector<Situation> situations;
-    for (const glm::ivec2 pixel : {glm::ivec2(1, 1), glm::ivec2(w - 1, 1), glm::ivec2(1, h - 1),
-                                   glm::ivec2(w - 1, h - 1), glm::ivec2(w / 2, 0), glm::ivec2(0, h / 2),
-                                   glm::ivec2(w / 2, h - 1), glm::ivec2(w - 1, h / 2),
-                                   glm::ivec2(w / 2, h / 2), glm::ivec2(-w, -h), glm::ivec2(2 * w, 2 * h)})
+    for (const glm::ivec2 pixel :
+         {glm::ivec2(1, 1), glm::ivec2(w - 1, 1), glm::ivec2(1, h - 1), glm::ivec2(w - 1, h - 1),
+          glm::ivec2(w / 2, 0), glm::ivec2(0, h / 2), glm::ivec2(w / 2, h - 1), glm::ivec2(w - 1, h / 2),
+          glm::ivec2(w / 2, h / 2), glm::ivec2(-w, -h), glm::ivec2(2 * w, 2 * h)})
         for (const bool down : {false, true})
             situations.push_back({.mouse = pixel, .down = down});
     return look_anew(bench, situations);

@@ -53,7 +53,8 @@ Result<Answer> ask_inputs(ProbeBench& bench) {
         const auto spread = spread_of_nan(bench, channel);
         if (!spread)
             return fail(spread.error());
-        answer->sentence += fmt::format("; NaN in iChannel{} comes to {:.3g} % of the pixels", channel, *spread);
+        answer->sentence +=
+            fmt::format("; NaN in iChannel{} comes to {:.3g} % of the pixels", channel, *spread);
     }
     return answer;
 }

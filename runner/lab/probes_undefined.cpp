@@ -73,7 +73,8 @@ private:
         for (size_t call = 0; call < watch_.calls.size(); ++call) {
             const uint32_t* of_call = &words[call * glsl::k_domain_words];
             const std::string place = place_of(*pass_.text, pass_.text->tree()[watch_.calls[call]].begin);
-            if (of_call[0] == 0 || place.empty() || seen_.size() >= k_most_calls || !seen_.insert(call).second)
+            if (of_call[0] == 0 || place.empty() || seen_.size() >= k_most_calls ||
+                !seen_.insert(call).second)
                 continue;
             image::Image worst;
             double share = -1;
@@ -87,10 +88,10 @@ private:
             const std::string_view name = glsl::called_name(*pass_.text, watch_.calls[call]);
             const uint32_t pixel = ~of_call[1];
             const auto width = uint32_t(Situation().extent.width);
-            found.push_back({fmt::format("{} {} ({:.3g}, first at pixel {},{}) at {}", name,
-                                         glsl::domain_fault(name), std::bit_cast<float>(of_call[2]),
-                                         pixel % width, pixel / width, place),
-                             100 * share, situation, std::move(worst)});
+            found.push_back(
+                {fmt::format("{} {} ({:.3g}, first at pixel {},{}) at {}", name, glsl::domain_fault(name),
+                             std::bit_cast<float>(of_call[2]), pixel % width, pixel / width, place),
+                 100 * share, situation, std::move(worst)});
             if (pass_.pass != bench_.scene().image_index())
                 found.back().where.pass = bench_.scene().passes[pass_.pass].name;
         }
@@ -139,10 +140,11 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
         if (each.percent > 0)
             told.push_back(fmt::format("{}: {:.3g} % of the pixels", each.sentence, each.percent));
     if (told.empty())
-        return Answer{Verdict::pass,
-                      all.empty() ? "no function is called outside of its domain"
-                                  : fmt::format("{} calls outside of a function's domain, none of which shows",
-                                                all.size())};
+        return Answer{
+            Verdict::pass,
+            all.empty()
+                ? "no function is called outside of its domain"
+                : fmt::format("{} calls outside of a function's domain, none of which shows", all.size())};
     return Answer{Verdict::warn, "undefined, and in the picture: " + listed(told), all[0].where,
                   std::move(all[0].picture)};
 }

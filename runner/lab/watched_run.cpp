@@ -39,7 +39,7 @@ PixelBits bits_at(const image::Image& image, PixelPlace pixel) {
 }
 
 Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass,
-                                                            bool as_written) {
+                                                          bool as_written) {
     glsl::Dialect dialect = renderer.dialect(pass);
     dialect.initialise = dialect.initialise && !as_written;
     const bool es = dialect.version == glsl::Version::es_300;

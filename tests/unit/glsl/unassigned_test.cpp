@@ -56,7 +56,8 @@ TEST(Unassigned, WhatMayHaveAValueIsLeftAlone) {
 
 TEST(Unassigned, ArgumentsThatAFunctionWritesAreWrites) {
     EXPECT_EQ(found("void give(out float x) { x = 1.0; }\nvoid main() { float a; give(a); a + 1.0; }\n"), "");
-    EXPECT_EQ(found("float twice(in float x) { return 2.0 * x; }\nvoid main() { float a;\ntwice(a); }\n"), "a:3");
+    EXPECT_EQ(found("float twice(in float x) { return 2.0 * x; }\nvoid main() { float a;\ntwice(a); }\n"),
+              "a:3");
 }
 
 TEST(Unassigned, ParametersThatGoOut) {

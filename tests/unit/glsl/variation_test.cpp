@@ -1,5 +1,5 @@
-// A text as other GPUs would compute it, and with its domains watched: what is led through us and what is not.
-// What that draws is tested through the program, tests/cli/check_test.py.
+// A text as other GPUs would compute it, and with its domains watched: what is led through us and what is
+// not. What that draws is tested through the program, tests/cli/check_test.py.
 #include "glsl/domains.hpp"
 #include "glsl/variation.hpp"
 #include "glsl_support.hpp"
@@ -29,10 +29,13 @@ Variation varied(Variation (*vary)(const ParsedText&, const TreeFacts&), const s
 }
 
 TEST(Variation, SinesAreTheBuiltInOnes) {
-    const Variation found = varied(vary_sines, "const float c = sin(1.0);\nfloat f(float x) { return sin(x) + cos(x); }\n");
+    const Variation found =
+        varied(vary_sines, "const float c = sin(1.0);\nfloat f(float x) { return sin(x) + cos(x); }\n");
     EXPECT_EQ(found.places, 2u);
     EXPECT_EQ(count(found.text, "return tmw0_sin ( x ) + tmw0_cos ( x )"), 1);
-    EXPECT_EQ(varied(vary_sines, "float sin(float x) { return x; }\nfloat f(float x) { return sin(x); }\n").places, 0u);
+    EXPECT_EQ(
+        varied(vary_sines, "float sin(float x) { return x; }\nfloat f(float x) { return sin(x); }\n").places,
+        0u);
 }
 
 TEST(Variation, EveryResultOfASumIsLedThroughUs) {
@@ -43,12 +46,15 @@ TEST(Variation, EveryResultOfASumIsLedThroughUs) {
 }
 
 TEST(Variation, WholeNumbersAndConstantsAreLeftAlone) {
-    EXPECT_EQ(varied(vary_rounding, "const float c = 1.0 + 2.0;\nint f(int i) { float a[1 + 1]; return i + 1; }\n").places,
-              0u);
+    EXPECT_EQ(
+        varied(vary_rounding, "const float c = 1.0 + 2.0;\nint f(int i) { float a[1 + 1]; return i + 1; }\n")
+            .places,
+        0u);
 }
 
 TEST(Variation, InputsAreTheHostsUniforms) {
-    const Variation found = varied(vary_inputs, "uniform float iTime;\nfloat f(float iMouse) { return iTime + iMouse; }\n");
+    const Variation found =
+        varied(vary_inputs, "uniform float iTime;\nfloat f(float iMouse) { return iTime + iMouse; }\n");
     EXPECT_EQ(found.places, 1u);
     EXPECT_EQ(count(found.text, "return tmw0_input(iTime) + iMouse"), 1);
 }
@@ -61,9 +67,10 @@ TEST(Variation, VariablesBecomePrecise) {
 }
 
 TEST(Domains, CallsThatTheTextItselfSettlesAreNotWatched) {
-    const Read of = read("const float c = sqrt(2.0);\nfloat f(float x) {\n"
-                         "return sqrt(2.0) + pow(2.0, x) + mod(x, 3.0) + smoothstep(0.0, 1.0, x) + atan(x) +\n"
-                         "atan(x, 1.0) + pow(x, -2.0) + mod(x, x) + smoothstep(-0.5, (-0.5), x) + log(-1.0); }\n");
+    const Read of =
+        read("const float c = sqrt(2.0);\nfloat f(float x) {\n"
+             "return sqrt(2.0) + pow(2.0, x) + mod(x, 3.0) + smoothstep(0.0, 1.0, x) + atan(x) +\n"
+             "atan(x, 1.0) + pow(x, -2.0) + mod(x, x) + smoothstep(-0.5, (-0.5), x) + log(-1.0); }\n");
     const DomainWatch watch = watch_domains(*of.text, of.facts, 64);
     std::string names;
     for (const NodeId call : watch.calls)

@@ -47,9 +47,9 @@ TEST(Census, every_kind_is_counted_by_its_bits) {
 
 TEST(Census, what_no_half_can_hold_is_counted_apart) {
     const FiniteCensus found = census(with_bits({4, 1}, 1,
-                                                {{0, 0x477fe000u},     // 65504, the largest half
-                                                 {1, 0x477fefffu},     // just below the middle: rounded down
-                                                 {2, 0x477ff000u},     // 65520: rounded to infinity
+                                                {{0, 0x477fe000u}, // 65504, the largest half
+                                                 {1, 0x477fefffu}, // just below the middle: rounded down
+                                                 {2, 0x477ff000u}, // 65520: rounded to infinity
                                                  {3, 0xc77ff000u}}));
     EXPECT_EQ(found, (FiniteCensus{.samples = 4, .beyond_half = 2}));
 }
