@@ -17,8 +17,7 @@ struct TraceOptions {
     bool json = false;
 };
 
-/// Exit code 1 when something that is not finite was found. Runs in a process of its own, so that neither a
-/// crash of the driver nor a shader without end is more than an answer.
+/// Exit code 1 when something that is not finite was found.
 Result<int> check_trace(const TraceOptions& options);
 
 } // namespace tidemark::cli

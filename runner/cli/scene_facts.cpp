@@ -26,6 +26,7 @@ public:
         return music.file.empty() ? "silent signal" : music.file.string();
     }
     std::string operator()(const scene::Video& video) const { return video.file.string(); }
+    std::string operator()(const scene::Constant&) const { return "one value"; }
     std::string operator()(const scene::StandIn&) const { return "stand-in"; }
 
 private:

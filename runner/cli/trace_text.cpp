@@ -51,7 +51,7 @@ std::string sentence(const Birth& birth) {
         text += fmt::format(" ({})", birth.why.reason);
     if (!birth.origin.empty())
         text += fmt::format("; it came in through {}", birth.origin);
-    else if (birth.why.cause == lab::Cause::carried && birth.why.operand < birth.operands.size())
+    else if (birth.why.cause == lab::BirthCause::carried && birth.why.operand < birth.operands.size())
         text += "; an operand was not finite before";
     return text;
 }
@@ -92,8 +92,8 @@ Json to_json(const Birth& birth) {
             {{"text", operand.text},
              {"value", operand.value ? Json(lab::to_string(*operand.value)) : Json()}});
     json["reason"] = birth.why.reason;
-    json["carried"] = birth.why.cause == lab::Cause::carried;
-    json["undefined"] = birth.why.cause == lab::Cause::undefined;
+    json["carried"] = birth.why.cause == lab::BirthCause::carried;
+    json["undefined"] = birth.why.cause == lab::BirthCause::undefined;
     json["origin"] = birth.origin;
     json["loops"] = Json::array();
     for (const lab::TracedLoop& loop : birth.loops) {

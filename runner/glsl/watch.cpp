@@ -2,6 +2,7 @@
 
 #include "glsl/watch_prelude.hpp"
 #include "glsl/watch_reach.hpp"
+#include "glsl/respelling.hpp"
 
 #include <fmt/format.h>
 
@@ -14,21 +15,10 @@ bool contains(const std::vector<NodeId>& ids, NodeId id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-/// A prefix that no name of the text has.
-std::string fresh_prefix(const std::vector<Word>& words) {
-    for (int n = 0;; ++n) {
-        const std::string prefix = fmt::format("tmw{}_", n);
-        if (std::none_of(words.begin(), words.end(),
-                         [&](const Word& word) { return word.text.starts_with(prefix); }))
-            return prefix;
-    }
-}
-
 class Watcher {
 public:
     Watcher(const ParsedText& text, const TreeFacts& facts, const WatchRequest& request)
-        : text_(text), tree_(text.tree()), facts_(facts), request_(request),
-          prefix_(fresh_prefix(text.words())) {
+        : text_(text), tree_(text.tree()), facts_(facts), request_(request), prefix_(fresh_prefix(text)) {
         if (request.capture != k_no_node) {
             result_.operands = operands_of(request.capture);
             reach_ = find_reach(text, facts, request.capture);
@@ -43,7 +33,7 @@ public:
     }
 
     Watch run() {
-        result_.text = header() + watch_prelude(options_);
+        result_.text = headers_with_buffers(text_) + watch_prelude(options_);
         for (NodeId part = tree_[0].first_child; part != k_no_node; part = tree_[part].next)
             global(part);
         result_.text += main_function();
@@ -66,16 +56,6 @@ private:
         }
     }
     std::string ours(std::string_view name) const { return prefix_ + std::string(name); }
-
-    std::string header() const {
-        std::string text = text_.headers();
-        const size_t es = text.find("#version 300 es");
-        if (es != std::string::npos)
-            return text.replace(es, 15, "#version 310 es") + "precision highp float;\nprecision highp int;\n";
-        return text + "#extension GL_ARB_shader_storage_buffer_object : enable\n"
-                      "#extension GL_ARB_shading_language_420pack : enable\n"
-                      "#extension GL_ARB_shader_bit_encoding : enable\n";
-    }
 
     std::string main_function() const {
         std::string text =

@@ -1,5 +1,7 @@
 #include "glsl/watch_prelude.hpp"
 
+#include "glsl/respelling.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,20 +9,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-/// `$` stands for the prefix, `@` for the type.
-std::string spell(std::string_view pattern, std::string_view prefix, std::string_view type) {
-    std::string text;
-    for (const char c : pattern) {
-        if (c == '$')
-            text += prefix;
-        else if (c == '@')
-            text += type;
-        else
-            text += c;
-    }
-    return text;
-}
 
 constexpr std::array<std::string_view, 4> k_floats{"float", "vec2", "vec3", "vec4"};
 constexpr std::array<std::string_view, 12> k_wholes{"int",   "ivec2", "ivec3", "ivec4", "uint",  "uvec2",

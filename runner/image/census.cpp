@@ -5,7 +5,10 @@
 namespace tidemark::image {
 namespace {
 
-enum class Kind { ordinary, nan, positive_infinity, negative_infinity, subnormal };
+enum class Kind { ordinary, nan, positive_infinity, negative_infinity, subnormal, beyond_half };
+
+/// 65520: half way from the largest half to the next power of two, and rounded to infinity.
+constexpr uint32_t k_beyond_half = 0x477ff000u;
 
 Kind kind_of(uint32_t bits) {
     const uint32_t exponent = bits & 0x7f800000u;
@@ -13,7 +16,7 @@ Kind kind_of(uint32_t bits) {
     if (exponent == 0)
         return fraction == 0 ? Kind::ordinary : Kind::subnormal;
     if (exponent != 0x7f800000u)
-        return Kind::ordinary;
+        return (bits & 0x7fffffffu) < k_beyond_half ? Kind::ordinary : Kind::beyond_half;
     if (fraction != 0)
         return Kind::nan;
     return (bits & 0x80000000u) == 0 ? Kind::positive_infinity : Kind::negative_infinity;
@@ -37,6 +40,9 @@ FiniteCensus census(const Image& image) {
         std::memcpy(&bits, image.bytes.data() + i * sizeof bits, sizeof bits);
         const Kind kind = kind_of(bits);
         if (kind == Kind::ordinary)
+            continue;
+        result.beyond_half += kind == Kind::beyond_half;
+        if (kind == Kind::beyond_half)
             continue;
         result.nan += kind == Kind::nan;
         result.positive_infinity += kind == Kind::positive_infinity;

@@ -25,6 +25,7 @@ struct FiniteCensus {
     size_t positive_infinity = 0;
     size_t negative_infinity = 0;
     size_t subnormal = 0;
+    size_t beyond_half = 0; ///< finite, but an infinity when it is rounded to a half
     std::optional<SamplePlace> first_non_finite{};
     std::optional<SamplePlace> first_subnormal{};
 

@@ -79,9 +79,9 @@ std::string origin_of(const WatchedText& watched, NodeId operation, const Explan
                       const std::vector<NodeId>& nodes, const scene::Scene& scene, const scene::Pass& pass) {
     const std::string name = operation_name(watched, operation);
     if (name.starts_with("tex") && !watched.facts.function(name) && !nodes.empty() &&
-        why.cause != Cause::carried)
+        why.cause != BirthCause::carried)
         return channel_label(scene, pass, base_name(watched, nodes[0]));
-    if (why.cause != Cause::carried || why.operand >= nodes.size())
+    if (why.cause != BirthCause::carried || why.operand >= nodes.size())
         return {};
     const std::string_view base = base_name(watched, nodes[why.operand]);
     const auto meanings = watched.facts.names.find(base);

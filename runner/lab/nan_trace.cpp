@@ -184,8 +184,8 @@ private:
     }
 
     static bool suspects_variables(const Birth& birth) {
-        return birth.why.cause == Cause::undefined ||
-               (birth.why.cause == Cause::carried && birth.origin.empty());
+        return birth.why.cause == BirthCause::undefined ||
+               (birth.why.cause == BirthCause::carried && birth.origin.empty());
     }
 
     bool cures(const std::vector<NodeId>& zeroed) {
@@ -252,7 +252,7 @@ public:
     }
 
 private:
-    int first_frame() const { return renderer_.plan().feedback ? 0 : request_.frame; }
+    int first_frame() const { return renderer_.plan().feedback ? request_.start : request_.frame; }
 
     /// The earliest frame and pass with a bad pixel: later ones may only have inherited it.
     std::optional<BadPixel> scan() {

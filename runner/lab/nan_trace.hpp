@@ -60,6 +60,7 @@ struct NanTrace {
 
 struct TraceRequest {
     int frame = 0;
+    int start = 0; ///< the frame from which a scene with feedback is drawn
     std::function<render::FrameInputs(int frame)> inputs;
     std::optional<PixelPlace> pixel{}; ///< of the shown pass; nothing: the first bad one of any pass
     bool hidden = false; ///< where all pixels are finite: look for a NaN that something swallowed

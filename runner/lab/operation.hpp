@@ -31,14 +31,14 @@ std::string to_string(const ShaderValue& value);
 /// "NaN", "+Inf" or "-Inf"; the worst of its numbers. Empty for a finite one.
 std::string_view worst_of(const ShaderValue& value);
 
-enum class Cause {
+enum class BirthCause {
     born,      ///< finite operands; the reason says what is wrong with them, where we know
     carried,   ///< an operand was no finite number already
     undefined, ///< these operands give a finite result: what the shader computed with had no value
 };
 
 struct Explanation {
-    Cause cause = Cause::born;
+    BirthCause cause = BirthCause::born;
     std::string reason{}; ///< "division by zero"; may be empty
     size_t operand = 0;   ///< the one that was not finite
 };

@@ -21,6 +21,7 @@ struct Answer {
     /// Where it shows first, and what it looks like there.
     std::optional<Situation> where{};
     std::optional<image::Image> picture{};
+    bool non_finite = false; ///< a NaN or an infinity is there, which can be traced to its birth
 };
 
 struct Probe {

@@ -15,27 +15,22 @@ ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises)
 Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry entry,
                                                glsl::Precision precision) {
     std::string key = fmt::format("{} {}", int(entry), int(precision));
-    scene::Scene scene = entry == Entry::hit ? *hit_scene_ : scene_;
-    for (const std::string& channel : situation.channels) {
+    for (const std::string& channel : situation.channels)
         key += " " + channel;
-        if (auto set = scene::override_channel(scene, channel); !set)
-            return fail(std::move(set.error()));
-    }
     for (const Setting& setting : situation.definitions)
         key += fmt::format(" {}={}", setting.name, setting.value);
-    for (const auto& settings : {situation.settings, situation.definitions})
-        for (const Setting& setting : settings)
-            if (auto set = apply(scene, setting); !set)
-                return fail(std::move(set.error()));
-    std::vector<scene::Knob> knobs = scene.knobs;
+    auto set = in_situation(entry == Entry::hit ? *hit_scene_ : scene_, situation);
+    if (!set)
+        return fail(std::move(set.error()));
+    std::vector<scene::Knob> knobs = set->knobs;
     auto found = renderers_.find(key);
     if (found == renderers_.end()) {
         auto made = render::Renderer::create(
-            std::move(scene), {.extent = situation.extent,
-                               .samples = image::SampleType::f32,
-                               .precision = precision,
-                               .specialise = glsl::Specialise::unreachable,
-                               .extras = {.unchanged = true}}); // a probe asks whether a drawing repeats
+            *std::move(set), {.extent = situation.extent,
+                              .samples = image::SampleType::f32,
+                              .precision = precision,
+                              .specialise = glsl::Specialise::unreachable,
+                              .extras = {.unchanged = true}}); // a probe asks whether a drawing repeats
         if (!made)
             return fail(std::move(made.error()));
         found = renderers_.emplace(std::move(key), *std::move(made)).first;
@@ -48,22 +43,28 @@ Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry
     return &renderer;
 }
 
-Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry entry,
-                                            glsl::Precision precision) {
+Result<render::Renderer*> ProbeBench::poised(const Situation& situation, Entry entry,
+                                             glsl::Precision precision) {
     auto made = renderer(situation, entry, precision);
     if (!made)
         return made;
-    const render::FrameInputs inputs = inputs_of(situation);
     if ((*made)->plan().feedback) {
         (*made)->reset();
-        for (int before = std::min(inputs.frame, k_run_up); before > 0; --before) {
-            render::FrameInputs earlier = inputs;
-            earlier.frame -= before;
-            earlier.time -= before * inputs.time_delta;
-            (*made)->draw(earlier);
-        }
+        for (int before = run_up_of(situation); before > 0; --before)
+            (*made)->draw(inputs_of(situation, before));
     }
-    (*made)->draw(inputs);
+    return made;
+}
+
+Result<render::Renderer*> ProbeBench::poised(const Situation& situation) {
+    return poised(situation, Entry::picture, glsl::Precision::single);
+}
+
+Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry entry,
+                                            glsl::Precision precision) {
+    auto made = poised(situation, entry, precision);
+    if (made)
+        (*made)->draw(inputs_of(situation));
     return made;
 }
 

@@ -26,7 +26,7 @@ public:
     const scene::Scene& scene() const { return scene_; }
     const Promises& promises() const { return promises_; }
 
-    /// RGB of Image, floats. A scene with feedback is drawn from its start, k_run_up frames before that
+    /// RGB of Image, floats. A scene with feedback is drawn from its start, run_up_of frames before that
     /// moment.
     Result<image::Image> picture(const Situation& situation,
                                  glsl::Precision precision = glsl::Precision::single);
@@ -36,16 +36,18 @@ public:
     bool has_hits() const { return hit_scene_.has_value(); }
     Result<Hits> hits(const Situation& situation, glsl::Precision precision = glsl::Precision::single);
 
+    /// A renderer in that situation, for what is drawn in the place of a pass: all frames before are drawn.
+    Result<render::Renderer*> poised(const Situation& situation);
+
     /// Compiles anew, where `picture` takes what it has.
     Result<image::Image> fresh_picture(const Situation& situation);
 
     /// The promoted scene's hashes; the error of a scene that cannot be promoted.
     Result<std::vector<glsl::KeptHash>> hashes();
 
-    static constexpr int k_run_up = 8;
-
 private:
     enum class Entry { picture, hit };
+    Result<render::Renderer*> poised(const Situation& situation, Entry entry, glsl::Precision precision);
     Result<render::Renderer*> drawn(const Situation& situation, Entry entry, glsl::Precision precision);
     Result<render::Renderer*> renderer(const Situation& situation, Entry entry, glsl::Precision precision);
 

@@ -9,8 +9,16 @@ namespace tidemark::lab {
 Result<Answer> ask_times(ProbeBench& bench);
 Result<Answer> ask_mouse(ProbeBench& bench);
 Result<Answer> ask_sizes(ProbeBench& bench);
-Result<Answer> ask_inputs(ProbeBench& bench);
 Result<Answer> ask_knobs(ProbeBench& bench);
+
+// probes_inputs.cpp
+Result<Answer> ask_inputs(ProbeBench& bench);
+
+// probes_undefined.cpp
+Result<Answer> ask_undefined(ProbeBench& bench);
+
+// probes_text.cpp
+Result<Answer> ask_unassigned(ProbeBench& bench);
 
 // probes_time.cpp
 Result<Answer> ask_horizon(ProbeBench& bench);
@@ -25,13 +33,17 @@ Result<Answer> ask_repeats(ProbeBench& bench);
 Result<Answer> ask_camera(ProbeBench& bench);
 Result<Answer> ask_clicks(ProbeBench& bench);
 
+// probes_portable.cpp
+Result<Answer> ask_sine(ProbeBench& bench);
+Result<Answer> ask_rounding(ProbeBench& bench);
+
 // probes_hit.cpp
 Result<Answer> ask_witnesses(ProbeBench& bench);
 Result<Answer> ask_budget(ProbeBench& bench);
 Result<Answer> ask_stiffness(ProbeBench& bench);
 
-// probes_rounding.cpp
-Result<Answer> ask_rounding(ProbeBench& bench);
+// probes_rays.cpp
+Result<Answer> ask_rays(ProbeBench& bench);
 Result<Answer> ask_epsilon(ProbeBench& bench);
 Result<Answer> ask_octaves(ProbeBench& bench);
 Result<Answer> ask_folds(ProbeBench& bench);

@@ -1,5 +1,6 @@
 // What becomes of a scene as its clock runs: rounding, cuts, and random numbers that hang on roundings.
 #include "image/metrics.hpp"
+#include "lab/picture_gap.hpp"
 #include "lab/probes.hpp"
 #include "text/tokens.hpp"
 
@@ -21,23 +22,6 @@ double instant(double time) {
 
 /// Frames that are closer than this do not jump, whatever their neighbours do.
 constexpr double k_close_psnr = 45; // dB
-
-/// Of the largest difference of a sample of each pixel, that which 99 % of the pixels stay below.
-double p99_difference(const image::Image& left, const image::Image& right) {
-    std::vector<float> largest(left.extent.pixels());
-    const auto channels = size_t(left.channels);
-    for (size_t i = 0; i < left.samples(); ++i) {
-        const float difference = std::abs(left.f32()[i] - right.f32()[i]);
-        // What is a number in one only is as different as can be.
-        const bool same =
-            left.f32()[i] == right.f32()[i] || (std::isnan(left.f32()[i]) && std::isnan(right.f32()[i]));
-        float& most = largest[i / channels];
-        most = std::max(most, same ? 0.0f : std::isnan(difference) ? 1.0f : difference);
-    }
-    const auto at = largest.begin() + std::ptrdiff_t(double(largest.size() - 1) * 0.99);
-    std::ranges::nth_element(largest, at);
-    return double(*at);
-}
 
 /// Numbers in the text and among the knobs that time may be taken modulo of.
 std::vector<double> possible_periods(const scene::Scene& scene) {
@@ -103,7 +87,7 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
         if (!truth)
             return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(truth.error())};
         const double difference = p99_difference(*as_is, *truth);
-        if (difference <= 1.0 / 255) {
+        if (difference <= k_visible_gap) {
             good = time;
             continue;
         }

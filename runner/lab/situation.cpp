@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tidemark::lab {
 namespace {
 
@@ -13,14 +15,30 @@ std::string quoted(const std::string& word) {
 
 } // namespace
 
-render::FrameInputs inputs_of(const Situation& situation) {
+render::FrameInputs inputs_of(const Situation& situation, int before) {
     render::FrameInputs inputs;
-    inputs.time = situation.time;
-    inputs.frame = render::frame_at(situation.time, inputs.frame_rate);
+    inputs.time = situation.time - before * inputs.time_delta;
+    inputs.frame = render::frame_at(situation.time, inputs.frame_rate) - before;
     if (situation.mouse)
         inputs.mouse = render::Mouse::clicked(situation.mouse->x, situation.mouse->y, situation.down);
     inputs.camera = situation.camera.value_or(render::OrbitCamera{}).matrix();
     return inputs;
+}
+
+int run_up_of(const Situation& situation) {
+    constexpr int k_run_up = 8;
+    return std::min(inputs_of(situation).frame, k_run_up);
+}
+
+Result<scene::Scene> in_situation(scene::Scene scene, const Situation& situation) {
+    for (const std::string& channel : situation.channels)
+        if (auto set = scene::override_channel(scene, channel); !set)
+            return fail(std::move(set.error()));
+    for (const auto& settings : {situation.settings, situation.definitions})
+        for (const Setting& setting : settings)
+            if (auto set = apply(scene, setting); !set)
+                return fail(std::move(set.error()));
+    return scene;
 }
 
 std::string capture_options(const Situation& situation) {

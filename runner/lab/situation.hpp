@@ -6,6 +6,7 @@
 #include "lab/setting.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/orbit_camera.hpp"
+#include "scene/scene.hpp"
 
 #include <glm/vec2.hpp>
 
@@ -27,8 +28,14 @@ struct Situation {
     std::string pass{};                          ///< empty: Image
 };
 
-/// iFrame is the one at 60 frames a second; before the start it is 0.
-render::FrameInputs inputs_of(const Situation& situation);
+/// iFrame is the one at 60 frames a second; before the start it is 0. `before`: so many frames earlier.
+render::FrameInputs inputs_of(const Situation& situation, int before = 0);
+
+/// From so many frames before the moment a scene with feedback is drawn: from its start would take days.
+int run_up_of(const Situation& situation);
+
+/// With the situation's channels and settings. The error is one of theirs (ErrorCode::usage).
+Result<scene::Scene> in_situation(scene::Scene scene, const Situation& situation);
 
 /// `--size 64x36 --time 62.83 --mouse 3,4`: what `tidemark capture` wants after the scene.
 std::string capture_options(const Situation& situation);

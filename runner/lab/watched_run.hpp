@@ -3,9 +3,8 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "gl/render_target.hpp"
 #include "glsl/watch.hpp"
-#include "render/renderer.hpp"
+#include "lab/stand_in.hpp"
 
 #include <array>
 #include <cstdint>
@@ -22,13 +21,6 @@ struct PixelPlace {
     bool operator==(const PixelPlace&) const = default;
 };
 
-/// One moment of a scene: everything before `pass` in the frame is drawn, and nothing after.
-struct Moment {
-    const render::Renderer& renderer;
-    size_t pass;
-    const render::FrameInputs& inputs;
-};
-
 /// Four floats as bits.
 using PixelBits = std::array<uint32_t, 4>;
 bool is_finite(const PixelBits& bits);
@@ -42,8 +34,10 @@ struct WatchReading {
     glsl::NodeId hit() const { return words[glsl::WatchLayout::k_hit]; }
 };
 
-/// The text of a pass in the plan as it was linked, read to its tree.
-Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass);
+/// The text of a pass in the plan as it was linked, read to its tree. `as_written`: without the zeros that
+/// variables begin with on ShaderToy's site, and here.
+Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass,
+                                                          bool as_written = false);
 
 /// The whole triangle is drawn and all but one pixel cut off, so that derivatives and everything else are as
 /// in the picture. Fails (ErrorCode::load) with the driver's words when it refuses the text.
@@ -51,8 +45,5 @@ Result<WatchReading> read_pixel(const Moment& moment, const glsl::Watch& watch, 
 
 /// The first hit of each pixel (WatchRequest::map_width is the picture's).
 Result<std::vector<glsl::NodeId>> read_map(const Moment& moment, const glsl::Watch& watch, int face);
-
-/// The size of what the moment's pass draws.
-Extent extent_of(const Moment& moment);
 
 } // namespace tidemark::lab

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -141,6 +142,19 @@ public:
             return volume(image::make_stand_in_volume(name, stand_in.width, stand_in.height, stand_in.height,
                                                       stand_in.channels));
         return flat(image::make_stand_in_picture(name, {stand_in.width, stand_in.height}, stand_in.channels));
+    }
+
+    Result<Loaded> operator()(const scene::Constant& constant) const {
+        using Kind = scene::Constant::Kind;
+        const bool single = constant.kind == Kind::texel;
+        Image image(single ? Extent{1, 1} : Extent{64, 64}, 4, SampleType::f32);
+        const float value = single                         ? 0.5f
+                            : constant.kind == Kind::white ? 1.0f
+                            : constant.kind == Kind::nan   ? std::numeric_limits<float>::quiet_NaN()
+                                                           : 0.0f;
+        for (size_t i = 0; i < image.samples(); ++i)
+            image.f32()[i] = i % 4 == 3 && constant.kind != Kind::nan ? 1.0f : value;
+        return flat(std::move(image));
     }
 
     Result<Loaded> operator()(const scene::Keyboard& keyboard) const {

@@ -127,8 +127,15 @@ struct StandIn {
     bool operator==(const StandIn&) const = default;
 };
 
-using ChannelInput =
-    std::variant<Unbound, Noise, Picture, PassOutput, Cubemap, Volume, Keyboard, Music, Video, StandIn>;
+/// A picture of one value: what a test looks at a scene with.
+struct Constant {
+    enum class Kind { black, white, nan, texel }; ///< texel: a single grey one
+    Kind kind = Kind::black;
+    bool operator==(const Constant&) const = default;
+};
+
+using ChannelInput = std::variant<Unbound, Noise, Picture, PassOutput, Cubemap, Volume, Keyboard, Music,
+                                  Video, StandIn, Constant>;
 
 struct Channel {
     ChannelInput input = Noise{};

@@ -91,6 +91,24 @@ Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_
     return std::pair(setting.substr(0, equals), setting.substr(equals + 1));
 }
 
+namespace {
+
+/// What only `--channel` knows.
+std::optional<ChannelInput> test_input(std::string_view name) {
+    constexpr std::pair<std::string_view, Constant::Kind> k_names[] = {{"black", Constant::Kind::black},
+                                                                       {"white", Constant::Kind::white},
+                                                                       {"nan", Constant::Kind::nan},
+                                                                       {"texel", Constant::Kind::texel}};
+    if (name == "none")
+        return Unbound{};
+    for (const auto& [known, kind] : k_names)
+        if (name == known)
+            return Constant{kind};
+    return std::nullopt;
+}
+
+} // namespace
+
 Result<void> override_channel(Scene& scene, std::string_view setting) {
     const auto split = split_setting(setting, "--channel");
     if (!split)
@@ -100,13 +118,14 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
         return fail(ErrorCode::usage,
                     fmt::format("--channel {}: give it as N=FILE, N=noise or N=none, N from 0 to {}", setting,
                                 k_channel_count - 1));
-    if (what != "none" && names_a_pass(what))
+    const auto test = test_input(what);
+    if (!test && names_a_pass(what))
         return fail(ErrorCode::usage,
                     fmt::format("--channel {}: '{}' is a pass: a scene names it with #iChannel{}", setting,
                                 what, number));
     // The person's own path: no bounds.
     Channel channel;
-    channel.input = what == "none" ? ChannelInput(Unbound{}) : input_of_name(what, {});
+    channel.input = test ? *test : input_of_name(what, {});
     if (std::holds_alternative<Keyboard>(channel.input))
         channel.sampling = k_keyboard_sampling;
     scene.passes[scene.image_index()].channels[size_t(number[0] - '0')] = channel;

@@ -44,7 +44,7 @@ FAULTS = {
     "grazing": {"steps": "24.0"},
     "far": {"step": "far_distance / 50.0", "field": "abs(cos(60.0 * (p.x + p.z)))", "epsilon": "0.05"},
     "epsilon": {"field": "p.y + 1000.0", "knobs": SOUND["knobs"].replace("40.0", "9000.0"), "epsilon": "1e-9"},
-    "rounding": {"field": "p.y - 0.2 * sin(2.0 * p.x) * sin(p.z + 4000.0 * iTime)"},
+    "rays": {"field": "p.y - 0.2 * sin(2.0 * p.x) * sin(p.z + 4000.0 * iTime)"},
     "places": {"step": "0.8 * f * sqrt(min(1.0, 2.0 - 0.0001 * camera_position.y))"},
     "folds": {"knobs": SOUND["knobs"] + "\n#iUniform float wave_steepness = 0.4 in { 0.0, 2.0 }\n"
                        "float height(float x) {\n"
@@ -113,7 +113,7 @@ class CheckRays(ProgramTest):
     def test_the_documents_march_has_its_known_faults(self):
         scene = str(ROOT / "shaders" / "water_surface.glsl")
         for probe, found, *options in (("grazing", "% of the rays run out of steps", "DOCUMENT=1"),
-                                       ("rounding", "good to 100000 s", "DOCUMENT=1"),
+                                       ("rays", "good to 100000 s", "DOCUMENT=1"),
                                        ("epsilon", "below the rounding", "DOCUMENT=1", "HIT_DISTANCE=0.0000001")):
             defines = [word for option in options for word in ("--define", option)]
             result = self.run_program("check", scene, *defines, "--probe", probe)

@@ -22,7 +22,7 @@ TEST(Census, ordinary_numbers_are_nothing_to_report) {
                                                  {3, 0x80800000u},
                                                  {4, 0x7f7fffffu},
                                                  {5, 0xff7fffffu}}));
-    EXPECT_EQ(found, (FiniteCensus{.samples = 6}));
+    EXPECT_EQ(found, (FiniteCensus{.samples = 6, .beyond_half = 2}));
     EXPECT_EQ(found.non_finite(), 0u);
 }
 
@@ -43,6 +43,15 @@ TEST(Census, every_kind_is_counted_by_its_bits) {
     EXPECT_EQ(found.non_finite(), 5u);
     EXPECT_EQ(found.first_subnormal, (SamplePlace{0, 0, 1}));
     EXPECT_EQ(found.first_non_finite, (SamplePlace{2, 0, 1}));
+}
+
+TEST(Census, what_no_half_can_hold_is_counted_apart) {
+    const FiniteCensus found = census(with_bits({4, 1}, 1,
+                                                {{0, 0x477fe000u}, // 65504, the largest half
+                                                 {1, 0x477fefffu}, // just below the middle: rounded down
+                                                 {2, 0x477ff000u}, // 65520: rounded to infinity
+                                                 {3, 0xc77ff000u}}));
+    EXPECT_EQ(found, (FiniteCensus{.samples = 4, .beyond_half = 2}));
 }
 
 TEST(Census, the_place_counts_rows_from_the_bottom) {

@@ -18,7 +18,7 @@ Answer without_doubles(const Error& error) {
 
 } // namespace
 
-Result<Answer> ask_rounding(ProbeBench& bench) {
+Result<Answer> ask_rays(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits();
     double good = 0;

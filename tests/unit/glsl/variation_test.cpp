@@ -1,0 +1,88 @@
+// A text as other GPUs would compute it, and with its domains watched: what is led through us and what is
+// not. What that draws is tested through the program, tests/cli/check_test.py.
+#include "glsl/domains.hpp"
+#include "glsl/variation.hpp"
+#include "glsl_support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::glsl {
+namespace {
+
+struct Read {
+    std::unique_ptr<const ParsedText> text;
+    TreeFacts facts;
+};
+
+Read read(const std::string& text) {
+    text::MappedText source;
+    source.append("#version 330 core\n" + text, "a.glsl", 0);
+    auto parsed = ParsedText::read(std::move(source), {});
+    EXPECT_TRUE(parsed);
+    TreeFacts facts = find_facts(**parsed);
+    return {*std::move(parsed), std::move(facts)};
+}
+
+Variation varied(Variation (*vary)(const ParsedText&, const TreeFacts&), const std::string& text) {
+    const Read of = read(text);
+    return vary(*of.text, of.facts);
+}
+
+TEST(Variation, SinesAreTheBuiltInOnes) {
+    const Variation found =
+        varied(vary_sines, "const float c = sin(1.0);\nfloat f(float x) { return sin(x) + cos(x); }\n");
+    EXPECT_EQ(found.places, 2u);
+    EXPECT_EQ(count(found.text, "return tmw0_sin ( x ) + tmw0_cos ( x )"), 1);
+    EXPECT_EQ(
+        varied(vary_sines, "float sin(float x) { return x; }\nfloat f(float x) { return sin(x); }\n").places,
+        0u);
+}
+
+TEST(Variation, EveryResultOfASumIsLedThroughUs) {
+    const Variation found = varied(vary_rounding, "float f(float x) { x *= 2.0; return x * x + 1.0; }\n");
+    EXPECT_EQ(found.places, 3u);
+    EXPECT_EQ(count(found.text, "(x *= 2.0,x =tmw0_off(x ))"), 1);
+    EXPECT_EQ(count(found.text, "return tmw0_off(tmw0_off(x * x) + 1.0)"), 1);
+}
+
+TEST(Variation, WholeNumbersAndConstantsAreLeftAlone) {
+    EXPECT_EQ(
+        varied(vary_rounding, "const float c = 1.0 + 2.0;\nint f(int i) { float a[1 + 1]; return i + 1; }\n")
+            .places,
+        0u);
+}
+
+TEST(Variation, InputsAreTheHostsUniforms) {
+    const Variation found =
+        varied(vary_inputs, "uniform float iTime;\nfloat f(float iMouse) { return iTime + iMouse; }\n");
+    EXPECT_EQ(found.places, 1u);
+    EXPECT_EQ(count(found.text, "return tmw0_input(iTime) + iMouse"), 1);
+}
+
+TEST(Variation, VariablesBecomePrecise) {
+    const Variation found =
+        varied(vary_precision, "float g;\nvoid main() { vec2 a = vec2(g); const float c = 1.0; int i; }\n");
+    EXPECT_EQ(found.places, 1u);
+    EXPECT_EQ(count(found.text, "precise vec2 a"), 1);
+}
+
+TEST(Domains, CallsThatTheTextItselfSettlesAreNotWatched) {
+    const Read of =
+        read("const float c = sqrt(2.0);\nfloat f(float x) {\n"
+             "return sqrt(2.0) + pow(2.0, x) + mod(x, 3.0) + smoothstep(0.0, 1.0, x) + atan(x) +\n"
+             "atan(x, 1.0) + pow(x, -2.0) + mod(x, x) + smoothstep(-0.5, (-0.5), x) + log(-1.0); }\n");
+    const DomainWatch watch = watch_domains(*of.text, of.facts, 64);
+    std::string names;
+    for (const NodeId call : watch.calls)
+        names += std::string(called_name(*of.text, call)) + " ";
+    EXPECT_EQ(names, "pow mod smoothstep log ");
+    EXPECT_EQ(count(watch.text, "tmw0_pow ( x , - 2.0 ,0)"), 1);
+}
+
+TEST(Domains, AFunctionOfTheAuthorsIsItsOwnAffair) {
+    const Read of = read("float sqrt(float x) { return x; }\nfloat f(float x) { return sqrt(x); }\n");
+    EXPECT_TRUE(watch_domains(*of.text, of.facts, 64).calls.empty());
+}
+
+} // namespace
+} // namespace tidemark::glsl
