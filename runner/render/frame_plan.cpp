@@ -48,7 +48,7 @@ private:
     std::vector<int> channels_of(size_t pass) const {
         std::vector<int> channels;
         for (int number = 0; number < scene::k_channel_count; ++number)
-            if (extras_.channels ||
+            if ((extras_.channels && number < scene::k_site_channel_count) ||
                 needs_texture(scene_.passes[pass].channels[size_t(number)], number, *reflections_[pass]))
                 channels.push_back(number);
         return channels;
