@@ -5,17 +5,32 @@
 namespace tidemark::cli {
 namespace {
 
+Json told(const std::vector<lab::Setting>& settings) {
+    Json json = Json::array();
+    for (const lab::Setting& setting : settings)
+        json.push_back({setting.name, setting.value});
+    return json;
+}
+
+std::vector<lab::Setting> told_settings(const Json& json) {
+    std::vector<lab::Setting> settings;
+    for (const Json& setting : json)
+        settings.push_back({setting[0].get<std::string>(), setting[1].get<std::string>()});
+    return settings;
+}
+
 Json told(const lab::Situation& situation) {
     Json json = {{"size", {situation.extent.width, situation.extent.height}},
                  {"time", situation.time},
                  {"down", situation.down},
+                 {"settings", told(situation.settings)},
+                 {"definitions", told(situation.definitions)},
                  {"channels", situation.channels},
                  {"pass", situation.pass}};
     if (situation.mouse)
         json["mouse"] = {situation.mouse->x, situation.mouse->y};
-    json["settings"] = Json::array();
-    for (const lab::Setting& setting : situation.settings)
-        json["settings"].push_back({setting.name, setting.value});
+    if (const auto& camera = situation.camera)
+        json["camera"] = {camera->azimuth, camera->elevation, camera->distance};
     return json;
 }
 
@@ -28,8 +43,12 @@ lab::Situation told_situation(const Json& json) {
     json.at("pass").get_to(situation.pass);
     if (json.contains("mouse"))
         situation.mouse = glm::ivec2(json["mouse"][0].get<int>(), json["mouse"][1].get<int>());
-    for (const Json& setting : json.at("settings"))
-        situation.settings.push_back({setting[0].get<std::string>(), setting[1].get<std::string>()});
+    if (json.contains("camera"))
+        situation.camera =
+            render::OrbitCamera{json["camera"][0].get<double>(), json["camera"][1].get<double>(),
+                                json["camera"][2].get<double>()};
+    situation.settings = told_settings(json.at("settings"));
+    situation.definitions = told_settings(json.at("definitions"));
     return situation;
 }
 

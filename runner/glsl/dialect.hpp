@@ -40,10 +40,10 @@ struct Dialect {
         true; ///< variables without a value start at zero, and `out fragColor` as the site's does
     ChannelKinds channels{};
     Precision precision = Precision::single;
+    bool joins_overloads = false; ///< functions named as built-in ones stand beside them: glsl/overloads.hpp
     /// gl_FragCoord counts from the corner of the whole picture, wherever in it the target lies: the host
     /// sets `vec2 tidemark_tile`, in pixels.
     bool tiled = false;
-    bool joins_overloads = false; ///< functions named as built-in ones stand beside them: glsl/overloads.hpp
 
     bool operator==(const Dialect&) const = default;
 };

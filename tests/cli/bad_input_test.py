@@ -101,7 +101,7 @@ class DoesNotCompile(ProgramTest):
                                       r"(\n[^\n]+)*")
 
     def test_error_in_an_included_file_has_that_files_line(self):
-        self.write("a.glsl", f'\n#include "lib/b.glsl"\n{GOOD}')
+        self.write("a.glsl", '\n#include "lib/b.glsl"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(g()); }\n')
         self.write("lib/b.glsl", "float f() { return 1.0; }\nfloat g() { return nothing; }\n")
         self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\nlib/b\.glsl:2: error: .*"
                                       r"(\n[^\n]+)*")

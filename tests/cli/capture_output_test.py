@@ -237,7 +237,7 @@ class SixFaces(ProgramTest):
         size = ("--size", "96x64")
         self.succeed("capture", "s", *size, "--frame", "3", "-o", "pass.png")
         self.succeed("capture", "files.glsl", *size, "-o", "files.png")
-        drawn, read = (png.read(self.folder / name).rgba_from_bottom() for name in ("pass.png", "files.png"))
+        drawn, read = (png.read(self.folder / name).rgba_from_top() for name in ("pass.png", "files.png"))
         self.assertGreater(len(set(drawn)), 100)
         self.assertLessEqual(max(abs(a - b) for a, b in zip(drawn, read)), 1)
 
