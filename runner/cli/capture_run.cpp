@@ -219,8 +219,8 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     const auto faces = image::cube_of_picture(image);
     bool wanted = faces.has_value();
     for (size_t i = 0; wanted && i < faces->size(); ++i)
-        wanted = writer_->push({record.frame, file_of_face(record.file, i),
-                                image::flipped((*faces)[i]), format_of(record)});
+        wanted = writer_->push(
+            {record.frame, file_of_face(record.file, i), image::flipped((*faces)[i]), format_of(record)});
     return wanted;
 }
 

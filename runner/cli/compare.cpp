@@ -189,7 +189,9 @@ Result<int> compare(const CompareOptions& options) {
                 return fail(side->error());
         const auto metrics = image::measure(*reference, *test, options.tolerance);
         if (!metrics)
-            return fail(ErrorCode::check_failed, fmt::format("{}'{}' and '{}': {}", pair.label(), pair.reference.string(), pair.test.string(), metrics.error().message));
+            return fail(ErrorCode::check_failed,
+                        fmt::format("{}'{}' and '{}': {}", pair.label(), pair.reference.string(),
+                                    pair.test.string(), metrics.error().message));
         if (output)
             if (auto written =
                     write_map(options, output->of_frame(pair.frame.value_or(0)), *reference, *test);

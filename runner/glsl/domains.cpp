@@ -1,7 +1,7 @@
 #include "glsl/domains.hpp"
 
-#include "glsl/watch.hpp"
 #include "glsl/respelling.hpp"
+#include "glsl/watch.hpp"
 
 #include <fmt/format.h>
 

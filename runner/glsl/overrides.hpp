@@ -13,8 +13,8 @@ namespace tidemark::glsl {
 /// The names that can be replaced, each once.
 std::vector<std::string> definition_names(const scene::Scene& scene);
 
-/// What the scene defines NAME as: the text of the first one that no #if takes out. A value that is itself such
-/// a name is followed.
+/// What the scene defines NAME as: the text of the first one that no #if takes out. A value that is itself
+/// such a name is followed.
 std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name);
 
 /// Rewrites every definition of NAME in every pass. The error (ErrorCode::usage) names the nearest

@@ -2,9 +2,8 @@
 
 namespace tidemark::glsl {
 
-Result<std::unique_ptr<const ParsedText>> ParsedText::read(text::MappedText source,
-                                                           std::span<const KnownMacro> known,
-                                                           bool all_known) {
+Result<std::unique_ptr<const ParsedText>>
+ParsedText::read(text::MappedText source, std::span<const KnownMacro> known, bool all_known) {
     std::unique_ptr<ParsedText> result(new ParsedText(std::move(source))); // its constructor is private
     const text::LineMap& lines = result->source_.lines();
     result->tokens_ = text::tokenize(result->source_.text());

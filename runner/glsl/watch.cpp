@@ -1,8 +1,8 @@
 #include "glsl/watch.hpp"
 
+#include "glsl/respelling.hpp"
 #include "glsl/watch_prelude.hpp"
 #include "glsl/watch_reach.hpp"
-#include "glsl/respelling.hpp"
 
 #include <fmt/format.h>
 

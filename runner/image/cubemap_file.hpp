@@ -33,7 +33,8 @@ Result<CubeFaces> read_cubemap(const std::vector<std::filesystem::path>& files);
 Result<CubeFaces> cube_of_faces(std::array<Image, 6> pictures);
 Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name = "the picture");
 
-/// All faces in one picture, 1:6, from the top: what `cube_of_picture` takes apart again. The faces are alike.
+/// All faces in one picture, 1:6, from the top: what `cube_of_picture` takes apart again. The faces are
+/// alike.
 Image column_of(const CubeFaces& faces);
 
 /// ShaderToy's vflip of a cubemap: rows of every face reversed, and +Y and -Y change places. A direction then

@@ -127,8 +127,7 @@ Result<void> Renderer::compile() {
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto linked =
-            link_pass(scene_, scene_.passes[i], {precision_, specialise_, tile_ && i == shown_});
+        auto linked = link_pass(scene_, scene_.passes[i], {precision_, specialise_, tile_ && i == shown_});
         if (!linked)
             return fail(std::move(linked.error()));
         supply_other_kinds(scene_, i, linked->dialect.channels);

@@ -41,8 +41,8 @@ inline constexpr std::array<std::string_view, 4> k_channel_structs{"iCh0", "iCh1
 inline constexpr std::string_view k_mouse_button_uniform = "iMouseButton";
 inline constexpr std::string_view k_view_uniform = "iViewMatrix";
 
-/// Ours, for scenes that declare them: the matrix of the orbit camera, and what iTime, rounded to a float, leaves
-/// of the seconds.
+/// Ours, for scenes that declare them: the matrix of the orbit camera, and what iTime, rounded to a float,
+/// leaves of the seconds.
 inline constexpr std::string_view k_camera_uniform = "iCamera";
 inline constexpr std::string_view k_time_low_uniform = "iTimeLow";
 
@@ -52,7 +52,8 @@ inline bool is_host_uniform(std::string_view name) {
     return std::ranges::any_of(k_site_uniforms, is_name, &SiteUniform::name) ||
            std::ranges::any_of(k_channel_names, is_name) || std::ranges::any_of(k_channel_structs, is_name) ||
            name == k_camera_uniform || name == k_time_low_uniform || name == k_mouse_button_uniform ||
-           name == k_view_uniform || name == "iChannel" || name == "iKeyboard" || name.starts_with("tidemark_");
+           name == k_view_uniform || name == "iChannel" || name == "iKeyboard" ||
+           name.starts_with("tidemark_");
 }
 
 } // namespace tidemark::scene

@@ -1,5 +1,5 @@
-// What a scene's text costs before the driver sees it: reading the file, directives, rewriting. By its size, so
-// that a cost that grows faster than the text shows.
+// What a scene's text costs before the driver sees it: reading the file, directives, rewriting. By its size,
+// so that a cost that grows faster than the text shows.
 #include "glsl/pass_reading.hpp"
 #include "scene/scene.hpp"
 
@@ -19,12 +19,14 @@ std::string text_of_size(size_t bytes) {
     int count = 1;
     for (; text.size() < bytes; ++count) {
         const std::string name = "wave" + std::to_string(count);
-        text += "float " + name + "(vec2 p) {\n    // a sum of waves, as authors write them\n    float sum;\n"
-                "    for (int i = 0; i < STEPS; i++)\n        sum += wave" + std::to_string(count - 1) +
+        text += "float " + name +
+                "(vec2 p) {\n    // a sum of waves, as authors write them\n    float sum;\n"
+                "    for (int i = 0; i < STEPS; i++)\n        sum += wave" +
+                std::to_string(count - 1) +
                 "(p * 1.7 + float(i)) * texture2D(iChannel0, p).r;\n    return height * sum;\n}\n";
     }
-    return text + "void mainImage(out vec4 color, in vec2 place) { color = vec4(wave" + std::to_string(count - 1) +
-           "(place / iResolution.xy)); }\n";
+    return text + "void mainImage(out vec4 color, in vec2 place) { color = vec4(wave" +
+           std::to_string(count - 1) + "(place / iResolution.xy)); }\n";
 }
 
 void front_end(benchmark::State& state) {
@@ -45,6 +47,12 @@ void front_end(benchmark::State& state) {
     state.SetComplexityN(state.range(0));
 }
 
-BENCHMARK(front_end)->Arg(5)->Arg(50)->Arg(500)->Arg(1400)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
+BENCHMARK(front_end)
+    ->Arg(5)
+    ->Arg(50)
+    ->Arg(500)
+    ->Arg(1400)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oN);
 
 } // namespace

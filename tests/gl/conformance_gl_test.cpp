@@ -125,11 +125,10 @@ void Conformance::expect_pixels_of_the_convention(glsl::Precision precision, boo
     const Json& size = expected.at("size");
     const SampleType samples =
         expected.value("target", "bytes") == "floats" ? SampleType::f32 : SampleType::u8;
-    auto renderer = Renderer::create(
-        *std::move(scene), {.extent = {size.at(0), size.at(1)},
-                            .samples = samples,
-                            .precision = precision,
-                            .extras = {.unchanged = unchanged_too}});
+    auto renderer = Renderer::create(*std::move(scene), {.extent = {size.at(0), size.at(1)},
+                                                         .samples = samples,
+                                                         .precision = precision,
+                                                         .extras = {.unchanged = unchanged_too}});
     ASSERT_TRUE(renderer) << to_string(renderer.error());
 
     Mouse mouse;

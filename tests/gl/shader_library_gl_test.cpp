@@ -124,8 +124,9 @@ TEST_F(ShaderLibrary, SplitProductsAddUpToTheProduct) {
         {0.45F, 1e6F}, {12.9246F, 1e6F}, {-3.3F, 12345.678F}, {0.9999999F, 3.0F}, {2.0F, 3.5F}};
     std::string body = "int whole = 0; float part = 0.0;";
     for (size_t i = 0; i < factors.size(); ++i)
-        body += fmt::format("if (int(p.x) == {}) part = split_product({:.9e}, vec2({:.9e}, -0.03125), whole);", i,
-                            factors[i].first, factors[i].second);
+        body +=
+            fmt::format("if (int(p.x) == {}) part = split_product({:.9e}, vec2({:.9e}, -0.03125), whole);", i,
+                        factors[i].first, factors[i].second);
     const image::Image image =
         drawn("phase.glsl", body + "c.rg = vec2(float(whole), part);", {int(factors.size()), 1});
     for (size_t i = 0; i < factors.size(); ++i) {

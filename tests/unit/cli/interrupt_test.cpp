@@ -56,7 +56,9 @@ TEST(Interrupt, a_sleeper_is_woken_as_long_as_it_wants_to_be) {
     }
     EXPECT_EQ(status_of_child([] {
                   Interrupt another;
-                  { const Interrupt::Waking past(another, [] { ::_exit(7); }); }
+                  {
+                      const Interrupt::Waking past(another, [] { ::_exit(7); });
+                  }
                   ::kill(::getpid(), SIGTERM);
                   comes_true([&] { return another.requested(); });
               }),

@@ -142,14 +142,16 @@ TEST(OverrideDefinition, junk_takes_linear_time) {
 }
 
 TEST(DefinitionOf, follows_names_and_skips_what_an_if_takes_out) {
-    const scene::Scene scene = scene_of("#define FAST 0\n#if FAST\n#define STEPS 8\n#else\n#define STEPS MANY\n#endif\n"
-                                        "#define MANY 64\nconst float EPS = 1e-4, B = 2.0;\n#define ROUND round\n"
-                                        "#define round ROUND\n");
+    const scene::Scene scene =
+        scene_of("#define FAST 0\n#if FAST\n#define STEPS 8\n#else\n#define STEPS MANY\n#endif\n"
+                 "#define MANY 64\nconst float EPS = 1e-4, B = 2.0;\n#define ROUND round\n"
+                 "#define round ROUND\n");
     EXPECT_EQ(definition_of(scene, "STEPS"), "64");
     EXPECT_EQ(definition_of(scene, "EPS"), "1e-4");
     EXPECT_EQ(definition_of(scene, "NONE"), std::nullopt);
     EXPECT_TRUE(definition_of(scene, "ROUND")); // round and round, and out
-    EXPECT_EQ(definition_names(scene), (std::vector<std::string>{"FAST", "STEPS", "MANY", "EPS", "B", "ROUND", "round"}));
+    EXPECT_EQ(definition_names(scene),
+              (std::vector<std::string>{"FAST", "STEPS", "MANY", "EPS", "B", "ROUND", "round"}));
 }
 
 } // namespace

@@ -39,8 +39,8 @@ scene::Scene scene_of(size_t passes) {
 
 TEST(PlanFrame, a_pass_reads_what_its_program_kept) {
     scene::Scene scene = scene_of(1);
-    const FramePlan plan =
-        plan_frame(scene, Reflections{with({"iTime", "iChannel9", "iChannel3", "iChannel0", "iChannelTime"})}, 0);
+    const FramePlan plan = plan_frame(
+        scene, Reflections{with({"iTime", "iChannel9", "iChannel3", "iChannel0", "iChannelTime"})}, 0);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].pass, 0u);
     EXPECT_THAT(plan.passes[0].channels, ElementsAre(0, 3, 9));
@@ -48,7 +48,8 @@ TEST(PlanFrame, a_pass_reads_what_its_program_kept) {
 }
 
 TEST(PlanFrame, a_program_without_channels_reads_none) {
-    const FramePlan plan = plan_frame(scene_of(1), Reflections{with({"iChannel10", "iChannelResolution"})}, 0);
+    const FramePlan plan =
+        plan_frame(scene_of(1), Reflections{with({"iChannel10", "iChannelResolution"})}, 0);
     EXPECT_THAT(plan.passes[0].channels, ElementsAre());
 }
 
