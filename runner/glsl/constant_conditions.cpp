@@ -1,5 +1,6 @@
 #include "glsl/constant_conditions.hpp"
 
+#include "glsl/number.hpp"
 #include "glsl/tree_facts.hpp"
 
 #include <charconv>
@@ -13,14 +14,11 @@ constexpr int k_most_constants = 30;
 /// Beyond, not every whole number is a float.
 constexpr double k_largest_whole_float = 16777216.0;
 
-template <class Number>
-std::optional<Number> parse(std::string_view digits, auto... format) {
-    Number number{};
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), number, format...);
-    if (error != std::errc{} || end != digits.data() + digits.size())
-        return std::nullopt;
-    return number;
+std::optional<float> parse_float(std::string_view digits) {
+    float number = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto read = std::from_chars(digits.data(), end, number);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
 /// A device may take what is below the normal numbers for zero.
@@ -52,18 +50,11 @@ auto ConstantConditions::literal(std::string_view digits) const -> Known {
         !digits.starts_with("0X")) {
         if (digits.ends_with('f') || digits.ends_with('F'))
             digits.remove_suffix(1);
-        const auto number = parse<float>(digits);
+        const auto number = parse_float(digits);
         return number && is_plain(*number) ? Known({Kind::floating, *number}) : std::nullopt;
     }
-    int base = 10;
-    if (digits.starts_with("0x") || digits.starts_with("0X")) {
-        base = 16;
-        digits.remove_prefix(2);
-    } else if (digits.size() > 1 && digits[0] == '0') {
-        base = 8;
-    }
-    const auto number = parse<int>(digits, base);
-    return number ? Known({Kind::whole, double(*number)}) : std::nullopt;
+    const auto number = whole_number(digits);
+    return number && *number == int(*number) ? Known({Kind::whole, double(*number)}) : std::nullopt;
 }
 
 const scene::Knob* ConstantConditions::find_knob(std::string_view name) const {

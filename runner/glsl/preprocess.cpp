@@ -1,7 +1,8 @@
 #include "glsl/preprocess.hpp"
 
+#include "glsl/number.hpp"
+
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -173,20 +174,9 @@ private:
     }
 
     static Value number(std::string_view digits) {
-        int base = 10;
-        if (digits.starts_with("0x") || digits.starts_with("0X")) {
-            base = 16;
-            digits.remove_prefix(2);
-        } else if (digits.size() > 1 && digits[0] == '0') {
-            base = 8;
-        }
         while (digits.ends_with('u') || digits.ends_with('U'))
             digits.remove_suffix(1);
-        long value = 0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
-        if (error != std::errc{} || end != digits.data() + digits.size())
-            return std::nullopt;
-        return value;
+        return whole_number(digits);
     }
 
     Value defined() {
