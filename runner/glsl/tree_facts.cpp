@@ -204,4 +204,24 @@ TreeFacts find_facts(const ParsedText& text) {
     return Collector(text).run();
 }
 
+std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    std::unordered_map<std::string_view, std::vector<std::string_view>> calls;
+    for (NodeId id = 1; id < tree.nodes.size(); ++id)
+        if (tree[id].kind == NodeKind::call)
+            if (const std::string_view name = called_name(text, id); facts.function(name))
+                if (const NodeId caller = tree.around(id, NodeKind::function); caller != k_no_node)
+                    calls[text.word_of(caller)].push_back(name);
+    std::vector<std::string_view> open{"main"};
+    std::unordered_set<std::string_view> found(open.begin(), open.end());
+    while (!open.empty()) {
+        const std::string_view name = open.back();
+        open.pop_back();
+        for (const std::string_view callee : calls[name])
+            if (found.insert(callee).second)
+                open.push_back(callee);
+    }
+    return found;
+}
+
 } // namespace tidemark::glsl

@@ -6,6 +6,7 @@
 
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace tidemark::glsl {
@@ -65,5 +66,8 @@ size_t dimensions(const ParsedText& text, NodeId type, NodeId declared);
 /// The name that a call calls, for functions and constructors alike; empty for an array's constructor and for
 /// `.length()`.
 std::string_view called_name(const ParsedText& text, NodeId call);
+
+/// The functions that `main` comes to, overloads taken together.
+std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

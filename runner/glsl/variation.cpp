@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tidemark::glsl {
 namespace {
 
@@ -32,6 +34,14 @@ constexpr std::string_view k_input = "float $input(float v){return $mode==0?v:$u
 /// there is one behind every operation.
 constexpr std::string_view k_lot =
     "float $off(float v){uint b=floatBitsToUint(v);return uintBitsToFloat(b^((b>>7u)&uint($mode)));}\n";
+
+/// To the nearest half, a tie to the even one. Below 2^-14 halves have fewer bits: those are kept.
+constexpr std::string_view k_half =
+    R"(float $off(float v){uint b=floatBitsToUint(v);
+if($mode==0||(b&0x7f800000u)==0x7f800000u)return v;
+float h=uintBitsToFloat((b+0xfffu+((b>>13u)&1u))&0xffffe000u);
+return abs(h)>65504.0?uintBitsToFloat((b&0x80000000u)|0x7f800000u):h;}
+)";
 
 /// Overloads of a function of one float, part by part.
 std::string vector_overloads(std::string_view function, std::string_view prefix) {
@@ -111,7 +121,10 @@ Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
     return result;
 }
 
-Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
+namespace {
+
+/// Every result of + - * / led through `$off`.
+Variation vary_operations(const ParsedText& text, const TreeFacts& facts, std::string_view off) {
     const SyntaxTree& tree = text.tree();
     const std::string prefix = fresh_prefix(text);
     Variation result{{}, prefix + "mode"};
@@ -129,9 +142,21 @@ Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
         }
         ++result.places;
     }
-    result.text = headers_with_buffers(text) + spell("uniform int $mode;\n", prefix) + spell(k_lot, prefix) +
+    result.text = headers_with_buffers(text) + spell("uniform int $mode;\n", prefix) + spell(off, prefix) +
                   vector_overloads("off", prefix) + other_overloads("off", prefix) + edits.text();
     return result;
+}
+
+} // namespace
+
+Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
+    return vary_operations(text, facts, k_lot);
+}
+
+Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
+    const bool asked = std::ranges::any_of(
+        text.words(), [](const Word& word) { return word.text == "mediump" || word.text == "lowp"; });
+    return asked ? vary_operations(text, facts, k_half) : Variation{};
 }
 
 Variation vary_precision(const ParsedText& text, const TreeFacts&) {

@@ -37,6 +37,10 @@ Variation vary_inputs(const ParsedText& text, const TreeFacts& facts);
 /// contracts a product and a sum, or adds in another order, makes no larger difference to one operation.
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts);
 
+/// Mode 1: every result of + - * / in ten bits behind the first and up to 65504, as phones compute `mediump`.
+/// 0 places where the text asks for no such thing.
+Variation vary_halves(const ParsedText& text, const TreeFacts& facts);
+
 /// Variables of floats `precise`: nothing is contracted or reordered. It has no modes.
 Variation vary_precision(const ParsedText& text, const TreeFacts& facts);
 

@@ -31,6 +31,10 @@ std::span<const Probe> all_probes() {
          ask_hashes},
         {"unassigned", "variables that are read before they have a value, `out` that never get one",
          ask_unassigned},
+        {"divergence",
+         "derivatives, and textures that choose a mipmap, where neighbouring pixels may have gone another "
+         "way",
+         ask_divergence},
         {"undefined",
          "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
          "nothing, smoothstep with equal edges, mod by 0: where the picture hangs on what a GPU makes of it",
@@ -91,6 +95,11 @@ std::span<const Probe> all_probes() {
          "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, and with "
          "every second + - * / a unit off, as contracting and reordering do: apart by as much",
          ask_rounding},
+        {"halves",
+         "the picture with every + - * / in half floats, where the text says `mediump` or `lowp`: apart by "
+         "as "
+         "much",
+         ask_halves},
     };
     return probes;
 }

@@ -19,6 +19,7 @@ Result<Answer> ask_undefined(ProbeBench& bench);
 
 // probes_text.cpp
 Result<Answer> ask_unassigned(ProbeBench& bench);
+Result<Answer> ask_divergence(ProbeBench& bench);
 
 // probes_time.cpp
 Result<Answer> ask_horizon(ProbeBench& bench);
@@ -36,6 +37,7 @@ Result<Answer> ask_clicks(ProbeBench& bench);
 // probes_portable.cpp
 Result<Answer> ask_sine(ProbeBench& bench);
 Result<Answer> ask_rounding(ProbeBench& bench);
+Result<Answer> ask_halves(ProbeBench& bench);
 
 // probes_hit.cpp
 Result<Answer> ask_witnesses(ProbeBench& bench);

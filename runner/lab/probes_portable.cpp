@@ -148,4 +148,15 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
     return probe.answer("rounded otherwise");
 }
 
+Result<Answer> ask_halves(ProbeBench& bench) {
+    PortabilityProbe probe(bench);
+    if (auto done =
+            probe.add({glsl::vary_halves, {{1, "sums and products in halves, as phones have `mediump`"}}});
+        !done)
+        return Answer{Verdict::not_applicable, to_string(done.error())};
+    if (!probe.asked())
+        return Answer{Verdict::not_applicable, "nothing is `mediump` or `lowp`"};
+    return probe.answer("in halves");
+}
+
 } // namespace tidemark::lab

@@ -1,7 +1,9 @@
 // What the text alone tells.
+#include "glsl/divergence.hpp"
 #include "glsl/unassigned.hpp"
 #include "lab/probe_text.hpp"
 #include "lab/probes.hpp"
+#include "scene/host_uniforms.hpp"
 
 #include <fmt/format.h>
 
@@ -30,6 +32,36 @@ Result<Answer> ask_unassigned(ProbeBench& bench) {
                   "read before it has a value, which is 0 on ShaderToy's site and here, and anything "
                   "elsewhere: " +
                       listed(found)};
+}
+
+Result<Answer> ask_divergence(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "not to be followed: " + to_string(texts.error())};
+    std::vector<std::string> found;
+    for (const PassText& pass : *texts) {
+        const scene::Channels& channels = bench.scene().passes[pass.pass].channels;
+        const auto has_mipmaps = [&](std::string_view sampler) {
+            const auto name = std::ranges::find(scene::k_channel_names, sampler);
+            return name != scene::k_channel_names.end() &&
+                   channels[size_t(name - scene::k_channel_names.begin())].sampling.mipmaps !=
+                       scene::Mipmaps::none;
+        };
+        const glsl::ParsedText& text = *pass.text;
+        for (const glsl::Divergent& each : glsl::find_divergent(text, pass.facts, has_mipmaps)) {
+            const std::string place = place_of(text, text.tree()[each.call].begin);
+            const std::string way = each.condition == glsl::k_no_node
+                                        ? std::string("where its function is called")
+                                        : place_of(text, text.tree()[each.condition].begin);
+            if (!place.empty())
+                found.push_back(
+                    fmt::format("{} ({}, parted at {})", glsl::called_name(text, each.call), place, way));
+        }
+    }
+    if (found.empty())
+        return Answer{Verdict::pass, "neighbours are at hand wherever they are asked for"};
+    return Answer{Verdict::warn,
+                  "needs neighbouring pixels that may have gone another way: " + listed(found)};
 }
 
 } // namespace tidemark::lab

@@ -170,8 +170,24 @@ class Check(ProgramTest):
         self.assertEqual(entry["verdict"], "warn")
         self.assertIn(f"sum ({scene}:4)", entry["found"])
 
+    def test_a_derivative_where_neighbours_went_another_way_is_named(self):
+        scene = self.write("edge.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
+                                        "    if (p.x > p.y)\n        c += fwidth(p.x);\n}\n")
+        entry = self.verdicts(scene, "--probe", "divergence")["divergence"]
+        self.assertEqual(entry["verdict"], "warn")
+        self.assertIn(f"fwidth ({scene}:4, parted at {scene}:3)", entry["found"])
+
+    def test_halves_are_drawn_where_the_text_asks_for_them(self):
+        text = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract((p.x + 2048.0) * 0.5)); }\n"
+        entry = self.verdicts(self.write("high.glsl", text), "--probe", "halves")["halves"]
+        self.assertEqual(entry["verdict"], "n/a")
+        scene = self.write("medium.glsl", "precision mediump float;\n" + text)
+        entry = self.verdicts(scene, "--probe", "halves")["halves"]
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertIn("sums and products in halves", entry["found"])
+
     def test_sound_shaders_stay_silent(self):
-        probes = [word for name in ("unassigned", "undefined", "sine", "rounding")
+        probes = [word for name in ("unassigned", "undefined", "sine", "rounding", "divergence", "halves")
                   for word in ("--probe", name)]
         for scene in sorted((ROOT / "tests/cases/trace/sound").glob("*.glsl")):
             if scene.stem == "golf":  # counts on variables that begin at zero, and is told so

@@ -52,6 +52,14 @@ TEST(Variation, WholeNumbersAndConstantsAreLeftAlone) {
         0u);
 }
 
+TEST(Variation, HalvesAreThoseThatTheTextAsksFor) {
+    EXPECT_EQ(varied(vary_halves, "float f(float x) { return x * x; }\n").places, 0u);
+    const Variation found =
+        varied(vary_halves, "precision mediump float;\nfloat f(float x) { return x * x; }\n");
+    EXPECT_EQ(found.places, 1u);
+    EXPECT_EQ(count(found.text, "return tmw0_off(x * x)"), 1);
+}
+
 TEST(Variation, InputsAreTheHostsUniforms) {
     const Variation found =
         varied(vary_inputs, "uniform float iTime;\nfloat f(float iMouse) { return iTime + iMouse; }\n");
