@@ -7,7 +7,6 @@
 #include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
-#include "glsl/assemble.hpp"
 #include "glsl/pass_reading.hpp"
 #include "glsl/specialise.hpp"
 #include "platform/headless_context.hpp"
@@ -77,16 +76,6 @@ Result<int> inspect_devices(bool as_json) {
     return put(as_json ? json.dump(2) + "\n" : text).map([] { return 0; });
 }
 
-/// What `capture` leaves out of a pass's text, in a sequence too.
-glsl::LeftOut left_out_of(const render::Renderer& renderer, size_t pass) {
-    const scene::Scene& scene = renderer.scene();
-    if (renderer.precision() != glsl::Precision::single)
-        return renderer.left_out(pass);
-    return glsl::specialise(glsl::assemble(scene, scene.passes[pass], renderer.dialect(pass)), scene.knobs,
-                            glsl::Specialise::settled)
-        .left_out;
-}
-
 Json to_json(const glsl::LeftOut& left_out) {
     Json json = {
         {"lines", left_out.lines}, {"branches", left_out.branches}, {"out_of_loops", left_out.hoisted}};
@@ -123,7 +112,8 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
             channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
         json["passes"].push_back({{"name", pass.name},
                                   {"channels", channels},
-                                  {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass))}});
+                                  {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass,
+                                                                       glsl::Specialise::settled))}});
     }
     json["knobs"] = knobs_of(scene);
     add_precision(json, renderer);
@@ -144,7 +134,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
         for (const int channel : facts_of_pass.channels)
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
-        text += to_line(left_out_of(renderer, facts_of_pass.pass));
+        text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::settled));
     }
     text += knob_lines(scene);
     text += precision_lines(renderer);

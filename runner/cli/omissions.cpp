@@ -1,5 +1,7 @@
 #include "cli/omissions.hpp"
 
+#include "glsl/assemble.hpp"
+#include "glsl/specialise.hpp"
 #include "scene/host_uniforms.hpp"
 
 #include <fmt/format.h>
@@ -119,6 +121,15 @@ private:
 
 SceneFacts facts_of(const render::Renderer& renderer) {
     return Collector(renderer).collect();
+}
+
+glsl::LeftOut left_out_of(const render::Renderer& renderer, size_t pass, glsl::Specialise how) {
+    const scene::Scene& scene = renderer.scene();
+    if (renderer.precision() != glsl::Precision::single)
+        return renderer.left_out(pass);
+    return glsl::specialise(glsl::assemble(scene, scene.passes[pass], renderer.dialect(pass)), scene.knobs,
+                            how)
+        .left_out;
 }
 
 } // namespace tidemark::cli

@@ -22,4 +22,7 @@ struct SceneFacts {
 
 SceneFacts facts_of(const render::Renderer& renderer);
 
+/// What specialising as far as `how` takes out of a pass's text; of a promoted scene, what was taken out.
+glsl::LeftOut left_out_of(const render::Renderer& renderer, size_t pass, glsl::Specialise how);
+
 } // namespace tidemark::cli

@@ -1,7 +1,6 @@
 #include "cli/trial.hpp"
 
-#include "glsl/assemble.hpp"
-#include "glsl/specialise.hpp"
+#include "cli/omissions.hpp"
 #include "lab/stopwatch.hpp"
 
 #include <GL/glcorearb.h>
@@ -40,13 +39,9 @@ double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs) {
 
 /// Whether the texts have anything that is not surely drawn alike.
 bool worth_trying(const Renderer& renderer, glsl::Specialise how) {
-    const scene::Scene& scene = renderer.scene();
-    return renderer.precision() == glsl::Precision::single &&
-           std::ranges::any_of(renderer.plan().passes, [&](const render::PlannedPass& planned) {
-               const size_t pass = planned.pass;
-               const auto source = glsl::assemble(scene, scene.passes[pass], renderer.dialect(pass));
-               return glsl::specialise(source, scene.knobs, how).left_out.in_doubt();
-           });
+    return std::ranges::any_of(renderer.plan().passes, [&](const render::PlannedPass& planned) {
+        return left_out_of(renderer, planned.pass, how).in_doubt();
+    });
 }
 
 /// 0: the same bytes; infinite where one is a number and the other is none.

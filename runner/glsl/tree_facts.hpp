@@ -67,7 +67,8 @@ size_t dimensions(const ParsedText& text, NodeId type, NodeId declared);
 /// `.length()`.
 std::string_view called_name(const ParsedText& text, NodeId call);
 
-/// The functions that `main` comes to, overloads taken together.
+/// The functions that `main` comes to by calls, overloads taken together: to tell authors about. What may be
+/// taken away is find_reached's to say (globals.hpp), which a word is enough for.
 std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

@@ -1,10 +1,10 @@
+#include "lab/stopwatch.hpp"
 #include "lab/stricter.hpp"
 #include "lab/truth.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <cmath>
 
 namespace tidemark::lab {
@@ -30,7 +30,7 @@ struct Shown {
 
 Result<std::optional<Shown>> show(const scene::Scene& scene, const Study& study, const Recipe& recipe,
                                   const KeepGoing& keep_going) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     auto specimen = Specimen::create(scene, recipe, study.extent);
     if (!specimen)
         return fail(std::move(specimen.error()));
@@ -46,7 +46,7 @@ Result<std::optional<Shown>> show(const scene::Scene& scene, const Study& study,
             return fail(std::move(hits.error()));
         shown.hits.push_back(*std::move(hits));
     }
-    shown.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    shown.seconds = watch.elapsed().wall * 1e-3;
     if (recipe.precision != glsl::Precision::single) {
         const auto kept = specimen->kept_hashes();
         shown.precision =

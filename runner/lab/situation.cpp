@@ -34,11 +34,8 @@ Result<scene::Scene> in_situation(scene::Scene scene, const Situation& situation
     for (const std::string& channel : situation.channels)
         if (auto set = scene::override_channel(scene, channel); !set)
             return fail(std::move(set.error()));
-    for (const auto& settings : {situation.settings, situation.definitions})
-        for (const Setting& setting : settings)
-            if (auto set = apply(scene, setting); !set)
-                return fail(std::move(set.error()));
-    return scene;
+    auto turned = with(std::move(scene), situation.settings);
+    return turned ? with(*std::move(turned), situation.definitions) : turned;
 }
 
 std::string capture_options(const Situation& situation) {
