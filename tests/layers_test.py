@@ -1,4 +1,4 @@
-"""Every #include "module/…" in runner/ is an arrow that the table of layers has."""
+"""Every #include "module/…" in runner/ is an arrow that the tables of modules and of their rooms have."""
 import pathlib
 import re
 import unittest
@@ -22,11 +22,24 @@ ALLOWED = {
     "main.cpp": ["cli"],
 }
 
-INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/', re.MULTILINE)
+# The rooms of the larger modules: what each may include of its own module, beside itself. "" is what lies in
+# the module's own folder.
+ROOMS = {
+    # The plug-in is a library of its own: image/files knows the table of functions that it hands over.
+    "image": {"": [], "files": ["", "plugin"], "made": ["", "files"], "compare": [""], "plugin": ["", "files"]},
+    "glsl": {"": ["syntax", "double"], "syntax": [], "double": ["syntax"], "specialise": ["syntax"],
+             "watch": ["syntax"]},
+    "lab": {"": [], "fields": [], "study": ["", "fields"], "trace": [], "check": ["", "trace"]},
+    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""]},
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/(?:([a-z_]+)/)?', re.MULTILINE)
 
 
-def module_of(path):
-    return path.relative_to(RUNNER).parts[0]
+def place_of(path):
+    """The module and the room ("": none) that a source lies in."""
+    parts = path.relative_to(RUNNER).parts
+    return parts[0], parts[1] if len(parts) == 3 else ""
 
 
 class Layers(unittest.TestCase):
@@ -34,14 +47,22 @@ class Layers(unittest.TestCase):
         sources = [p for p in RUNNER.rglob("*") if p.suffix in (".cpp", ".hpp")]
         self.assertGreater(len(sources), 50)
         for source in sources:
-            module = module_of(source)
-            for included in INCLUDE.findall(source.read_text()):
-                with self.subTest(source=str(source.relative_to(RUNNER)), includes=included):
+            module, room = place_of(source)
+            for included, its_room in INCLUDE.findall(source.read_text()):
+                with self.subTest(source=str(source.relative_to(RUNNER)), includes=f"{included}/{its_room}"):
                     self.assertIn(included, ALLOWED[module] + [module])
+                    if included == module and module in ROOMS:
+                        self.assertIn(its_room, ROOMS[module][room] + [room])
 
     def test_every_module_is_in_the_table(self):
         modules = {p.name for p in RUNNER.iterdir() if p.is_dir()}
         self.assertEqual(modules, set(ALLOWED) - {"main.cpp"})
+
+    def test_every_room_is_in_the_table(self):
+        for module in set(ALLOWED) - {"main.cpp"}:
+            rooms = {p.name for p in (RUNNER / module).iterdir() if p.is_dir()}
+            with self.subTest(module=module):
+                self.assertEqual(rooms, set(ROOMS.get(module, {"": []})) - {""})
 
     def test_files_stay_small(self):
         for source in RUNNER.rglob("*.cpp"):

@@ -2,9 +2,9 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/number_check.hpp"
-#include "image/noise.hpp"
-#include "image/picture_file.hpp"
-#include "image/ramps.hpp"
+#include "image/files/picture_file.hpp"
+#include "image/made/noise.hpp"
+#include "image/made/ramps.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

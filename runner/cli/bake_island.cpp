@@ -2,7 +2,7 @@
 
 #include "cli/bake_island_study.hpp"
 #include "cli/console.hpp"
-#include "image/picture_file.hpp"
+#include "image/files/picture_file.hpp"
 #include "terrain/island.hpp"
 #include "terrain/wave_map.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "cli/console.hpp"
 #include "cli/study_support.hpp"
-#include "lab/report.hpp"
-#include "lab/timing.hpp"
+#include "lab/study/report.hpp"
+#include "lab/study/timing.hpp"
 #include "terrain/march_study.hpp"
 
 #include <fmt/format.h>

@@ -3,10 +3,10 @@
 #include "cli/output_name.hpp"
 #include "cli/sequence.hpp"
 #include "cli/version.hpp"
-#include "image/difference.hpp"
-#include "image/flip.hpp"
-#include "image/metrics.hpp"
-#include "image/picture_file.hpp"
+#include "image/compare/difference.hpp"
+#include "image/compare/flip.hpp"
+#include "image/compare/metrics.hpp"
+#include "image/files/picture_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

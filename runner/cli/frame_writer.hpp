@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "image/files/picture_file.hpp"
 #include "image/image.hpp"
-#include "image/picture_file.hpp"
 
 #include <condition_variable>
 #include <deque>

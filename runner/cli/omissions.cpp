@@ -1,7 +1,7 @@
 #include "cli/omissions.hpp"
 
 #include "glsl/assemble.hpp"
-#include "glsl/specialise.hpp"
+#include "glsl/specialise/specialise.hpp"
 #include "scene/host_uniforms.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "cli/output_name.hpp"
 
-#include "image/picture_file.hpp"
-#include "image/video_writer.hpp"
+#include "image/files/picture_file.hpp"
+#include "image/files/video_writer.hpp"
 
 #include <fmt/format.h>
 

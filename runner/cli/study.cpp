@@ -6,10 +6,10 @@
 #include "cli/options.hpp"
 #include "cli/study_support.hpp"
 #include "gl/capabilities.hpp"
-#include "lab/baseline.hpp"
-#include "lab/conduct.hpp"
-#include "lab/report.hpp"
-#include "lab/report_data.hpp"
+#include "lab/study/baseline.hpp"
+#include "lab/study/conduct.hpp"
+#include "lab/study/report.hpp"
+#include "lab/study/report_data.hpp"
 #include "platform/headless_context.hpp"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #include "base/file.hpp"
 #include "cli/console.hpp"
 #include "cli/version.hpp"
-#include "lab/verdict.hpp"
+#include "lab/study/verdict.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #include "base/result.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "lab/study/work_precision.hpp"
 #include "lab/watch.hpp"
-#include "lab/work_precision.hpp"
 
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,5 @@
 // What the driver's own timer says of commands (GL_TIME_ELAPSED). It need not be true: who uses it holds it
-// against a clock that is (lab/timing.hpp).
+// against a clock that is (lab/study/timing.hpp).
 #pragma once
 
 #include "gl/handle.hpp"

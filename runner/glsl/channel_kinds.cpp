@@ -1,6 +1,6 @@
 #include "glsl/dialect.hpp"
 #include "glsl/driver_log.hpp"
-#include "glsl/words.hpp"
+#include "glsl/syntax/words.hpp"
 #include "text/tokens.hpp"
 
 #include <algorithm>

@@ -19,7 +19,7 @@ enum class Version { core_330, core_450, es_300 };
 /// What the author's floats are.
 enum class Precision {
     single,
-    promoted,      ///< doubles, but for hashes (glsl/float_hashes.hpp)
+    promoted,      ///< doubles, but for hashes (glsl/double/float_hashes.hpp)
     promoted_whole ///< doubles, hashes too
 };
 

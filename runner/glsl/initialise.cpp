@@ -1,5 +1,5 @@
 #include "glsl/rewrite.hpp"
-#include "glsl/words.hpp"
+#include "glsl/syntax/words.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "glsl/overloads.hpp"
 
-#include "glsl/functions.hpp"
 #include "glsl/rewrite.hpp"
+#include "glsl/syntax/functions.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // another name.
 #pragma once
 
-#include "glsl/preprocess.hpp"
+#include "glsl/syntax/preprocess.hpp"
 #include "text/mapped_text.hpp"
 #include "text/tokens.hpp"
 

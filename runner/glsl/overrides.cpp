@@ -1,6 +1,6 @@
 #include "glsl/overrides.hpp"
 
-#include "glsl/preprocess.hpp"
+#include "glsl/syntax/preprocess.hpp"
 #include "text/tokens.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "glsl/dialect.hpp"
-#include "glsl/promote.hpp"
+#include "glsl/double/promote.hpp"
 #include "glsl/survey.hpp"
 #include "scene/scene.hpp"
 #include "text/mapped_text.hpp"

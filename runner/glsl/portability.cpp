@@ -1,7 +1,7 @@
 #include "glsl/portability.hpp"
 
-#include "glsl/preprocess.hpp"
-#include "glsl/words.hpp"
+#include "glsl/syntax/preprocess.hpp"
+#include "glsl/syntax/words.hpp"
 
 #include <fmt/format.h>
 

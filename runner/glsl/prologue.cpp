@@ -2,7 +2,7 @@
 
 #include "glsl/assemble.hpp"
 #include "glsl/rewrite.hpp"
-#include "glsl/words.hpp"
+#include "glsl/syntax/words.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "glsl/rewrite.hpp"
 
 #include "glsl/overloads.hpp"
-#include "glsl/words.hpp"
+#include "glsl/syntax/words.hpp"
 
 #include <fmt/format.h>
 

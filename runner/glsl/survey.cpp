@@ -1,6 +1,6 @@
 #include "glsl/survey.hpp"
 
-#include "glsl/words.hpp"
+#include "glsl/syntax/words.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // itself, and which of the names we could provide it uses. Reads tokens; changes nothing.
 #pragma once
 
-#include "glsl/preprocess.hpp"
+#include "glsl/syntax/preprocess.hpp"
 #include "scene/scene.hpp"
 #include "text/tokens.hpp"
 

@@ -4,8 +4,8 @@
 #include "base/result.hpp"
 #include "gl/program.hpp"
 #include "glsl/dialect.hpp"
-#include "glsl/promote.hpp"
-#include "glsl/specialise.hpp"
+#include "glsl/double/promote.hpp"
+#include "glsl/specialise/specialise.hpp"
 #include "scene/scene.hpp"
 
 namespace tidemark::render {

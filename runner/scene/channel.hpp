@@ -56,8 +56,8 @@ struct Unbound {
     bool operator==(const Unbound&) const = default;
 };
 
-/// Textures of noise that we generate (image/noise.hpp): stand-ins for ShaderToy's with the same size, number
-/// of channels and structure.
+/// Textures of noise that we generate (image/made/noise.hpp): stand-ins for ShaderToy's with the same size,
+/// number of channels and structure.
 enum class NoiseKind {
     rgba_256,
     rgba_64,

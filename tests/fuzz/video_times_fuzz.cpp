@@ -1,6 +1,6 @@
 // What ffprobe and ffmpeg print about a video.
 #include "fuzz.hpp"
-#include "image/video_times.hpp"
+#include "image/files/video_times.hpp"
 
 #include <algorithm>
 

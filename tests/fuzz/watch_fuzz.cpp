@@ -1,7 +1,7 @@
 // Any text read to its tree and watched: an error that says something, or a text that is watched again
 // without one, as often as one likes.
 #include "fuzz.hpp"
-#include "glsl/watch.hpp"
+#include "glsl/watch/watch.hpp"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #include "gl/program.hpp"
 #include "gl_test.hpp"
 #include "glsl/assemble.hpp"
-#include "glsl/double_functions.hpp"
+#include "glsl/double/double_functions.hpp"
 
 #include <mpfr.h>
 

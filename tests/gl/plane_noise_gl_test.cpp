@@ -1,7 +1,7 @@
 // What shaders/lib has for the plane: the noise's gradient, and cells.
 #include "gl_test.hpp"
-#include "lab/lattice.hpp"
-#include "lab/value_noise.hpp"
+#include "lab/fields/lattice.hpp"
+#include "lab/fields/value_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // not.
 #include "gl_test.hpp"
 #include "glsl/hit.hpp"
-#include "image/metrics.hpp"
+#include "image/compare/metrics.hpp"
 #include "render/sound_renderer.hpp"
 
 #include <gmock/gmock.h>

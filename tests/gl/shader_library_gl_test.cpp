@@ -1,7 +1,7 @@
 // shaders/lib against its twins in double.
 #include "gl_test.hpp"
-#include "lab/lattice.hpp"
-#include "lab/value_noise.hpp"
+#include "lab/fields/lattice.hpp"
+#include "lab/fields/value_noise.hpp"
 
 #include <cmath>
 #include <numbers>

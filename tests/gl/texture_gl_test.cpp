@@ -1,6 +1,6 @@
 #include "gl_test.hpp"
-#include "image/noise.hpp"
-#include "image/picture_file.hpp"
+#include "image/files/picture_file.hpp"
+#include "image/made/noise.hpp"
 
 #include <gmock/gmock.h>
 

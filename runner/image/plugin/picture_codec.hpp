@@ -3,8 +3,8 @@
 // refuses a plug-in of another build. Nothing is thrown across.
 #pragma once
 
+#include "image/files/picture_file.hpp"
 #include "image/image.hpp"
-#include "image/picture_file.hpp"
 
 #include <tl/expected.hpp>
 

@@ -1,5 +1,5 @@
 // A text without macros, its tree, and what the watch makes of it.
-#include "glsl/watch.hpp"
+#include "glsl/watch/watch.hpp"
 #include "glsl_support.hpp"
 
 #include <fmt/format.h>

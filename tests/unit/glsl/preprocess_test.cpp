@@ -1,4 +1,4 @@
-#include "glsl/preprocess.hpp"
+#include "glsl/syntax/preprocess.hpp"
 
 #include <gtest/gtest.h>
 

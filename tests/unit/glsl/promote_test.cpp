@@ -1,7 +1,7 @@
 // What cases of text in and text out (tests/cases/glsl/promote_*) do not show: which functions come along,
 // and that no text takes more than linear time.
-#include "glsl/double_functions.hpp"
-#include "glsl/promote.hpp"
+#include "glsl/double/double_functions.hpp"
+#include "glsl/double/promote.hpp"
 #include "glsl_support.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // What specialising leaves of a text, class by class, and what it must not touch.
-#include "glsl/specialise.hpp"
+#include "glsl/specialise/specialise.hpp"
 #include "glsl_support.hpp"
 #include "scene/knob.hpp"
 

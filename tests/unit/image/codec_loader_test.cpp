@@ -1,4 +1,4 @@
-#include "image/codec_loader.hpp"
+#include "image/files/codec_loader.hpp"
 #include "picture_support.hpp"
 
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
-#include "image/cubemap_file.hpp"
-#include "image/picture_file.hpp"
+#include "image/files/cubemap_file.hpp"
+#include "image/files/picture_file.hpp"
 #include "unit/image/picture_support.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "image/file_check.hpp"
+#include "image/files/file_check.hpp"
 #include "picture_support.hpp"
 
 namespace tidemark::image {

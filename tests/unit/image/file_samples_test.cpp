@@ -1,4 +1,4 @@
-#include "image/file_samples.hpp"
+#include "image/files/file_samples.hpp"
 #include "picture_support.hpp"
 
 #include <cmath>

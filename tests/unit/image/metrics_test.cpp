@@ -1,4 +1,4 @@
-#include "image/metrics.hpp"
+#include "image/compare/metrics.hpp"
 #include "picture_support.hpp"
 
 #include <cmath>

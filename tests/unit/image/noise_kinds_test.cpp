@@ -1,4 +1,4 @@
-#include "image/noise.hpp"
+#include "image/made/noise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "image/flip.hpp"
-#include "image/metrics.hpp"
-#include "image/ssim.hpp"
+#include "image/compare/flip.hpp"
+#include "image/compare/metrics.hpp"
+#include "image/compare/ssim.hpp"
 #include "picture_support.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Files that are no pictures, or no longer: one line of error each, nothing printed, nothing crashed.
-#include "image/picture_file.hpp"
+#include "image/files/picture_file.hpp"
 #include "picture_support.hpp"
 
 #include <functional>

@@ -1,5 +1,5 @@
 // Pictures out and in again: every format, depth and number of channels; and files that others wrote.
-#include "image/picture_file.hpp"
+#include "image/files/picture_file.hpp"
 #include "picture_support.hpp"
 
 #include <cmath>

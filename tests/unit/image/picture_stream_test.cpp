@@ -1,5 +1,5 @@
 // Pictures that are written band by band: the same file as of the whole, or none.
-#include "image/picture_file.hpp"
+#include "image/files/picture_file.hpp"
 #include "picture_support.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // How pictures are written: names and depths, whole or not at all, metadata, the same bytes every time.
-#include "image/picture_file.hpp"
+#include "image/files/picture_file.hpp"
 #include "picture_support.hpp"
 
 #include <sys/resource.h>

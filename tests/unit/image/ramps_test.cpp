@@ -1,5 +1,5 @@
 #include "base/hash.hpp"
-#include "image/ramps.hpp"
+#include "image/made/ramps.hpp"
 
 #include <gtest/gtest.h>
 

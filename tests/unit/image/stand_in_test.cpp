@@ -1,5 +1,5 @@
 #include "base/hash.hpp"
-#include "image/stand_in.hpp"
+#include "image/made/stand_in.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "image/child_process.hpp"
-#include "image/video_frames.hpp"
-#include "image/video_times.hpp"
+#include "image/files/child_process.hpp"
+#include "image/files/video_frames.hpp"
+#include "image/files/video_times.hpp"
 #include "unit/image/picture_support.hpp"
 
 #include <gmock/gmock.h>

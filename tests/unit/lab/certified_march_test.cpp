@@ -1,4 +1,4 @@
-#include "lab/certified_march.hpp"
+#include "lab/fields/certified_march.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // The document's own march of the water surface, in double, on the lattice that libm's sine makes. An
 // independent program computed the same picture (its own field, its own march with a proof, 320x180, iTime
 // 10, mouse at (.75, .4)): these are its figures. What a device shows differs from them by its lattice alone.
-#include "lab/certified_march.hpp"
+#include "lab/fields/certified_march.hpp"
+#include "lab/fields/water_surface_field.hpp"
 #include "lab/hits.hpp"
-#include "lab/water_surface_field.hpp"
 #include "scene/scene.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // What is said of a study, made by hand so that the right answers are known.
-#include "lab/baseline.hpp"
-#include "lab/diagram.hpp"
-#include "lab/report_data.hpp"
-#include "lab/report_html.hpp"
-#include "lab/timing.hpp"
-#include "lab/verdict.hpp"
+#include "lab/study/baseline.hpp"
+#include "lab/study/diagram.hpp"
+#include "lab/study/report_data.hpp"
+#include "lab/study/report_html.hpp"
+#include "lab/study/timing.hpp"
+#include "lab/study/verdict.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // What a study is to do: settings, axes, views, files, and what comes after the strictest value.
 #include "base/file.hpp"
 #include "lab/setting.hpp"
-#include "lab/stricter.hpp"
-#include "lab/study.hpp"
+#include "lab/study/stricter.hpp"
+#include "lab/study/study.hpp"
 #include "scene/directives.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-#include "lab/certified_march.hpp"
-#include "lab/water_surface_field.hpp"
+#include "lab/fields/certified_march.hpp"
+#include "lab/fields/water_surface_field.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/geometric.hpp>

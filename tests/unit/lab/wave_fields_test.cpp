@@ -1,6 +1,6 @@
 // The fields of gerstner_waves and procedural_ocean against their own bounds and against geometry.
-#include "lab/certified_march.hpp"
-#include "lab/reference.hpp"
+#include "lab/fields/certified_march.hpp"
+#include "lab/fields/reference.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/geometric.hpp>

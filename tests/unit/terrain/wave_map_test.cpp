@@ -1,5 +1,5 @@
 #include "base/hash.hpp"
-#include "image/picture_file.hpp"
+#include "image/files/picture_file.hpp"
 #include "terrain/island.hpp"
 #include "terrain/wave_map.hpp"
 

@@ -1,0 +1,263 @@
+#include "cli/capture/capture_run.hpp"
+
+#include "cli/console.hpp"
+#include "cli/omissions.hpp"
+#include "cli/precision_report.hpp"
+#include "cli/progress.hpp"
+#include "cli/version.hpp"
+#include "image/files/cubemap_file.hpp"
+#include "render/bands.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+namespace tidemark::cli {
+namespace {
+
+/// Blocks of up to so many bytes are kept by the process: a frame of 4K in bytes.
+constexpr int k_kept_bytes = 32 << 20;
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+Capture::Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound)
+    : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()),
+      stepper_(renderer, [this](int frame) { return inputs_at(frame); }), sound_(std::move(sound)),
+      watchdog_([this] { rescue_output(); }) {
+    if (plan.frames.input)
+        replay_.emplace(*plan.frames.input, plan.frames.camera);
+}
+
+render::FrameInputs Capture::inputs_at(int frame) {
+    render::FrameInputs inputs = inputs_of(plan_.frames, frame);
+    if (replay_)
+        replay_->fill(inputs, renderer_.extent().height);
+    return inputs;
+}
+
+Result<bool> Capture::run(Interrupt& interrupt) {
+    // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
+    ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
+    ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
+    if (auto opened = open_output(); !opened)
+        return fail(std::move(opened.error()));
+    prepare(interrupt);
+    Progress progress("frames", plan_.frames.frames.size());
+    for (const int frame : plan_.frames.frames) {
+        FrameRecord record;
+        const auto outcome =
+            renderer_.tiles() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record);
+        if (!outcome)
+            return fail(outcome.error());
+        if (*outcome == Outcome::interrupted) {
+            video_.reset(); // whole or not at all
+            return close_output().map([] { return false; });
+        }
+        if (*outcome == Outcome::unwanted)
+            break;
+        records_.push_back(std::move(record));
+        progress.advance();
+    }
+    return close_output().map([] { return true; });
+}
+
+Result<void> Capture::open_output() {
+    if (plan_.output.six_faces() && renderer_.shown_pass().kind != scene::PassKind::cubemap)
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
+                                plan_.output.pattern().string()));
+    if (plan_.output.video()) {
+        const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
+        auto video =
+            image::VideoWriter::create(plan_.output.pattern(), {cube ? image::k_panorama : renderer_.extent(),
+                                                                plan_.frames.fps, sound_});
+        if (!video)
+            return fail(std::move(video.error()));
+        video_.emplace(*std::move(video));
+    } else if (!plan_.output.standard_output() && !renderer_.tiles()) {
+        // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
+        writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
+    }
+    return {};
+}
+
+Result<void> Capture::close_output() {
+    if (video_)
+        return video_->finish();
+    return writer_ ? writer_->finish() : Result<void>();
+}
+
+/// What the driver puts off until the first draw, so that no frame pays for it, in time or against its limit.
+void Capture::prepare(Interrupt& interrupt) {
+    const Interrupt::Immediate at_once(interrupt);
+    const Watchdog::Watch watch(watchdog_, "preparing the first frame", std::nullopt);
+    const auto start = Clock::now();
+    renderer_.warm_up(inputs_at(plan_.frames.frames.front()));
+    prepare_milliseconds_ = milliseconds_since(start);
+}
+
+/// Leaves `work` watched. False: interrupted.
+bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
+    std::optional<Progress> steps;
+    record.frame = frame;
+    record.time = inputs_of(plan_.frames, frame).time;
+    record.file = plan_.output.of_frame(frame).string();
+    const size_t drawn_before = renderer_.passes_drawn();
+    const bool drawn = stepper_.draw(frame, [&](int step, int last) {
+        if (interrupt.requested())
+            return false;
+        if (step < last && !steps)
+            steps.emplace("frames stepped", size_t(last - step));
+        else if (steps)
+            steps->advance();
+        work.start = Clock::now();
+        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout);
+        return true;
+    });
+    record.passes_drawn = renderer_.passes_drawn() - drawn_before;
+    return drawn;
+}
+
+Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
+    std::optional<Work> work(std::in_place);
+    if (!step_to(frame, interrupt, record, *work))
+        return Outcome::interrupted;
+    image::Image image = read_back();
+    record.milliseconds = milliseconds_since(work->start);
+    work.reset();
+    if (plan_.hashes) {
+        Sha256 hash;
+        add_rows(hash, image);
+        record.sha256 = hash.digits();
+    }
+    return deliver(record, std::move(image)).map([](bool wanted) {
+        return wanted ? Outcome::made : Outcome::unwanted;
+    });
+}
+
+/// The limit is on the frame; what is told to go on for long is a tile.
+Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record) {
+    Work work;
+    if (!step_to(frame, interrupt, record, work))
+        return Outcome::interrupted;
+    work.watch.reset();
+    auto output = open_bands(record);
+    if (!output)
+        return fail(std::move(output.error()));
+    bands_ = output->get();
+    Progress progress("tiles", renderer_.tiles()->count());
+    const auto before_tile = [&] {
+        if (work.watch)
+            progress.advance();
+        work.watch.reset();
+        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
+        return !interrupt.requested();
+    };
+    auto drawn = render::draw_bands(renderer_, inputs_at(frame), before_tile,
+                                    [&](image::Image band) { return bands_->take(std::move(band)); });
+    if (drawn && *drawn) {
+        progress.advance();
+        drawn = bands_->finish().map([] { return true; });
+    }
+    work.watch.reset();
+    bands_ = nullptr;
+    if (!drawn)
+        return fail(std::move(drawn.error()));
+    if (!*drawn)
+        return Outcome::interrupted;
+    record.milliseconds = milliseconds_since(work.start);
+    record.sha256 = (*output)->sha256();
+    return Outcome::made;
+}
+
+Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& record) const {
+    std::optional<image::PictureStream> stream;
+    if (!plan_.output.standard_output()) {
+        // Image's alpha is 1.
+        const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
+        auto made = image::PictureStream::create(record.file, renderer_.extent(), alpha, format_of(record));
+        if (!made)
+            return fail(std::move(made.error()));
+        stream.emplace(*std::move(made));
+    }
+    return std::make_unique<BandOutput>(std::move(stream), plan_.hashes);
+}
+
+/// A cube is saved as the panorama that ShaderToy exports, or as its faces, which are one picture until then.
+image::Image Capture::read_back() const {
+    if (renderer_.shown_pass().kind != scene::PassKind::cubemap)
+        return renderer_.read_back();
+    const image::CubeFaces faces = renderer_.read_back_cube();
+    return plan_.output.six_faces() ? image::column_of(faces) : image::equirectangular_of(faces);
+}
+
+/// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,
+/// half a video is not.
+void Capture::rescue_output() {
+    video_.reset();
+    if (bands_)
+        bands_->abandon();
+    if (writer_)
+        (void)writer_->finish();
+}
+
+/// False when the writer has failed and no more frames are wanted.
+Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
+    if (video_)
+        return video_->push(image).map([] { return true; });
+    if (!writer_)
+        return put_raw(image).map([] { return true; });
+    if (!plan_.output.six_faces())
+        return writer_->push({record.frame, record.file, std::move(image), format_of(record)});
+    const auto faces = image::cube_of_picture(image);
+    bool wanted = faces.has_value();
+    for (size_t i = 0; wanted && i < faces->size(); ++i)
+        wanted = writer_->push(
+            {record.frame, file_of_face(record.file, i), image::flipped((*faces)[i]), format_of(record)});
+    return wanted;
+}
+
+image::PictureFormat Capture::format_of(const FrameRecord& record) const {
+    return {plan_.depth,
+            {{"Scene", renderer_.scene().file.string()},
+             {"Frame", fmt::format("{}", record.frame)},
+             {"iTime", fmt::format("{}", record.time)},
+             {"Precision", name_of(renderer_.precision())},
+             {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)},
+             {"Software", fmt::format("tidemark {}", k_version)}}};
+}
+
+nlohmann::ordered_json Capture::report() const {
+    nlohmann::ordered_json report;
+    report["tidemark"] = k_version;
+    report["scene"] = renderer_.scene().file.string();
+    report["size"] = {renderer_.extent().width, renderer_.extent().height};
+    if (const auto tiles = renderer_.tiles()) {
+        const Extent size = tiles->tile();
+        report["tiles"] = {{"size", {size.width, size.height}}, {"count", tiles->count()}};
+    }
+    report["driver"] = driver_.version;
+    report["renderer"] = driver_.renderer;
+    report["pass"] = renderer_.shown_pass().name;
+    add_precision(report, renderer_);
+    report["prepare_milliseconds"] = prepare_milliseconds_;
+    report["left_out"] = facts_of(renderer_).left_out;
+    report["frames"] = nlohmann::ordered_json::array();
+    for (const FrameRecord& record : records_)
+        report["frames"].push_back({{"frame", record.frame},
+                                    {"iTime", record.time},
+                                    {"file", record.file},
+                                    {"sha256", record.sha256},
+                                    {"passes_drawn", record.passes_drawn},
+                                    {"milliseconds", record.milliseconds}});
+    return report;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,93 @@
+// The work of `tidemark capture`: draws the frames of a plan and hands them to the encoders.
+#pragma once
+
+#include "cli/capture/band_output.hpp"
+#include "cli/capture/stepper.hpp"
+#include "cli/capture/watchdog.hpp"
+#include "cli/frame_writer.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_name.hpp"
+#include "cli/requests.hpp"
+#include "gl/capabilities.hpp"
+#include "image/files/video_writer.hpp"
+#include "render/renderer.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+/// What is known before anything is drawn.
+struct CapturePlan {
+    FrameRequest frames;
+    OutputName output;
+    image::SampleDepth depth = image::SampleDepth::u8;
+    std::optional<double> timeout; ///< seconds for a frame
+    bool hashes = false;           ///< SHA-256 of every frame's pixels
+};
+
+/// One frame as `--json` reports it.
+struct FrameRecord {
+    int frame = 0;
+    double time = 0; ///< iTime
+    std::string file;
+    std::string sha256;
+    double milliseconds = 0;
+    size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
+};
+
+class Capture {
+public:
+    /// `plan` and `renderer` must outlive it. `sound` is a WAV file for a video; empty: silent.
+    Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound = {});
+
+    /// Draws and hands over every frame; true when all were made before an interrupt.
+    Result<bool> run(Interrupt& interrupt);
+
+    const std::vector<FrameRecord>& records() const { return records_; }
+    /// What `--json` prints.
+    nlohmann::ordered_json report() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    enum class Outcome { made, interrupted, unwanted };
+    /// On one frame.
+    struct Work {
+        Clock::time_point start = Clock::now();
+        std::optional<Watchdog::Watch> watch;
+    };
+
+    void prepare(Interrupt& interrupt);
+    bool step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
+    Result<Outcome> make(int frame, const Interrupt& interrupt, FrameRecord& record);
+    Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record);
+    Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
+    render::FrameInputs inputs_at(int frame);
+    image::Image read_back() const;
+    Result<bool> deliver(const FrameRecord& record, image::Image image);
+    image::PictureFormat format_of(const FrameRecord& record) const;
+    Result<void> open_output();
+    Result<void> close_output();
+    void rescue_output();
+
+    const CapturePlan& plan_;
+    render::Renderer& renderer_;
+    gl::Capabilities driver_;
+    std::optional<Replay> replay_;
+    Stepper stepper_;
+    double prepare_milliseconds_ = 0;
+    std::filesystem::path sound_;
+    std::unique_ptr<FrameWriter> writer_;     ///< of pictures
+    std::optional<image::VideoWriter> video_; ///< neither: frames go to standard output
+    BandOutput* bands_ = nullptr;             ///< of the frame in hand, while it is watched
+    Watchdog watchdog_;                       ///< last: its thread may use the writer
+    std::vector<FrameRecord> records_;
+};
+
+} // namespace tidemark::cli

@@ -1,0 +1,69 @@
+#include "cli/capture/capture_sound.hpp"
+
+#include "base/file.hpp"
+#include "cli/console.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "platform/headless_context.hpp"
+#include "render/sound_renderer.hpp"
+#include "sound/sound_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tidemark::cli {
+namespace {
+
+/// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
+constexpr double k_longest = 3600;
+
+} // namespace
+
+Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
+                                        double duration, const Interrupt& interrupt) {
+    if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
+        return fail(ErrorCode::usage,
+                    fmt::format("sound ends at {} s: iSampleOffset counts its samples in an int", k_last));
+    auto renderer = render::SoundRenderer::create(scene, render::Date{}, precision);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
+    const auto first = int(std::llround(start * render::k_sample_rate));
+    const auto block = 2 * size_t(render::SoundRenderer::block_samples());
+    std::vector<int16_t> samples;
+    Progress progress("blocks of sound", (count + block - 1) / block);
+    while (samples.size() < count && !interrupt.requested()) {
+        const std::vector<int16_t> drawn = renderer->draw(first + int(samples.size() / 2));
+        samples.insert(samples.end(), drawn.begin(), drawn.end());
+        progress.advance();
+    }
+    samples.resize(count);
+    return samples;
+}
+
+Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest& request) {
+    if (!(request.duration > 0) || request.duration > k_longest)
+        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
+                                                  request.duration, k_longest));
+    const Interrupt interrupt;
+    const auto scene = load(scene_request);
+    if (!scene)
+        return fail(scene.error());
+    if (auto writable = check_writable(request.output); !writable)
+        return fail(std::move(writable.error()));
+    const auto context = platform::HeadlessContext::create(request.device);
+    if (!context)
+        return fail(context.error());
+    const auto samples = draw_sound(*scene, precision_of(scene_request), 0, request.duration, interrupt);
+    if (!samples)
+        return fail(samples.error());
+    if (interrupt.requested())
+        return Interrupt::k_exit_code;
+    if (auto written = sound::write_wav(request.output, int(render::k_sample_rate), *samples); !written)
+        return fail(std::move(written.error()));
+    say(fmt::format("wrote {}", request.output));
+    return 0;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,133 @@
+#include "cli/capture/trial.hpp"
+
+#include "cli/omissions.hpp"
+#include "lab/stopwatch.hpp"
+
+#include <GL/glcorearb.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace tidemark::cli {
+namespace {
+
+using render::Renderer;
+
+/// A trial may cost this part of what the sequence costs.
+constexpr double k_share_of_sequence = 1.0 / 20;
+/// And draws about so many frames more than the sequence has.
+constexpr double k_frames_of_trial = 3;
+
+/// Of all that was drawn.
+double milliseconds_on(const lab::Stopwatch& watch) {
+    glFinish();
+    return watch.elapsed().wall;
+}
+
+/// From nothing drawn, or a frame that it has just drawn would be free.
+double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs) {
+    renderer.reset();
+    glFinish();
+    const lab::Stopwatch watch;
+    renderer.draw(inputs);
+    return milliseconds_on(watch);
+}
+
+/// Whether the texts have anything that is not surely drawn alike.
+bool worth_trying(const Renderer& renderer, glsl::Specialise how) {
+    return std::ranges::any_of(renderer.plan().passes, [&](const render::PlannedPass& planned) {
+        return left_out_of(renderer, planned.pass, how).in_doubt();
+    });
+}
+
+/// 0: the same bytes; infinite where one is a number and the other is none.
+double difference_of(const image::Image& a, const image::Image& b) {
+    if (a.bytes == b.bytes)
+        return 0;
+    double largest = 0;
+    for (size_t at = 0; at + sizeof(float) <= a.bytes.size(); at += sizeof(float)) {
+        float one = 0;
+        float other = 0;
+        std::memcpy(&one, a.bytes.data() + at, sizeof one);
+        std::memcpy(&other, b.bytes.data() + at, sizeof other);
+        if (std::memcmp(&one, &other, sizeof one) == 0)
+            continue;
+        const double difference = std::abs(double(one) - double(other));
+        largest = std::isnan(difference)
+                      ? std::numeric_limits<double>::infinity()
+                      : std::max({largest, difference, std::numeric_limits<double>::denorm_min()});
+    }
+    return largest;
+}
+
+using Pictures = std::vector<image::Image>;
+
+/// What all passes hold after a frame.
+Pictures pictures_of(const Renderer& renderer) {
+    Pictures pictures;
+    for (const render::PlannedPass& planned : renderer.plan().passes) {
+        const bool cube = renderer.scene().passes[planned.pass].kind == scene::PassKind::cubemap;
+        for (int face = 0; face < (cube ? 6 : 1); ++face)
+            pictures.push_back(renderer.read_floats(planned.pass, face));
+    }
+    return pictures;
+}
+
+double difference_of(const Pictures& a, const Pictures& b) {
+    if (a.size() != b.size())
+        return std::numeric_limits<double>::infinity();
+    double largest = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, difference_of(a[i], b[i]));
+    return largest;
+}
+
+std::string verdict(double difference, std::optional<double> allowed, bool taken) {
+    if (taken && difference > 0)
+        return fmt::format(
+            "specialised: differs from the plain program by {:.3g} at most (in the frames tried), "
+            "which --allow-difference allows",
+            difference);
+    if (allowed && difference > *allowed)
+        return fmt::format("not specialised: it would differ from the plain program by {:.3g}", difference);
+    return {};
+}
+
+} // namespace
+
+Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOptions& options,
+                             const TrialPlan& plan) {
+    render::RenderOptions certain = options;
+    certain.specialise = glsl::Specialise::unreachable;
+    const lab::Stopwatch start;
+    auto plain = Renderer::create(scene, certain);
+    if (!plain)
+        return fail(std::move(plain.error()));
+    if (!worth_trying(*plain, options.specialise))
+        return Trial{*std::move(plain)};
+    plain->draw(plan.first);
+    const double plain_start = milliseconds_on(start);
+    const Pictures first = pictures_of(*plain);
+    const double plain_time = milliseconds_of(*plain, plan.last);
+    const Pictures last = pictures_of(*plain);
+    plain->reset();
+    const double cost = plain_start + k_frames_of_trial * plain_time;
+    if (!plan.allowed && cost > k_share_of_sequence * double(plan.frames) * plain_time)
+        return Trial{*std::move(plain)};
+    auto special = Renderer::create(scene, options);
+    if (!special)
+        return Trial{*std::move(plain)};
+    special->draw(plan.first);
+    double difference = difference_of(pictures_of(*special), first);
+    const double special_time = milliseconds_of(*special, plan.last);
+    difference = std::max(difference, difference_of(pictures_of(*special), last));
+    special->reset();
+    const bool taken = difference <= plan.allowed.value_or(0) && special_time < plain_time;
+    return Trial{taken ? *std::move(special) : *std::move(plain), verdict(difference, plan.allowed, taken)};
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,26 @@
+// A probe that was asked, with its answer, and its way from the process that asks to the one that reports.
+#pragma once
+
+#include "cli/check/told.hpp"
+#include "cli/check/trace_apart.hpp"
+#include "lab/check/probe.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace tidemark::cli {
+
+struct Asked {
+    const lab::Probe* probe;
+    lab::Answer answer; ///< its picture does not come along: it is in a file
+    double seconds = 0;
+    std::filesystem::path picture{}; ///< empty: none was written
+    /// Where what is not finite is born, or why that is not known. For people, whole lines; for scripts.
+    std::string trace{};
+    Json trace_json{};
+};
+
+Json told(const Asked& asked);
+Asked told_answer(const Json& line);
+
+} // namespace tidemark::cli

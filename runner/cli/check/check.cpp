@@ -1,0 +1,121 @@
+#include "cli/check/check_probes.hpp"
+#include "cli/check/check_trace.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/options.hpp"
+#include "cli/version.hpp"
+#include "glsl/portability.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+struct CheckOptions {
+    ProbesRequest probes;
+    TraceOptions trace; ///< its scene, its device and its form are those of the probes
+    bool portable = false;
+    bool traced = false;
+    bool list = false;
+};
+
+nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
+    return {
+        {"file", diagnostic.where.file}, {"line", diagnostic.where.line}, {"message", diagnostic.message}};
+}
+
+/// One line for each place that ShaderToy's compiler will refuse; exit 1 when there is one.
+Result<int> check_portable(const CheckOptions& options) {
+    const auto scene = load(options.probes.scene);
+    if (!scene)
+        return fail(scene.error());
+    const std::vector<Diagnostic> found = glsl::portability_lint(*scene);
+    std::string text;
+    nlohmann::ordered_json json = {{"tidemark", k_version},
+                                   {"scene", scene->file.string()},
+                                   {"portable", found.empty()},
+                                   {"findings", {}}};
+    json["findings"] = nlohmann::ordered_json::array();
+    for (const Diagnostic& diagnostic : found) {
+        text += to_string(diagnostic) + '\n';
+        json["findings"].push_back(to_json(diagnostic));
+    }
+    const int code = found.empty() ? 0 : exit_code(ErrorCode::check_failed);
+    return put(options.probes.json ? json.dump(2) + "\n" : text).map([code] { return code; });
+}
+
+void add_trace_options(CLI::App& command, TraceOptions& options) {
+    add_picture_options(command, options.frames);
+    add_time_options(command, options.frames);
+    command
+        .add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
+        ->type_name("X,Y");
+    command.add_flag("--hidden", options.hidden,
+                     "Where all pixels are finite, trace a NaN that a clamp or a condition swallowed");
+    command.add_option("--timeout", options.timeout, "Give up the trace after so long")
+        ->type_name("SECONDS")
+        ->capture_default_str();
+}
+
+Result<int> trace(const CheckOptions& options) {
+    TraceOptions trace = options.trace;
+    trace.scene = options.probes.scene;
+    trace.device = options.probes.device;
+    trace.json = options.probes.json;
+    return check_trace(trace);
+}
+
+} // namespace
+
+void add_check(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<CheckOptions>();
+    CLI::App* command =
+        app.add_subcommand("check", "Tells whether a scene's numbers can be trusted, and where not");
+    ProbesRequest& probes = options->probes;
+    add_scene_options(*command, probes.scene);
+    add_precision_options(*command, probes.scene);
+    command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]")
+        ->type_name("NAME")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("-o,--output", probes.output, "Folder for a picture of each failure")
+        ->type_name("FOLDER");
+    command->add_option("--budget", probes.budget, "Seconds after which no other probe is begun")
+        ->type_name("S")
+        ->capture_default_str();
+    command->add_option("--device", probes.device, "Where to draw: a name from `tidemark inspect --devices`")
+        ->type_name("NAME")
+        ->capture_default_str();
+    auto* list = command->add_flag("--list", options->list, "What each probe looks at, and nothing else");
+    command->get_option("SCENE")->required(false);
+    command
+        ->add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
+        ->excludes(list);
+    command
+        ->add_flag("--trace", options->traced, "Instead: where a NaN or an infinity in the picture is born")
+        ->excludes(list)
+        ->excludes("--portable");
+    add_trace_options(*command, options->trace);
+    command->add_flag("--json", probes.json, "One JSON object on standard output");
+    command->callback([options, &chosen] {
+        if (!options->list && options->probes.scene.path.empty())
+            throw CLI::RequiredError("SCENE");
+        chosen = [options]() -> Result<int> {
+            if (options->probes.scene.doubles)
+                return fail(ErrorCode::usage,
+                            "check looks for what floats get wrong, and draws in double "
+                            "itself what it holds them against: leave --precision double out");
+            return options->list       ? list_probes()
+                   : options->portable ? check_portable(*options)
+                   : options->traced   ? trace(*options)
+                                       : check_probes(options->probes);
+        };
+    });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,27 @@
+// `tidemark check SCENE`: asks the probes of lab/check/probe.hpp and reports what they found.
+#pragma once
+
+#include "base/result.hpp"
+#include "cli/requests.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+struct ProbesRequest {
+    SceneRequest scene;
+    std::vector<std::string> probes; ///< --probe; empty: all
+    std::string output;              ///< folder for pictures of failures; empty: none
+    std::string device = "auto";
+    double budget = 60; ///< seconds after which no other probe is begun
+    bool json = false;
+};
+
+/// What each probe looks at.
+Result<int> list_probes();
+
+/// Exit code 1 when a probe fails.
+Result<int> check_probes(const ProbesRequest& request);
+
+} // namespace tidemark::cli

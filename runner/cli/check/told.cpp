@@ -1,0 +1,31 @@
+#include "cli/check/told.hpp"
+
+namespace tidemark::cli {
+
+std::string dump(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json told(const Error& error) {
+    Json diagnostics = Json::array();
+    for (const Diagnostic& d : error.diagnostics)
+        diagnostics.push_back({d.where.file, d.where.line, d.where.column, int(d.severity), d.message});
+    return {{"error", error.message}, {"code", int(error.code)}, {"diagnostics", diagnostics}};
+}
+
+std::optional<Error> told_error(const Json& line) {
+    if (!line.contains("error"))
+        return std::nullopt;
+    Error error{ErrorCode(line.at("code").get<int>()), line.at("error").get<std::string>(), {}};
+    for (const Json& d : line.at("diagnostics")) {
+        Diagnostic& diagnostic = error.diagnostics.emplace_back();
+        d[0].get_to(diagnostic.where.file);
+        d[1].get_to(diagnostic.where.line);
+        d[2].get_to(diagnostic.where.column);
+        diagnostic.severity = Severity(d[3].get<int>());
+        d[4].get_to(diagnostic.message);
+    }
+    return error;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,33 @@
+// A trace of a NaN (lab/trace/nan_trace.hpp) in a process of its own, so that neither a crash of the driver
+// nor a shader without end is more than an answer.
+#pragma once
+
+#include "cli/check/told.hpp"
+#include "lab/trace/nan_trace.hpp"
+#include "scene/scene.hpp"
+
+#include <string>
+
+namespace tidemark::cli {
+
+/// What to trace, and where to draw.
+struct TraceJob {
+    std::string device = "auto";
+    Extent extent;
+    std::string pass{}; ///< that is shown; empty: Image
+    lab::TraceRequest request;
+};
+
+/// The best that was told until the end.
+struct TraceFound {
+    bool found = false;  ///< something is not finite
+    std::string text{};  ///< for people, whole lines
+    Json json{};         ///< for scripts; null where nothing was found
+    std::string ended{}; ///< why it did not come to its end; empty: it did
+};
+
+/// To be called before this process has a context (cli/forked.hpp). Fails where the scene does not compile,
+/// or nothing was found in time.
+Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, double seconds);
+
+} // namespace tidemark::cli

@@ -1,0 +1,241 @@
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/inspect/inspect_savings.hpp"
+#include "cli/omissions.hpp"
+#include "cli/options.hpp"
+#include "cli/precision_report.hpp"
+#include "cli/scene_facts.hpp"
+#include "cli/version.hpp"
+#include "gl/capabilities.hpp"
+#include "glsl/pass_reading.hpp"
+#include "glsl/specialise/specialise.hpp"
+#include "platform/headless_context.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InspectOptions {
+    SceneRequest scene;
+    std::string device = "auto";
+    std::string pass;
+    std::string size = "640x360";
+    std::vector<std::string> with;
+    double budget = 20;
+    bool devices = false;
+    bool source = false;
+    bool specialised = false;
+    bool json = false;
+};
+
+std::string_view name_of(platform::DeviceKind kind) {
+    switch (kind) {
+    case platform::DeviceKind::hardware: return "hardware";
+    case platform::DeviceKind::software: return "software";
+    case platform::DeviceKind::unknown: return "unknown";
+    }
+    return "unknown";
+}
+
+Json to_json(const platform::HeadlessDevice& device) {
+    Json json = {{"name", device.name}, {"kind", name_of(device.kind)}};
+    if (device.reason.empty()) {
+        json["renderer"] = device.renderer;
+        json["version"] = device.version;
+    } else {
+        json["unusable"] = device.reason;
+    }
+    return json;
+}
+
+std::string to_line(const platform::HeadlessDevice& device) {
+    if (!device.reason.empty())
+        return fmt::format("{:<12} unusable: {}\n", device.name, device.reason);
+    return fmt::format("{:<12} {}, {}, OpenGL {}\n", device.name, name_of(device.kind), device.renderer,
+                       device.version);
+}
+
+Result<int> inspect_devices(bool as_json) {
+    const auto devices = platform::list_headless_devices();
+    std::string text;
+    Json json = {{"tidemark", k_version}, {"devices", Json::array()}};
+    for (const platform::HeadlessDevice& device : devices) {
+        text += to_line(device);
+        json["devices"].push_back(to_json(device));
+    }
+    return put(as_json ? json.dump(2) + "\n" : text).map([] { return 0; });
+}
+
+Json to_json(const glsl::LeftOut& left_out) {
+    Json json = {
+        {"lines", left_out.lines}, {"branches", left_out.branches}, {"out_of_loops", left_out.hoisted}};
+    if (!left_out.anything())
+        json["none_because"] = left_out.kept_whole;
+    return json;
+}
+
+std::string to_line(const glsl::LeftOut& left_out) {
+    if (!left_out.anything())
+        return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
+    std::string text = fmt::format("  code removed: {} lines", left_out.lines);
+    if (left_out.in_doubt())
+        text += fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops",
+                            left_out.branches, left_out.hoisted);
+    return text + '\n';
+}
+
+Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
+    const SceneFacts facts = facts_of(renderer);
+    const scene::Scene& scene = renderer.scene();
+    Json json;
+    json["tidemark"] = k_version;
+    json["scene"] = scene.file.string();
+    json["driver"] = driver.version;
+    json["renderer"] = driver.renderer;
+    json["files"] = files_of(scene);
+    json["uniforms"] = facts.uniforms;
+    json["passes"] = Json::array();
+    for (const PassFacts& facts_of_pass : facts.passes) {
+        const scene::Pass& pass = scene.passes[facts_of_pass.pass];
+        Json channels = Json::object();
+        for (const int channel : facts_of_pass.channels)
+            channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
+        json["passes"].push_back({{"name", pass.name},
+                                  {"channels", channels},
+                                  {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass,
+                                                                       glsl::Specialise::settled))}});
+    }
+    json["knobs"] = knobs_of(scene);
+    add_precision(json, renderer);
+    json["left_out"] = facts.left_out;
+    return json;
+}
+
+std::string to_text(const render::Renderer& renderer, const gl::Capabilities& driver) {
+    const SceneFacts facts = facts_of(renderer);
+    const scene::Scene& scene = renderer.scene();
+    std::string text =
+        fmt::format("{}\n  driver    {}, OpenGL {}\n", scene.file.string(), driver.renderer, driver.version);
+    text += fmt::format("  uniforms  {}\n", fmt::join(facts.uniforms, ", "));
+    for (const PassFacts& facts_of_pass : facts.passes) {
+        const scene::Pass& pass = scene.passes[facts_of_pass.pass];
+        if (scene.passes.size() > 1)
+            text += fmt::format("  pass      {}\n", pass.name);
+        for (const int channel : facts_of_pass.channels)
+            text +=
+                fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
+        text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::settled));
+    }
+    text += knob_lines(scene);
+    text += precision_lines(renderer);
+    for (const std::string& thing : facts.left_out)
+        text += fmt::format("  left out  {}\n", thing);
+    return text;
+}
+
+/// The text of a pass, Image when none is named.
+Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision,
+                       glsl::Specialise how) {
+    for (const scene::Pass& pass : scene.passes) {
+        if (pass.name != name && !(name.empty() && pass.kind == scene::PassKind::image))
+            continue;
+        const glsl::PassReading reading(scene, pass);
+        const auto assembly = reading.assemble(reading.dialects(precision).front());
+        if (!assembly)
+            return fail(assembly.error());
+        return put(glsl::specialise(assembly->source, scene.knobs, how).source.text()).map([] { return 0; });
+    }
+    return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has no such pass", name));
+}
+
+Result<int> inspect_scene(const InspectOptions& options) {
+    auto scene = load(options.scene);
+    if (!scene)
+        return fail(std::move(scene.error()));
+    if (options.source)
+        return put_source(*scene, options.pass, precision_of(options.scene),
+                          options.specialised ? glsl::Specialise::settled : glsl::Specialise::nothing);
+    if (options.device == "none")
+        return put(options.json ? what_files_say(*scene).dump(2) + "\n" : lines_of_files(*scene)).map([] {
+            return 0;
+        });
+    const auto context = platform::HeadlessContext::create(options.device);
+    if (!context)
+        return fail(context.error());
+    render::RenderOptions target;
+    target.pass = options.pass;
+    target.precision = precision_of(options.scene);
+    target.specialise = glsl::Specialise::unreachable;
+    const auto renderer = render::Renderer::create(*std::move(scene), target);
+    if (!renderer)
+        return fail(renderer.error());
+    const gl::Capabilities driver = gl::query_capabilities();
+    return put(options.json ? to_json(*renderer, driver).dump(2) + "\n" : to_text(*renderer, driver)).map([] {
+        return 0;
+    });
+}
+
+} // namespace
+
+void add_inspect(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<InspectOptions>();
+    CLI::App* command = app.add_subcommand("inspect", "Tells what a scene needs and what was left out");
+    add_scene_options(*command, options->scene);
+    command->get_option("SCENE")->required(false);
+    add_precision_options(*command, options->scene);
+    command
+        ->add_option("--device", options->device,
+                     "Where to draw: a name from --devices; none: without a driver, what the files say")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
+        ->type_name("NAME");
+    command->add_flag("--devices", options->devices, "Lists where OpenGL contexts can be had, and no scene");
+    command->add_flag("--source", options->source,
+                      "Prints the text that the driver compiles, and nothing else");
+    const auto things = things_left_out();
+    command
+        ->add_option("--with", options->with,
+                     fmt::format("Puts back what was left out and measures what that costs: {}",
+                                 fmt::join(things, ", ")))
+        ->type_name("THING[,…]")
+        ->delimiter(',')
+        ->check(CLI::IsMember(things));
+    command->add_option("--size", options->size, "With --with: the picture's size")
+        ->type_name("WxH")
+        ->capture_default_str();
+    command->add_option("--budget", options->budget, "With --with: seconds to measure for")
+        ->type_name("S")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        ->add_flag(
+            "--specialised", options->specialised,
+            "With --source: the text without what the scene does not need, as a long sequence is drawn")
+        ->needs("--source");
+    command->add_flag("--json", options->json, "One JSON object on standard output");
+    command->callback([options, &chosen] {
+        chosen = [options]() -> Result<int> {
+            if (options->devices)
+                return inspect_devices(options->json);
+            if (options->scene.path.empty())
+                return fail(ErrorCode::usage, "inspect: give a SCENE, or --devices");
+            if (!options->with.empty())
+                return inspect_savings({options->scene, options->size, options->pass, options->device,
+                                        options->with, options->budget, options->json});
+            return inspect_scene(*options);
+        };
+    });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,220 @@
+#include "cli/inspect/inspect_savings.hpp"
+
+#include "cli/console.hpp"
+#include "cli/inspect/library_cost.hpp"
+#include "cli/version.hpp"
+#include "gl/capabilities.hpp"
+#include "lab/savings.hpp"
+#include "platform/headless_context.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using lab::Omission;
+using lab::Saved;
+using lab::Saving;
+
+constexpr std::string_view k_libraries = "libraries";
+constexpr std::string_view k_all = "all";
+constexpr double k_mebibyte = 1024.0 * 1024.0;
+
+/// Things that are put back together.
+struct Question {
+    std::string name;
+    std::vector<Omission> things;
+};
+
+struct Answer {
+    std::string name;
+    Saving saving;
+};
+
+struct LoadedLibrary {
+    const OptionalLibrary& library;
+    LibraryCost cost;
+};
+
+bool asks_for(const SavingsOptions& options, std::string_view thing) {
+    return std::any_of(options.things.begin(), options.things.end(),
+                       [&](const std::string& asked) { return asked == thing || asked == k_all; });
+}
+
+std::vector<Question> questions_of(const SavingsOptions& options) {
+    std::vector<Question> questions;
+    const auto all = lab::omissions();
+    for (const Omission& thing : all)
+        if (asks_for(options, thing.name))
+            questions.push_back({std::string(thing.name), {thing}});
+    if (asks_for(options, k_all))
+        questions.push_back({std::string(k_all), {all.begin(), all.end()}});
+    return questions;
+}
+
+Result<std::vector<LoadedLibrary>> load_libraries(const SavingsOptions& options) {
+    std::vector<LoadedLibrary> loaded;
+    if (!asks_for(options, k_libraries))
+        return loaded;
+    for (const OptionalLibrary& library : optional_libraries()) {
+        auto cost = measure_loading(library);
+        if (!cost)
+            return fail(std::move(cost.error()));
+        loaded.push_back({library, *cost});
+    }
+    return loaded;
+}
+
+/// To the microsecond, as far as three digits tell it.
+std::string milliseconds(double value) {
+    return fmt::format("{:+.{}f}", value, std::abs(value) < 1 ? 3 : std::abs(value) < 10 ? 2 : 0);
+}
+
+std::string to_text(const Saved& saved) {
+    return fmt::format("{} {} [{}, {}]", milliseconds(saved.without).substr(1), milliseconds(saved.more),
+                       milliseconds(saved.interval.low), milliseconds(saved.interval.high));
+}
+
+std::string change(size_t without, size_t with_it) {
+    return without == with_it ? fmt::format("{}", with_it) : fmt::format("{} -> {}", without, with_it);
+}
+
+constexpr std::string_view k_row = "{:<16}  {:<30}  {:<30}  {:>11}  {:>9}  {:>9}  {:>9}  {}\n";
+
+std::string to_text(const Answer& answer) {
+    const Saving& saving = answer.saving;
+    if (!saving.left_out())
+        return fmt::format("{:<16}  nothing of that kind is left out of this scene\n", answer.name);
+    const double bytes = double(saving.with_it.texture_bytes) - double(saving.without.texture_bytes);
+    return fmt::format(
+        fmt::runtime(k_row), answer.name, to_text(saving.start.wall), to_text(saving.frame.wall),
+        fmt::format("{:+.2f} MiB", bytes / k_mebibyte), change(saving.without.draws, saving.with_it.draws),
+        change(saving.without.uniforms, saving.with_it.uniforms),
+        change(saving.without.channels, saving.with_it.channels), saving.same_pixels ? "the same" : "differ");
+}
+
+std::string to_text(const LoadedLibrary& loaded) {
+    if (loaded.library.is_loaded())
+        return fmt::format("{:<16}  this scene needs it\n", loaded.library.name);
+    return fmt::format("{:<16}  {} (CPU {}), {:+.1f} MiB of memory\n", loaded.library.name,
+                       milliseconds(loaded.cost.time.wall), milliseconds(loaded.cost.time.cpu),
+                       loaded.cost.mebibytes);
+}
+
+Json to_json(const Saved& saved) {
+    return {{"without", saved.without},
+            {"more", saved.more},
+            {"low", saved.interval.low},
+            {"high", saved.interval.high}};
+}
+
+Json to_json(const lab::SavedTime& time) {
+    return {{"wall_ms", to_json(time.wall)}, {"cpu_ms", to_json(time.cpu)}};
+}
+
+Json to_json(const render::FrameWork& work) {
+    return {{"draws", work.draws},
+            {"uniforms", work.uniforms},
+            {"channels", work.channels},
+            {"texture_bytes", work.texture_bytes}};
+}
+
+Json to_json(const Answer& answer) {
+    const Saving& saving = answer.saving;
+    Json json = {{"with", answer.name}, {"left_out", saving.left_out()}};
+    if (saving.left_out())
+        json.update({{"start", to_json(saving.start)},
+                     {"frame", to_json(saving.frame)},
+                     {"without", to_json(saving.without)},
+                     {"with_it", to_json(saving.with_it)},
+                     {"same_pixels", saving.same_pixels}});
+    return json;
+}
+
+Json to_json(const LoadedLibrary& loaded) {
+    const LibraryCost& cost = loaded.cost;
+    return {{"name", loaded.library.name},
+            {"left_out", !loaded.library.is_loaded()},
+            {"wall_ms", cost.time.wall},
+            {"cpu_ms", cost.time.cpu},
+            {"memory_mib", cost.mebibytes}};
+}
+
+std::string report_text(const SavingsOptions& options, const std::vector<Answer>& answers,
+                        const std::vector<LoadedLibrary>& libraries) {
+    std::string text =
+        fmt::format("{}, {}, {}: milliseconds without, what the thing adds, and its 95 % interval\n",
+                    options.scene.path.string(), options.size, gl::query_capabilities().renderer);
+    if (!answers.empty())
+        text += fmt::format(fmt::runtime(k_row), "with", "start", "a frame", "textures", "draws", "uniforms",
+                            "channels", "pixels");
+    for (const Answer& answer : answers)
+        text += to_text(answer);
+    for (const LoadedLibrary& library : libraries)
+        text += to_text(library);
+    return text;
+}
+
+Json report_json(const SavingsOptions& options, const std::vector<Answer>& answers,
+                 const std::vector<LoadedLibrary>& libraries) {
+    Json json = {{"tidemark", k_version},    {"scene", options.scene.path.string()},
+                 {"size", options.size},     {"renderer", gl::query_capabilities().renderer},
+                 {"savings", Json::array()}, {"libraries", Json::array()}};
+    for (const Answer& answer : answers)
+        json["savings"].push_back(to_json(answer));
+    for (const LoadedLibrary& library : libraries)
+        json["libraries"].push_back(to_json(library));
+    return json;
+}
+
+} // namespace
+
+std::vector<std::string> things_left_out() {
+    std::vector<std::string> names;
+    for (const Omission& thing : lab::omissions())
+        names.emplace_back(thing.name);
+    names.emplace_back(k_libraries);
+    names.emplace_back(k_all);
+    return names;
+}
+
+Result<int> inspect_savings(const SavingsOptions& options) {
+    const auto extent = parse_size(options.size);
+    if (!extent)
+        return fail(extent.error());
+    const auto scene = load(options.scene);
+    if (!scene)
+        return fail(scene.error());
+    const auto libraries = load_libraries(options); // before there is a context
+    if (!libraries)
+        return fail(libraries.error());
+    const auto context = platform::HeadlessContext::create(options.device);
+    if (!context)
+        return fail(context.error());
+    render::RenderOptions target;
+    target.extent = *extent;
+    target.pass = options.pass;
+    target.precision = precision_of(options.scene);
+    target.specialise = glsl::Specialise::unreachable;
+    std::vector<Answer> answers;
+    const std::vector<Question> questions = questions_of(options);
+    for (const Question& question : questions) {
+        const auto saving =
+            lab::measure_saving(*scene, target, question.things, options.budget / double(questions.size()));
+        if (!saving)
+            return fail(saving.error());
+        answers.push_back({question.name, *saving});
+    }
+    const auto printed = put(options.json ? report_json(options, answers, *libraries).dump(2) + "\n"
+                                          : report_text(options, answers, *libraries));
+    const bool same = std::all_of(answers.begin(), answers.end(),
+                                  [](const Answer& answer) { return answer.saving.same_pixels; });
+    return printed.map([&] { return same ? 0 : 1; });
+}
+
+} // namespace tidemark::cli

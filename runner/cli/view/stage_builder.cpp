@@ -1,0 +1,103 @@
+#include "cli/view/stage_builder.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+namespace tidemark::cli {
+namespace {
+
+/// Compiling keeps a core busy, and the picture on show wants one too.
+constexpr size_t k_most_at_once = 3;
+
+} // namespace
+
+struct StageBuilder::Job {
+    std::mutex mutex;
+    bool abandoned = false;
+    bool done = false;
+    std::optional<Result<Stage>> outcome;
+};
+
+StageBuilder::~StageBuilder() {
+    abandon();
+    for (auto& [thread, job] : running_)
+        thread.join();
+}
+
+void StageBuilder::start(Order order) {
+    abandon();
+    sweep();
+    if (running_.size() < k_most_at_once)
+        launch(std::move(order));
+    else
+        waiting_.emplace(std::move(order));
+}
+
+void StageBuilder::launch(Order order) {
+    newest_ = std::make_shared<Job>();
+    std::thread thread([job = newest_, wake = wake_, order = std::move(order)]() mutable {
+        {
+            auto built =
+                Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
+            const std::lock_guard lock(job->mutex);
+            if (!job->abandoned)
+                job->outcome.emplace(std::move(built));
+        } // one that nobody wants ends here
+        const std::lock_guard lock(job->mutex);
+        job->done = true;
+        wake();
+    });
+    running_.emplace_back(std::move(thread), newest_);
+}
+
+void StageBuilder::abandon() {
+    waiting_.reset();
+    if (!newest_)
+        return;
+    const std::lock_guard lock(newest_->mutex);
+    newest_->abandoned = true;
+    newest_->outcome.reset();
+    newest_ = nullptr;
+}
+
+std::optional<Result<Stage>> StageBuilder::take() {
+    sweep();
+    if (waiting_ && running_.size() < k_most_at_once) {
+        launch(*std::move(waiting_));
+        waiting_.reset();
+    }
+    if (!newest_)
+        return std::nullopt;
+    std::optional<Result<Stage>> outcome;
+    {
+        const std::lock_guard lock(newest_->mutex);
+        if (!newest_->outcome)
+            return std::nullopt;
+        outcome.emplace(*std::move(newest_->outcome));
+        newest_->outcome.reset();
+    }
+    newest_ = nullptr;
+    return outcome;
+}
+
+/// Threads that are done are no more.
+void StageBuilder::sweep() {
+    std::erase_if(running_, [](auto& running) {
+        {
+            const std::lock_guard lock(running.second->mutex);
+            if (!running.second->done)
+                return false;
+        }
+        running.first.join();
+        return true;
+    });
+}
+
+bool StageBuilder::busy() const {
+    return std::any_of(running_.begin(), running_.end(), [](const auto& running) {
+        const std::lock_guard lock(running.second->mutex);
+        return !running.second->done;
+    });
+}
+
+} // namespace tidemark::cli

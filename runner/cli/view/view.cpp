@@ -1,0 +1,70 @@
+#include "base/file.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/options.hpp"
+#include "cli/view/viewer.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+/// X11 counts the pixels of a window in 16 bits, half of them below zero; beyond that it takes another size.
+constexpr int k_largest_window = 32767;
+
+struct ViewOptions {
+    SceneRequest scene;
+    FrameOptions frames;
+    std::string record;
+};
+
+Result<int> view(const ViewOptions& options) {
+    auto frames = resolve(options.frames);
+    if (!frames)
+        return fail(std::move(frames.error()));
+    if (const Extent size = frames->extent; std::max(size.width, size.height) > k_largest_window)
+        return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
+                                                  size.width, size.height, k_largest_window));
+    Viewer::Settings settings{options.scene, *std::move(frames)};
+    settings.pass = options.frames.pass;
+    settings.record = options.record;
+    if (options.frames.date)
+        settings.date = settings.frames.date;
+    if (!options.record.empty())
+        if (auto writable = check_writable(options.record); !writable)
+            return fail(std::move(writable.error()));
+    Interrupt interrupt;
+    auto viewer = Viewer::open(std::move(settings));
+    if (!viewer)
+        return fail(std::move(viewer.error()));
+    const Interrupt::Waking waking(interrupt, platform::Window::wake);
+    auto outcome = viewer->run(interrupt);
+    if (viewer->busy()) { // a driver that compiles cannot be waited for
+        if (!outcome)
+            say(to_string(outcome.error()));
+        ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+    }
+    return outcome;
+}
+
+} // namespace
+
+void add_view(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<ViewOptions>();
+    CLI::App* command =
+        app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
+    add_scene_options(*command, options->scene);
+    add_precision_options(*command, options->scene);
+    add_picture_options(*command, options->frames);
+    command->add_option("--record", options->record, "Writes what mouse and keyboard do, for --input")
+        ->type_name("FILE");
+    command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
+}
+
+} // namespace tidemark::cli

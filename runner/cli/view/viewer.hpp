@@ -1,0 +1,96 @@
+// A scene in a window: draws it, feeds it what people do to the window, and reloads it when its files are
+// saved. Whatever goes wrong after the start leaves the last good picture running.
+#pragma once
+
+#include "cli/controls.hpp"
+#include "cli/frame_writer.hpp"
+#include "cli/input_script.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/requests.hpp"
+#include "cli/view/live_scene.hpp"
+#include "cli/view/sound_player.hpp"
+#include "cli/view/stage.hpp"
+#include "platform/window.hpp"
+#include "render/live_clock.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tidemark::cli {
+
+class Viewer {
+public:
+    struct Settings {
+        SceneRequest scene;
+        FrameRequest frames;                   ///< extent, fps, camera
+        std::string pass = {};                 ///< the pass to show; empty: Image
+        std::optional<render::Date> date = {}; ///< instead of the clock on the wall
+        std::filesystem::path record = {};     ///< where what people do is written; empty: nowhere
+    };
+
+    /// Opens the window and begins to compile. Fails like `load` and Window do.
+    static Result<Viewer> open(Settings settings);
+
+    /// Until the person closes it or interrupts the program. Fails when the scene that it began with does not
+    /// compile.
+    Result<int> run(const Interrupt& interrupt);
+
+    /// A thread is at work in the driver, which cannot be stopped: whoever wants to end must end the process.
+    bool busy() const { return scene_.busy() || sound_->busy(); }
+
+private:
+    Viewer(Settings settings, platform::Window window, LiveScene scene);
+
+    // What people do
+    void handle(const platform::PointerMoved&) {}
+    void handle(const platform::ButtonPressed&) {}
+    void handle(const platform::ButtonReleased&) {}
+    void handle(const platform::WheelTurned&) {}
+    void let_the_scene_know(const platform::InputEvent& event);
+    void handle(const platform::KeyPressed& event);
+    void handle(const platform::KeyReleased& event);
+    void obey(platform::Key key, double now);
+    bool scene_reads_keyboard() const;
+    void handle(const platform::FramebufferResized& event);
+    void handle(const platform::RedrawNeeded&) { stale_ = true; }
+    void handle(const platform::CloseRequested&) { closing_ = true; }
+    void handle(const platform::FocusLost&) {}
+    void save_picture();
+
+    LiveScene::View view() const;
+    Result<void> follow_scene(double now);
+    Result<void> show(Stage fresh, double now);
+    void play_sound();
+    void report_reload();
+    bool compiles_for_long(double now) const;
+
+    void draw(double now);
+    void show_title(double now);
+    Result<void> finish();
+    double seconds_to_sleep(double now) const;
+    bool wants_frame(double now) const;
+    bool moving() const;
+
+    Settings settings_;
+    platform::Window window_; ///< owns the context: first in, last out
+    LiveScene scene_;
+    std::unique_ptr<SoundPlayer> sound_;
+    std::optional<Stage> stage_; ///< none before the first picture
+    render::LiveClock clock_;
+    Controls controls_;
+    std::optional<Replay> replay_; ///< moves the scene instead of the controls
+    InputScript recorded_;
+    std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
+    std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
+    std::string title_;
+    render::FrameInputs shown_; ///< inputs of the frame on show
+    double next_draw_ = 0;
+    bool control_down_ = false;
+    bool stale_ = true;    ///< the window does not show what it should
+    bool at_rest_ = false; ///< the next frame is this one, until somebody does something
+    bool closing_ = false;
+};
+
+} // namespace tidemark::cli

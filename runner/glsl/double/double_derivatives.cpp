@@ -1,0 +1,46 @@
+#include "glsl/double/double_functions.hpp"
+
+namespace tidemark::glsl {
+namespace {
+
+/// The hardware differences floats: those of both parts of a double together lose next to nothing, even where
+/// neighbours agree in all 24 bits. Beyond the range of floats the result is NaN.
+constexpr std::string_view k_dfdx = R"(
+double tidemark_double_dFdx(double x) {
+    precise double low = x - double(float(x));
+    return double(dFdx(float(x))) + double(dFdx(float(low)));
+}
+)";
+constexpr std::string_view k_dfdy = R"(
+double tidemark_double_dFdy(double x) {
+    precise double low = x - double(float(x));
+    return double(dFdy(float(x))) + double(dFdy(float(low)));
+}
+)";
+constexpr std::string_view k_fwidth = R"(
+double tidemark_double_fwidth(double x) {
+    return abs(tidemark_double_dFdx(x)) + abs(tidemark_double_dFdy(x));
+}
+)";
+
+constexpr std::string_view k_radians = R"(
+double tidemark_double_radians(double x) { return x * 0.017453292519943295lf; }
+)";
+constexpr std::string_view k_degrees = R"(
+double tidemark_double_degrees(double x) { return x * 57.29577951308232lf; }
+)";
+
+} // namespace
+
+std::vector<DoubleFunction> double_derivatives() {
+    using enum Overloads;
+    return {
+        {"dFdx", unary, 0, {}, k_dfdx},
+        {"dFdy", unary, 0, {}, k_dfdy},
+        {"fwidth", unary, 0, {"dFdx", "dFdy"}, k_fwidth},
+        {"radians", unary, 1.1, {}, k_radians},
+        {"degrees", unary, 1.1, {}, k_degrees},
+    };
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,197 @@
+#include "glsl/double/double_functions.hpp"
+
+namespace tidemark::glsl {
+namespace {
+
+/// y 2^k in two factors, for results below the normal numbers and up to infinity.
+constexpr std::string_view k_scale = R"(
+double tidemark_scale(double y, double k) {
+    int n = int(k);
+    int m = n >> 1;
+    double first = packDouble2x32(uvec2(0u, uint(m + 1023) << 20));
+    double second = packDouble2x32(uvec2(0u, uint(n - m + 1023) << 20));
+    return y * first * second;
+}
+)";
+
+/// e^x 2^k for x = high - low, |x| <= ln 2 / 2: e^x = 1 + x + x c/(2 - c) with c = x + 2 - x coth(x/2), of
+/// which all but the x is even. Good to 2^-59.6.
+constexpr std::string_view k_exp_kernel = R"(
+double tidemark_exp_kernel(double high, double low, double k) {
+    precise double x = high - low;
+    precise double z = x * x;
+    precise double c = x - z * (0.1666666666666666lf + z * (-0.0027777777777564404lf + z * (6.613756471622828e-05lf
+                     + z * (-1.6534060033836456e-06lf + z * 4.1437662804024295e-08lf))));
+    precise double a = 1.0lf + high;
+    precise double lost = high - (a - 1.0lf);
+    precise double y = a + (lost + ((x * c) / (2.0lf - c) - low));
+    return tidemark_scale(y, k);
+}
+)";
+
+/// e^x 2^shift. ln 2 in two parts, the first of 32 bits.
+constexpr std::string_view k_exp_scaled = R"(
+double tidemark_exp_scaled(double x, double shift) {
+    double a = clamp(x, -746.0lf, 711.0lf);
+    double k = roundEven(a * 1.4426950408889634lf);
+    precise double high = a - k * 0.6931471803691238lf;
+    precise double low = k * 1.9082149292705877e-10lf;
+    return isnan(x) ? x : tidemark_exp_kernel(high, low, k + shift);
+}
+)";
+
+constexpr std::string_view k_exp = R"(
+double tidemark_double_exp(double x) {
+    return tidemark_exp_scaled(x, 0.0lf);
+}
+)";
+
+/// 2^(high + low), saturating; low is small beside high.
+constexpr std::string_view k_exp2_sum = R"(
+double tidemark_exp2_sum(double high, double low) {
+    bool far = abs(high) > 1100.0lf;
+    precise double a = far ? (high > 0.0lf ? 1100.0lf : -1100.0lf) : high;
+    precise double b = far ? 0.0lf : low;
+    double k = roundEven(a + b);
+    precise double p = a - k;
+    precise double r = p + b;
+    precise double t = tidemark_high(r);
+    precise double u = t * 0.6931471803691238lf;
+    precise double v = (b - (t - p)) * 0.6931471805599453lf + t * 1.9082149292705877e-10lf;
+    return tidemark_exp_kernel(u, -v, k);
+}
+)";
+
+constexpr std::string_view k_exp2 = R"(
+double tidemark_double_exp2(double x) {
+    return isnan(x) ? x : tidemark_exp2_sum(x, 0.0lf);
+}
+)";
+
+/// x = m 2^k with m in [sqrt 1/2, sqrt 2).
+constexpr std::string_view k_mantissa = R"(
+dvec2 tidemark_mantissa(double x) {
+    bool tiny = x < 2.2250738585072014e-308lf;
+    uvec2 bits = unpackDouble2x32(tiny ? x * 18014398509481984.0lf : x);
+    uint high = bits.y + 0x95f62u;
+    double m = packDouble2x32(uvec2(bits.x, (high & 0xfffffu) + 0x3fe6a09eu));
+    return dvec2(m, double(int(high >> 20) - (tiny ? 1077 : 1023)));
+}
+double tidemark_log_result(double x, double y) {
+    return x > 0.0lf ? (x <= 1.7976931348623157e+308lf ? y : x)
+                     : packDouble2x32(uvec2(0u, x == 0.0lf ? 0xfff00000u : 0x7ff80000u));
+}
+)";
+
+/// With s = f/(2 + f): log(1 + f) = f - h + s (h + R(s)), h = f^2/2. Good to 2^-59.5. (f, h, s (h + R))
+constexpr std::string_view k_log_kernel = R"(
+dvec3 tidemark_log_kernel(double m) {
+    precise double f = m - 1.0lf;
+    precise double s = f / (2.0lf + f);
+    precise double z = s * s;
+    precise double r = z * (0.6666666666666734lf + z * (0.39999999999416413lf + z * (0.2857142874211211lf
+                     + z * (0.2222219859382153lf + z * (0.18183563548268275lf + z * (0.15314064485414042lf
+                     + z * 0.14795859715948273lf))))));
+    precise double h = 0.5lf * f * f;
+    precise double rest = s * (h + r);
+    return dvec3(f, h, rest);
+}
+)";
+
+constexpr std::string_view k_log = R"(
+double tidemark_double_log(double x) {
+    dvec2 mk = tidemark_mantissa(x);
+    dvec3 v = tidemark_log_kernel(mk.x);
+    precise double y = mk.y * 0.6931471803691238lf
+                     - ((v.y - (v.z + mk.y * 1.9082149292705877e-10lf)) - v.x);
+    return tidemark_log_result(x, y);
+}
+)";
+
+constexpr std::string_view k_log2 = R"(
+double tidemark_double_log2(double x) {
+    dvec2 mk = tidemark_mantissa(x);
+    dvec3 v = tidemark_log_kernel(mk.x);
+    precise double high = tidemark_high(v.x - v.y);
+    precise double low = (v.x - high) - v.y + v.z;
+    precise double main = high * 1.4426946640014648lf;
+    precise double rest = (low + high) * 3.768874985636099e-07lf + low * 1.4426946640014648lf;
+    precise double sum = mk.y + main;
+    precise double y = (rest + ((mk.y - sum) + main)) + sum;
+    return tidemark_log_result(x, y);
+}
+)";
+
+/// 2^(y log2 x), log2 x in two parts. x = m 2^k with m in [sqrt 3/4, sqrt 3), and with b the nearer of 1 and
+/// 3/2 s = (m - b)/(m + b) stays below 0.102: 3 atanh(s) = s (3 + s^2 + s^4 W(s^2)), W good to 2^-70 of the
+/// whole. Over a wider range the rounding of s^4 W, times an exponent of 1000, would be seen. A negative x
+/// has a power where floats have one by accident, because drivers make products of x^1, x^2 and x^4.
+constexpr std::string_view k_pow = R"(
+double tidemark_pow_positive(double x, double y) {
+    dvec2 mk = tidemark_mantissa(x);
+    mk = mk.x < 0.8660254037844386lf ? dvec2(2.0lf * mk.x, mk.y - 1.0lf) : mk;
+    bool upper = mk.x > 1.224744871391589lf;
+    double b = upper ? 1.5lf : 1.0lf;
+    double b_high = upper ? 0.5849624872207642lf : 0.0lf;
+    double b_low = upper ? 1.350039202129749e-08lf : 0.0lf;
+    precise double f = mk.x - b;
+    precise double d = mk.x + b;
+    precise double inverse_d = 1.0lf / d;
+    precise double s = f * inverse_d;
+    precise double s_high = tidemark_high(s);
+    precise double d_high = tidemark_high(d);
+    precise double d_low = mk.x - (d_high - b);
+    precise double s_low = ((f - s_high * d_high) - s_high * d_low) * inverse_d;
+    precise double z = s * s;
+    precise double r = z * z * (0.6lf + z * (0.4285714285714264lf + z * (0.33333333333679027lf
+                     + z * (0.2727272706971641lf + z * (0.23076979806525474lf + z * (0.19991873485266534lf
+                     + z * 0.1822238530987954lf))))))
+                     + s_low * (s_high + s);
+    precise double q = s_high * s_high;
+    precise double t_high = tidemark_high(3.0lf + q + r);
+    precise double t_low = r - ((t_high - 3.0lf) - q);
+    precise double u = s_high * t_high;
+    precise double v = s_low * t_high + t_low * s;
+    precise double p_high = tidemark_high(u + v);
+    precise double p_low = v - (p_high - u);
+    precise double l_high = p_high * 0.9617962837219238lf;
+    precise double l_low = p_high * 4.102040517767816e-07lf + p_low * 0.9617966939259756lf + b_low;
+    precise double log_high = tidemark_high(l_high + l_low + b_high + mk.y);
+    precise double log_low = l_low - (((log_high - mk.y) - b_high) - l_high);
+    precise double a = clamp(y, -1e300lf, 1e300lf);
+    precise double a_high = tidemark_high(a);
+    precise double low = (a - a_high) * log_high + a * log_low;
+    precise double high = a_high * log_high;
+    return tidemark_exp2_sum(high, low);
+}
+double tidemark_double_pow(double x, double y) {
+    double a = y == 4.0lf ? abs(x) : x;
+    double nan = packDouble2x32(uvec2(0u, 0x7ff80000u));
+    double infinity = packDouble2x32(uvec2(0u, 0x7ff00000u));
+    double r = a > 0.0lf && a < infinity ? tidemark_pow_positive(a, y)
+             : a < 0.0lf || isnan(x) ? nan : (a == 0.0lf) == (y > 0.0lf) ? 0.0lf : infinity;
+    r = y == 1.0lf ? x : y == 2.0lf ? x * x : r;
+    return isnan(y) ? y : y == 0.0lf ? 1.0lf : r;
+}
+)";
+
+} // namespace
+
+std::vector<DoubleFunction> double_exponentials() {
+    using enum Overloads;
+    return {
+        {"scale", none, 0, {}, k_scale},
+        {"exp_kernel", none, 0, {"scale"}, k_exp_kernel},
+        {"exp_scaled", none, 0, {"exp_kernel"}, k_exp_scaled},
+        {"exp", unary, 0.8, {"exp_scaled"}, k_exp},
+        {"exp2_sum", none, 0, {"high", "exp_kernel"}, k_exp2_sum},
+        {"exp2", unary, 0.8, {"exp2_sum"}, k_exp2},
+        {"mantissa", none, 0, {}, k_mantissa},
+        {"log_kernel", none, 0, {}, k_log_kernel},
+        {"log", unary, 0.9, {"mantissa", "log_kernel"}, k_log},
+        {"log2", unary, 0.8, {"high", "mantissa", "log_kernel"}, k_log2},
+        {"pow", binary, 0.7, {"high", "mantissa", "exp2_sum"}, k_pow},
+    };
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,195 @@
+#include "glsl/double/double_functions.hpp"
+
+#include "glsl/syntax/builtins.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+/// A function that exists for floats alone and whose arguments lose nothing that matters by becoming floats:
+/// hardware looks textures up with floats, and bits of a float are what the author asks for.
+struct FloatFunction {
+    std::string_view name;
+    std::string_view result;
+    std::vector<std::string_view>
+        parameters; ///< types of a promoted text, with commas: one for each overload
+};
+
+std::vector<FloatFunction> float_functions() {
+    return {
+        {"texture",
+         "dvec4",
+         {"sampler2D,dvec2", "sampler2D,dvec2,double", "samplerCube,dvec3", "samplerCube,dvec3,double",
+          "sampler3D,dvec3", "sampler3D,dvec3,double"}},
+        {"textureLod",
+         "dvec4",
+         {"sampler2D,dvec2,double", "samplerCube,dvec3,double", "sampler3D,dvec3,double"}},
+        {"textureGrad",
+         "dvec4",
+         {"sampler2D,dvec2,dvec2,dvec2", "samplerCube,dvec3,dvec3,dvec3", "sampler3D,dvec3,dvec3,dvec3"}},
+        {"textureProj",
+         "dvec4",
+         {"sampler2D,dvec3", "sampler2D,dvec3,double", "sampler2D,dvec4", "sampler2D,dvec4,double",
+          "sampler3D,dvec4", "sampler3D,dvec4,double"}},
+        {"textureProjLod",
+         "dvec4",
+         {"sampler2D,dvec3,double", "sampler2D,dvec4,double", "sampler3D,dvec4,double"}},
+        {"textureProjGrad",
+         "dvec4",
+         {"sampler2D,dvec3,dvec2,dvec2", "sampler2D,dvec4,dvec2,dvec2", "sampler3D,dvec4,dvec3,dvec3"}},
+        {"textureQueryLod", "dvec2", {"sampler2D,dvec2", "samplerCube,dvec3", "sampler3D,dvec3"}},
+        {"texelFetch", "dvec4", {"sampler2D,ivec2,int", "sampler3D,ivec3,int"}},
+        {"floatBitsToInt", "int", {"double"}},
+        {"floatBitsToInt", "ivec2", {"dvec2"}},
+        {"floatBitsToInt", "ivec3", {"dvec3"}},
+        {"floatBitsToInt", "ivec4", {"dvec4"}},
+        {"floatBitsToUint", "uint", {"double"}},
+        {"floatBitsToUint", "uvec2", {"dvec2"}},
+        {"floatBitsToUint", "uvec3", {"dvec3"}},
+        {"floatBitsToUint", "uvec4", {"dvec4"}},
+        {"packHalf2x16", "uint", {"dvec2"}},
+        {"packUnorm2x16", "uint", {"dvec2"}},
+        {"packSnorm2x16", "uint", {"dvec2"}},
+        {"packUnorm4x8", "uint", {"dvec4"}},
+        {"packSnorm4x8", "uint", {"dvec4"}},
+    };
+}
+
+/// GLSL's text for a vector of any size; {} is the size. Its eta is a float in GLSL.
+constexpr std::string_view k_refract = R"(
+dvec{0} tidemark_refract(dvec{0} i, dvec{0} n, double eta) {{
+    double c = dot(n, i);
+    double k = 1.0lf - eta * eta * (1.0lf - c * c);
+    return k < 0.0lf ? dvec{0}(0.0lf) : eta * i - (eta * c + sqrt(k)) * n;
+}}
+)";
+
+/// To floats, whatever it was; whole numbers stay what they are.
+std::string single_functions() {
+    std::string text;
+    for (const char* type : {"float", "vec2", "vec3", "vec4", "mat2", "mat3", "mat4"})
+        for (const std::string& given : {std::string(type), double_type_of(type)})
+            text += fmt::format("{0} tidemark_single({1} x) {{ return {0}(x); }}\n", type, given);
+    for (const char* type : {"int", "ivec2", "ivec3", "ivec4", "uint", "uvec2", "uvec3", "uvec4", "bool"})
+        text += fmt::format("{0} tidemark_single({0} x) {{ return x; }}\n", type);
+    return text;
+}
+
+std::string text_of(const FloatFunction& function, std::string_view parameters) {
+    std::string declared, passed;
+    for (int index = 0; !parameters.empty(); ++index) {
+        const std::string_view type = parameters.substr(0, parameters.find(','));
+        parameters.remove_prefix(std::min(type.size() + 1, parameters.size()));
+        const std::string_view single = float_type_of(type);
+        declared += fmt::format("{}{} a{}", index > 0 ? ", " : "", type, index);
+        passed += single.empty() ? fmt::format("{}a{}", index > 0 ? ", " : "", index)
+                                 : fmt::format("{}{}(a{})", index > 0 ? ", " : "", single, index);
+    }
+    return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({1}({3})); }}\n", function.result, function.name,
+                       declared, passed);
+}
+
+std::string overload(const DoubleFunction& function, int size) {
+    const bool binary = function.overloads == Overloads::binary;
+    const std::string type = size == 1 ? "double" : fmt::format("dvec{}", size);
+    std::string parts;
+    for (int i = 0; i < size; ++i) {
+        const std::string component = size == 1 ? "" : fmt::format(".{}", "xyzw"[i]);
+        parts += fmt::format("{}tidemark_double_{}(x{}{})", i > 0 ? ", " : "", function.name, component,
+                             binary ? ", y" + component : "");
+    }
+    return fmt::format("{0} tidemark_{1}({0} x{2}) {{ return {3}; }}\n", type, function.name,
+                       binary ? ", " + type + " y" : "", size == 1 ? parts : type + "(" + parts + ")");
+}
+
+class Emitter {
+public:
+    explicit Emitter(const Signatures& own) : own_(own) {
+        for (DoubleFunction& function : all_double_functions())
+            functions_.push_back(std::move(function));
+    }
+
+    std::string run(const std::set<std::string_view>& used) {
+        if (used.contains("single"))
+            text_ += single_functions();
+        for (const FloatFunction& function : float_functions())
+            if (used.contains(function.name))
+                for (const std::string_view parameters : function.parameters)
+                    if (!owns(function.name, parameters))
+                        text_ += text_of(function, parameters);
+        if (used.contains("refract"))
+            for (int size = 2; size <= 4; ++size)
+                if (!owns("refract", fmt::format("dvec{0},dvec{0},double", size)))
+                    text_ += fmt::format(fmt::runtime(k_refract), size);
+        for (const DoubleFunction& function : functions_)
+            if (used.contains(function.name))
+                add(function);
+        return std::move(text_);
+    }
+
+private:
+    bool owns(std::string_view name, std::string_view parameters) const {
+        return own_.contains({std::string(name), std::string(parameters)});
+    }
+
+    void add(const DoubleFunction& function) {
+        require(function);
+        for (int size = 1; size <= 4 && function.overloads != Overloads::none; ++size) {
+            const std::string type = size == 1 ? "double" : fmt::format("dvec{}", size);
+            const bool binary = function.overloads == Overloads::binary;
+            if (!owns(function.name, binary ? type + "," + type : type))
+                text_ += overload(function, size);
+            if (function.name == "atan" && !owns("atan", type + "," + type))
+                text_ += overload({"atan", Overloads::binary, 0, {}, {}}, size);
+        }
+    }
+
+    /// Its text, once, behind those that it needs.
+    void require(const DoubleFunction& function) {
+        if (!emitted_.insert(function.name).second)
+            return;
+        for (const std::string_view need : function.needs)
+            for (const DoubleFunction& candidate : functions_)
+                if (candidate.name == need)
+                    require(candidate);
+        text_ += function.text.substr(1); // behind the line feed that begins the literal
+    }
+
+    const Signatures& own_;
+    std::vector<DoubleFunction> functions_;
+    std::set<std::string_view> emitted_;
+    std::string text_;
+};
+
+} // namespace
+
+std::vector<DoubleFunction> all_double_functions() {
+    std::vector<DoubleFunction> all;
+    for (const auto subject :
+         {double_trigonometry, double_exponentials, double_hyperbolics, double_derivatives})
+        for (DoubleFunction& function : subject())
+            all.push_back(std::move(function));
+    return all;
+}
+
+bool is_replaced(std::string_view name) {
+    static const std::set<std::string_view> k_names = [] {
+        std::set<std::string_view> names{"refract"};
+        for (const FloatFunction& function : float_functions())
+            names.insert(function.name);
+        for (const DoubleFunction& function : all_double_functions())
+            if (function.overloads != Overloads::none)
+                names.insert(function.name);
+        return names;
+    }();
+    return k_names.contains(name);
+}
+
+std::string double_functions(const std::set<std::string_view>& used, const Signatures& own) {
+    return Emitter(own).run(used);
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,351 @@
+#include "glsl/double/promote.hpp"
+
+#include "glsl/double/double_functions.hpp"
+#include "glsl/double/lost_constants.hpp"
+#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/token_edits.hpp"
+#include "glsl/syntax/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace tidemark::glsl {
+namespace {
+
+using text::Token;
+using text::TokenKind;
+
+constexpr std::string_view k_single = "tidemark_single";
+constexpr std::string_view k_float_copy = "tidemark_float_"; ///< in front of the name of a hash
+constexpr std::string_view k_inner_main = "tidemark_promoted_main";
+constexpr std::string_view k_outputs = "tidemark_output";
+
+/// A lookup whose offset or component must stay visible as a constant: its call is wrapped where it stands.
+struct WrappedCall {
+    std::string_view name;
+    unsigned floats; ///< bit n: argument n becomes a float
+};
+constexpr WrappedCall k_wrapped_calls[] = {
+    {"textureOffset", 0b1010},     {"textureLodOffset", 0b0110},     {"textureGradOffset", 0b1110},
+    {"textureProjOffset", 0b1010}, {"textureProjLodOffset", 0b0110}, {"textureProjGradOffset", 0b1110},
+    {"textureGather", 0b0010},     {"textureGatherOffset", 0b0010},  {"textureGatherOffsets", 0b0010},
+    {"texelFetchOffset", 0b0000},
+};
+
+constexpr std::string_view k_without_double[] = {"gl_FragDepth", "interpolateAtCentroid",
+                                                 "interpolateAtOffset", "interpolateAtSample"};
+
+/// A text that defines one of them as a macro means something else; it must not reach our own lines.
+bool is_double_word(std::string_view word) {
+    return word == "double" || !float_type_of(word).empty();
+}
+
+/// `dFdxFine` -> `dFdx`: fine and coarse are allowed to be the same.
+std::string_view canonical(std::string_view name) {
+    if (name.starts_with("dFd") || name.starts_with("fwidth"))
+        for (const std::string_view variant : {"Fine", "Coarse"})
+            if (name.ends_with(variant))
+                name.remove_suffix(variant.size());
+    return name;
+}
+
+bool is_float_literal(const Token& token) {
+    if (token.kind != TokenKind::number || token.text.starts_with("0x") || token.text.starts_with("0X"))
+        return false;
+    return token.text.find_first_of(".eEfF") != std::string_view::npos && !token.text.ends_with("lf") &&
+           !token.text.ends_with("LF");
+}
+
+class Promoter {
+public:
+    Promoter(text::MappedText body, bool hashes_too)
+        : body_(std::move(body)), reading_(body_.text()), tokens_(reading_.tokens),
+          settled_(tokens_.size(), false), hashes_too_(hashes_too) {}
+
+    Result<Promoted> run() {
+        if (!hashes_too_)
+            for (const FloatRegion& region : find_float_regions(reading_))
+                keep(region);
+        for (const size_t constant : find_lost_constants(
+                 reading_, [](std::string_view name) { return is_replaced(canonical(name)); }))
+            edits_.remove(constant);
+        for (size_t i = 0; i < tokens_.size(); ++i)
+            promote_token(i);
+        promote_interface();
+        wrap_main();
+        if (error_)
+            return fail(*std::move(error_));
+        std::sort(hashes_.begin(), hashes_.end(), [](const auto& a, const auto& b) {
+            return std::tie(a.where.file, a.where.line) < std::tie(b.where.file, b.where.line);
+        });
+        Promoted result{double_functions(used_, own_signatures()), {}, std::move(hashes_)};
+        const std::vector<text::Edit> edits = edits_.edits(tokens_);
+        body_.apply(edits);
+        result.body = std::move(body_);
+        return result;
+    }
+
+private:
+    SourceLocation where(size_t i) const { return body_.lines().locate(tokens_[i].line, tokens_[i].column); }
+    bool is_ours(size_t i) const { return body_.lines().locate(tokens_[i].line).file.empty(); }
+
+    void refuse(size_t i, const std::string& what) {
+        if (!error_)
+            error_ = error_at(where(i), what);
+    }
+
+    // What stays in floats
+
+    void keep(const FloatRegion& region) {
+        std::fill(settled_.begin() + long(region.begin), settled_.begin() + long(region.end), true);
+        for (const auto& [first, last] : region.outside) {
+            std::fill(settled_.begin() + long(first), settled_.begin() + long(last) + 1, false);
+            edits_.before(first, fmt::format("{}(", k_single));
+            edits_.after(last, ")");
+            used_.insert("single");
+        }
+        if (region.whole)
+            keep_function(*region.whole);
+        const size_t place = region.whole ? region.whole->name_token : region.begin;
+        hashes_.push_back({owner_of(place), where(place), region.kind});
+        hashes_.back().where.column = 0;
+    }
+
+    /// The function under another name, and one of its name behind it that calls it with floats.
+    void keep_function(const Function& function) {
+        std::string declared, passed;
+        for (const Parameter& parameter : function.parameters) {
+            const bool floats = is_float_type(parameter.type);
+            const char* comma = declared.empty() ? "" : ", ";
+            const std::string name = fmt::format("a{}", &parameter - function.parameters.data());
+            declared += fmt::format("{}{} {}", comma, promoted(parameter.type), name);
+            passed += floats ? fmt::format("{}{}({})", comma, parameter.type, name) : comma + name;
+        }
+        edits_.replace(function.name_token, fmt::format("{}{}", k_float_copy, function.name));
+        edits_.after(function.body_end,
+                     fmt::format(" {} {}({}) {{ return {}{}({}); }}", promoted(function.return_type),
+                                 renamed(function.name), declared, k_float_copy, function.name, passed));
+    }
+
+    std::string owner_of(size_t token) const {
+        if (const Function* function = function_around(reading_.functions, token))
+            return std::string(function->name);
+        const std::vector<MacroLine>& macros = reading_.preprocessed.macros;
+        const auto next =
+            std::upper_bound(macros.begin(), macros.end(), token,
+                             [](size_t wanted, const MacroLine& each) { return wanted < each.hash; });
+        if (reading_.places[token] == Place::macro_body && next != macros.begin())
+            return std::string(std::prev(next)->name);
+        return {};
+    }
+
+    // Tokens
+
+    static std::string promoted(std::string_view type) {
+        return is_float_type(type) ? double_type_of(type) : std::string(type);
+    }
+    static std::string renamed(std::string_view name) {
+        return is_replaced(canonical(name)) ? fmt::format("{}{}", k_ours, canonical(name))
+                                            : std::string(name);
+    }
+
+    void promote_token(size_t i) {
+        const Token& token = tokens_[i];
+        const Place place = reading_.places[i];
+        if (settled_[i])
+            return note_bits(i);
+        if (token.kind == TokenKind::identifier && is_replaced(canonical(token.text)))
+            return promote_call(i);
+        if (is_double_word(token.text) && reading_.macros.contains(token.text))
+            return edits_.replace(i, fmt::format("st_{}", token.text));
+        if (place == Place::directive || place == Place::macro_head)
+            return;
+        if (is_float_literal(token))
+            promote_literal(i);
+        else if (token.kind == TokenKind::identifier)
+            promote_word(i);
+    }
+
+    void note_bits(size_t i) {
+        const bool bits = tokens_[i].is("floatBitsToUint") || tokens_[i].is("floatBitsToInt");
+        if (!bits || !reading_.active(i) || is_ours(i) || reading_.defines(tokens_[i].text))
+            return;
+        hashes_.push_back({owner_of(i), where(i), HashKind::bits});
+        hashes_.back().where.column = 0;
+    }
+
+    void promote_call(size_t i) {
+        edits_.replace(i, renamed(tokens_[i].text));
+        if (reading_.active(i))
+            used_.insert(canonical(tokens_[i].text));
+        note_bits(i);
+    }
+
+    /// Neighbours of `##` are pieces of words.
+    bool is_pasted(size_t i) const {
+        return (i > 0 && tokens_[i - 1].is("#")) ||
+               (i + 1 < tokens_.size() && tokens_[i + 1].is("#") && !tokens_[i + 1].first_on_line);
+    }
+
+    void promote_literal(size_t i) {
+        std::string_view digits = tokens_[i].text;
+        if (reading_.places[i] == Place::macro_body && is_pasted(i))
+            return;
+        while (digits.ends_with('f') || digits.ends_with('F'))
+            digits.remove_suffix(1);
+        edits_.replace(i, fmt::format("{}lf", digits));
+    }
+
+    void promote_word(size_t i) {
+        const Token& token = tokens_[i];
+        if (is_float_type(token.text) ||
+            ((token.is("vec") || token.is("mat")) && reading_.places[i] == Place::macro_body && is_pasted(i)))
+            edits_.replace(i, double_type_of(token.text));
+        else if (is_precision(token.text))
+            edits_.remove(i);
+        else if (token.is("precision"))
+            remove_precision(i);
+        else if ((token.is("gl_FragCoord") || token.is("gl_PointCoord")) &&
+                 (is_ours(i) || !reading_.macros.contains(token.text)))
+            edits_.replace(i,
+                           fmt::format("{}({})", token.is("gl_FragCoord") ? "dvec4" : "dvec2", token.text));
+        else if (reading_.active(i))
+            promote_special(i);
+    }
+
+    /// `precision highp float;`
+    void remove_precision(size_t i) {
+        for (const size_t end = std::min(i + 4, tokens_.size()); i < end; ++i) {
+            edits_.remove(i);
+            settled_[i] = true;
+            if (tokens_[i].is(";"))
+                return;
+        }
+    }
+
+    void promote_special(size_t i) {
+        const std::string_view name = tokens_[i].text;
+        if (is_one_of(name, k_without_double) && !reading_.defines(name))
+            return refuse(i, fmt::format("'{}' has no form in double precision", name));
+        const bool sampler =
+            name.starts_with("sampler") || name.starts_with("isampler") || name.starts_with("usampler");
+        const bool known =
+            name == "sampler" || name == "sampler2D" || name == "sampler3D" || name == "samplerCube";
+        if (sampler && !known && reading_.places[i] == Place::code && i + 1 < tokens_.size() &&
+            tokens_[i + 1].kind == TokenKind::identifier)
+            return refuse(i, fmt::format("lookups of a '{}' have no form in double precision", name));
+        for (const WrappedCall& call : k_wrapped_calls)
+            if (call.name == name && !reading_.defines(name) && i + 1 < tokens_.size() &&
+                tokens_[i + 1].is("("))
+                wrap_call(i, call.floats);
+    }
+
+    void wrap_call(size_t i, unsigned floats) {
+        const size_t close = reading_.closing(i + 1, tokens_.size());
+        if (close >= tokens_.size())
+            return;
+        edits_.before(i, "dvec4(");
+        size_t first = i + 2;
+        for (size_t argument = 0; first <= close; ++argument) {
+            size_t end = first;
+            while (end < close && !tokens_[end].is(","))
+                end = 1 + (tokens_[end].is("(") || tokens_[end].is("[") ? reading_.closing(end, close) : end);
+            if ((floats >> argument & 1) != 0 && end > first) {
+                edits_.before(first, fmt::format("{}(", k_single));
+                edits_.after(end - 1, ")");
+                used_.insert("single");
+            }
+            first = end + 1;
+        }
+        edits_.after(close, ")");
+    }
+
+    // What comes in and goes out
+
+    /// Global `in` and `out`: nothing is handed to a fragment shader here, so that an input is a variable
+    /// like any other; an output is a double of its name and a float that gets its value at the end.
+    void promote_interface() {
+        const std::vector<size_t>& code = reading_.preprocessed.code;
+        int depth = 0;
+        for (size_t at = 0; at < code.size(); ++at) {
+            const Token& token = tokens_[code[at]];
+            depth += token.is("{") || token.is("(") ? 1 : token.is("}") || token.is(")") ? -1 : 0;
+            if (depth != 0)
+                continue;
+            if (token.is("varying") || token.is("attribute") || token.is("in") || token.is("flat") ||
+                token.is("smooth") || token.is("centroid") || token.is("noperspective"))
+                edits_.remove(code[at]);
+            else if (token.is("out"))
+                promote_output(at);
+        }
+    }
+
+    void promote_output(size_t at) {
+        const std::vector<size_t>& code = reading_.preprocessed.code;
+        size_t type = at + 1;
+        while (type < code.size() && is_precision(tokens_[code[type]].text))
+            ++type;
+        if (type + 2 >= code.size() || !is_float_type(tokens_[code[type]].text))
+            return;
+        const Token& name = tokens_[code[type + 1]];
+        if (name.kind != TokenKind::identifier || !tokens_[code[type + 2]].is(";"))
+            return refuse(code[at],
+                          "an 'out' in double precision must be one variable: split the declaration");
+        const std::string_view plain = tokens_[code[type]].text;
+        const std::string output = fmt::format("{}{}", k_outputs, outputs_.size());
+        edits_.replace(code[type], plain);
+        edits_.replace(code[type + 1], output);
+        edits_.after(code[type + 2], fmt::format(" {} {};", promoted(plain), name.text));
+        outputs_.push_back(fmt::format(" {} = {}({});", output, plain, name.text));
+    }
+
+    /// Our own `main`, or the only one.
+    void wrap_main() {
+        const Function* chosen = nullptr;
+        for (const Function& function : reading_.functions)
+            if (function.name == "main" && function.defined() && function.parameters.empty() &&
+                (!chosen || is_ours(function.name_token)))
+                chosen = &function;
+        if (!chosen || outputs_.empty())
+            return;
+        edits_.replace(chosen->name_token, k_inner_main);
+        std::string text = fmt::format(" void main() {{ {}();", k_inner_main);
+        for (const std::string& output : outputs_)
+            text += output;
+        edits_.after(chosen->body_end, text + " }");
+    }
+
+    Signatures own_signatures() const {
+        Signatures own;
+        for (const Function& function : reading_.functions) {
+            if (!is_replaced(function.name))
+                continue;
+            std::string types;
+            for (const Parameter& parameter : function.parameters)
+                types += (types.empty() ? "" : ",") + promoted(parameter.type);
+            own.emplace(function.name, types);
+        }
+        return own;
+    }
+
+    text::MappedText body_;
+    Reading reading_;
+    const std::vector<Token>& tokens_;
+    TokenEdits edits_;
+    std::vector<bool> settled_; ///< tokens that nothing more is done to
+    bool hashes_too_;
+    std::set<std::string_view> used_;
+    std::vector<std::string> outputs_; ///< assignments at the end of main
+    std::vector<KeptHash> hashes_;
+    std::optional<Error> error_;
+};
+
+} // namespace
+
+Result<Promoted> promote(text::MappedText body, bool hashes_too) {
+    return Promoter(std::move(body), hashes_too).run();
+}
+
+} // namespace tidemark::glsl

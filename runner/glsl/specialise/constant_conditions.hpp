@@ -1,0 +1,48 @@
+// Conditions whose outcome is known before the program runs: comparisons of literals, constants and knobs
+// that stand still. Exact: whatever would have to be rounded is not known.
+#pragma once
+
+#include "glsl/specialise/globals.hpp"
+#include "scene/knob.hpp"
+
+#include <optional>
+#include <span>
+
+namespace tidemark::glsl {
+
+class ConstantConditions {
+public:
+    /// `variables` are those of the whole text. Refers to its arguments.
+    ConstantConditions(const ParsedText& text, const Variables& variables, std::span<const scene::Knob> knobs)
+        : text_(text), tree_(text.tree()), variables_(variables), knobs_(knobs) {}
+
+    /// Nothing: not known.
+    std::optional<bool> outcome(NodeId condition) const;
+
+private:
+    enum class Kind { truth, whole, floating };
+    struct Value {
+        Kind kind;
+        double number; ///< holds every int and every float
+    };
+    using Known = std::optional<Value>;
+
+    Known evaluate(NodeId expression) const;
+    Known literal(std::string_view digits) const;
+    Known name(std::string_view name) const;
+    Known member(NodeId member) const;
+    Known prefix(NodeId prefix) const;
+    Known binary(NodeId binary) const;
+    static Known compare(std::string_view op, const Value& a, const Value& b);
+    static Known compute(std::string_view op, const Value& a, const Value& b);
+    static Known knob_value(const scene::Knob& knob, int component);
+    const scene::Knob* find_knob(std::string_view name) const;
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const Variables& variables_;
+    std::span<const scene::Knob> knobs_;
+    mutable int constants_open_ = 0; ///< whose values are being looked for
+};
+
+} // namespace tidemark::glsl

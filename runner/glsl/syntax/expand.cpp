@@ -1,0 +1,321 @@
+#include "glsl/syntax/expand.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+
+namespace tidemark::glsl {
+namespace {
+
+using text::Token;
+using text::TokenKind;
+
+constexpr size_t k_most_words = 4'000'000;
+/// Macros in the arguments of macros in the arguments …
+constexpr int k_deepest_arguments = 100;
+constexpr size_t k_longest_pasted = 1024; // GLSL's own limit of a name
+
+constexpr std::string_view k_operators[] = {
+    "<<=", ">>=", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=",
+    "^=",  "&&",  "||", "^^", "==", "!=", "<=", ">=", "<<", ">>", "##"};
+
+/// How many tokens the operator at `i` takes.
+size_t operator_length(const std::vector<Token>& tokens, size_t i, size_t end) {
+    if (tokens[i].kind != TokenKind::punctuation)
+        return 1;
+    for (const std::string_view op : k_operators) {
+        size_t matched = 0;
+        while (matched < op.size() && i + matched < end && tokens[i + matched].text[0] == op[matched] &&
+               tokens[i + matched].kind == TokenKind::punctuation &&
+               (matched == 0 || tokens[i + matched].glued))
+            ++matched;
+        if (matched == op.size())
+            return matched;
+    }
+    return 1;
+}
+
+struct Macro {
+    std::vector<std::string_view> parameters;
+    std::vector<Word> body;
+    bool takes_arguments = false;
+    bool in_use = false; ///< what it stands for is being read: its name means itself
+};
+
+/// A word on its way through: one that was found to be a macro's own name stays what it is.
+struct Flowing {
+    Word word;
+    bool settled = false;
+};
+using Flow = std::vector<Flowing>;
+
+class Expander {
+public:
+    Expander(const std::vector<Token>& tokens, const Preprocessed& preprocessed, const text::LineMap& lines)
+        : tokens_(tokens), preprocessed_(preprocessed), lines_(lines),
+          steps_left_(std::min(k_most_words, 64 * tokens.size() + 10'000)) {}
+
+    Result<Expansion> run() {
+        for (const size_t hash : preprocessed_.directives)
+            if (hash + 1 < tokens_.size() &&
+                (tokens_[hash + 1].is("version") || tokens_[hash + 1].is("extension")))
+                result_.headers.push_back(hash);
+        const auto& code = preprocessed_.code;
+        const auto& macros = preprocessed_.macros;
+        size_t next_macro = 0;
+        for (size_t begin = 0; begin < code.size() && !error_;) {
+            while (next_macro < macros.size() && macros[next_macro].hash < code[begin])
+                define(macros[next_macro++]);
+            const size_t limit = next_macro < macros.size() ? macros[next_macro].hash : tokens_.size();
+            size_t end = begin;
+            while (end < code.size() && code[end] < limit)
+                ++end;
+            stretch(begin, end);
+            begin = end;
+        }
+        if (error_)
+            return fail(*std::move(error_));
+        return std::move(result_);
+    }
+
+private:
+    /// What is being read, innermost last: the code, then what macros stand for.
+    struct Source {
+        const Flow* read;       ///< nullptr: its own
+        Macro* macro = nullptr; ///< whose body it is
+        Flow own{};
+        size_t at = 0;
+
+        const Flow& words() const { return read ? *read : own; }
+        bool exhausted() const { return at >= words().size(); }
+    };
+
+    void give_up(size_t token, std::string message) {
+        if (error_)
+            return;
+        error_ = error_at(lines_.locate(tokens_[token].line, tokens_[token].column), std::move(message));
+    }
+
+    Word word_at(size_t token, size_t length) const {
+        const Token& first = tokens_[token];
+        const std::string_view text(first.text.data(), length == 1 ? first.text.size() : length);
+        return {text, uint32_t(token), uint32_t(token), first.kind};
+    }
+
+    void define(const MacroLine& line) {
+        if (line.activity == Activity::unknown)
+            return give_up(line.hash, "cannot tell whether this line is compiled");
+        if (line.undefines) {
+            macros_.erase(line.name);
+            return;
+        }
+        Macro macro;
+        macro.takes_arguments = line.parameters;
+        for (size_t i = line.hash + 4; line.parameters && i + 1 < line.body; ++i)
+            if (tokens_[i].kind == TokenKind::identifier)
+                macro.parameters.push_back(tokens_[i].text);
+        for (size_t i = line.body; i < line.end;) {
+            const size_t length = operator_length(tokens_, i, line.end);
+            macro.body.push_back(word_at(i, length));
+            i += length;
+        }
+        macros_.insert_or_assign(line.name, std::move(macro));
+    }
+
+    /// Code between two lines that change the macros.
+    void stretch(size_t begin, size_t end) {
+        const auto& code = preprocessed_.code;
+        Flow flow;
+        flow.reserve(end - begin);
+        for (size_t i = begin; i < end;) {
+            if (preprocessed_.activity[code[i]] == Activity::unknown)
+                return give_up(code[i], "cannot tell whether this line is compiled");
+            const size_t together = code[i] + (end - i); // tokens of one operator are neighbours
+            const size_t length = operator_length(tokens_, code[i], std::min(together, tokens_.size()));
+            flow.push_back({word_at(code[i], length)});
+            i += length;
+        }
+        std::vector<Source> sources;
+        sources.push_back({&flow});
+        expand_all(sources, result_.words, 0);
+    }
+
+    /// Leaves what has been read to its end; its macro may be used again.
+    static void settle(std::vector<Source>& sources) {
+        while (sources.size() > 1 && sources.back().exhausted()) {
+            sources.back().macro->in_use = false;
+            sources.pop_back();
+        }
+    }
+
+    /// Any of our output kinds.
+    static void put(std::vector<Word>& to, const Flowing& flowing) { to.push_back(flowing.word); }
+    static void put(Flow& to, const Flowing& flowing) { to.push_back(flowing); }
+
+    template <class Output>
+    void expand_all(std::vector<Source>& sources, Output& output, int depth) {
+        for (;;) {
+            settle(sources);
+            if (sources.back().exhausted() || error_)
+                return;
+            Flowing flowing = sources.back().words()[sources.back().at++];
+            if (steps_left_ == 0)
+                return give_up(flowing.word.used, "its macros make a text that is too long to follow");
+            --steps_left_;
+            if (flowing.settled || flowing.word.kind != TokenKind::identifier ||
+                !open_macro(sources, flowing, depth))
+                put(output, flowing);
+        }
+    }
+
+    /// Pushes what the name stands for. False: it means itself.
+    bool open_macro(std::vector<Source>& sources, Flowing& name, int depth) {
+        if (name.word.is("__LINE__") || name.word.is("__FILE__")) {
+            const int line = name.word.is("__LINE__") ? tokens_[name.word.used].line : 0;
+            name.word.text = result_.pasted.emplace_back(fmt::format("{}", line));
+            name.word.kind = TokenKind::number;
+            return false;
+        }
+        const auto found = macros_.find(name.word.text);
+        if (found == macros_.end())
+            return false;
+        Macro& macro = found->second;
+        if (macro.in_use) {
+            name.settled = true;
+            return false;
+        }
+        std::vector<Flow> arguments;
+        if (macro.takes_arguments) {
+            settle(sources);
+            if (sources.back().exhausted() || !sources.back().words()[sources.back().at].word.is("("))
+                return false;
+            arguments = read_arguments(sources, name.word);
+        }
+        if (error_)
+            return true;
+        sources.push_back({nullptr, &macro, substitute(macro, arguments, name.word, depth)});
+        macro.in_use = true;
+        return true;
+    }
+
+    /// The words between the commas of a call, its parenthesis being next.
+    std::vector<Flow> read_arguments(std::vector<Source>& sources, const Word& name) {
+        std::vector<Flow> arguments(1);
+        int depth = 0;
+        for (;;) {
+            settle(sources);
+            if (sources.back().exhausted() || steps_left_ == 0) {
+                give_up(name.used, fmt::format("the macro '{}' is called without an end", name.text));
+                return arguments;
+            }
+            --steps_left_;
+            const Flowing& flowing = sources.back().words()[sources.back().at++];
+            const Word& word = flowing.word;
+            depth += word.is("(") ? 1 : word.is(")") ? -1 : 0;
+            if (depth == 0)
+                return arguments;
+            if (depth == 1 && word.is(","))
+                arguments.emplace_back();
+            else if (depth > 1 || !word.is("("))
+                arguments.back().push_back(flowing);
+        }
+    }
+
+    Flow substitute(const Macro& macro, const std::vector<Flow>& arguments, const Word& name, int depth) {
+        Flow result;
+        std::vector<std::optional<Flow>> expanded(arguments.size());
+        for (size_t i = 0; i < macro.body.size() && !error_; ++i) {
+            const Word& word = macro.body[i];
+            const bool pasted = (i + 1 < macro.body.size() && macro.body[i + 1].is("##")) ||
+                                (i > 0 && macro.body[i - 1].is("##"));
+            if (word.is("##") && !result.empty() && i + 1 < macro.body.size()) {
+                paste(result, macro, arguments, macro.body[++i], name);
+                continue;
+            }
+            const size_t parameter = parameter_of(macro, word, arguments.size());
+            if (parameter == arguments.size()) {
+                result.push_back({word});
+                result.back().word.used = name.used;
+                continue;
+            }
+            if (pasted) {
+                append(result, arguments[parameter]);
+                continue;
+            }
+            if (!expanded[parameter])
+                expanded[parameter] = expand_argument(arguments[parameter], name, depth);
+            append(result, *expanded[parameter]);
+        }
+        return result;
+    }
+
+    static size_t parameter_of(const Macro& macro, const Word& word, size_t none) {
+        if (word.kind != TokenKind::identifier)
+            return none;
+        for (size_t i = 0; i < macro.parameters.size() && i < none; ++i)
+            if (macro.parameters[i] == word.text)
+                return i;
+        return none;
+    }
+
+    /// An argument keeps the place where the call spells it.
+    void append(Flow& to, const Flow& words) {
+        if (words.size() > steps_left_) {
+            give_up(words.front().word.used, "its macros make a text that is too long to follow");
+            return;
+        }
+        steps_left_ -= words.size();
+        to.insert(to.end(), words.begin(), words.end());
+    }
+
+    Flow expand_argument(const Flow& argument, const Word& name, int depth) {
+        Flow output;
+        if (depth >= k_deepest_arguments) {
+            give_up(name.used, "its macros call each other too deeply to follow");
+            return output;
+        }
+        std::vector<Source> sources;
+        sources.push_back({&argument});
+        expand_all(sources, output, depth + 1);
+        for (Source& source : sources)
+            if (source.macro)
+                source.macro->in_use = false;
+        return output;
+    }
+
+    /// `left ## right`; `left` is the last word of `result`.
+    void paste(Flow& result, const Macro& macro, const std::vector<Flow>& arguments, const Word& right,
+               const Word& name) {
+        const size_t parameter = parameter_of(macro, right, arguments.size());
+        Flow words{{right}};
+        words.back().word.used = name.used;
+        if (parameter < arguments.size())
+            words = arguments[parameter];
+        if (words.empty())
+            return;
+        Word& left = result.back().word;
+        if (left.text.size() + words[0].word.text.size() > k_longest_pasted)
+            return give_up(name.used, "its macros paste a word that is too long");
+        left.text = result_.pasted.emplace_back(std::string(left.text) + std::string(words[0].word.text));
+        result.insert(result.end(), words.begin() + 1, words.end());
+    }
+
+    const std::vector<Token>& tokens_;
+    const Preprocessed& preprocessed_;
+    const text::LineMap& lines_;
+    std::unordered_map<std::string_view, Macro> macros_;
+    size_t steps_left_;
+    std::optional<Error> error_;
+    Expansion result_;
+};
+
+} // namespace
+
+Result<Expansion> expand(const std::vector<Token>& tokens, const Preprocessed& preprocessed,
+                         const text::LineMap& lines) {
+    return Expander(tokens, preprocessed, lines).run();
+}
+
+} // namespace tidemark::glsl

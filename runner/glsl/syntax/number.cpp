@@ -1,0 +1,21 @@
+#include "glsl/syntax/number.hpp"
+
+#include <charconv>
+
+namespace tidemark::glsl {
+
+std::optional<long> whole_number(std::string_view digits) {
+    int base = 10;
+    if (digits.starts_with("0x") || digits.starts_with("0X")) {
+        base = 16;
+        digits.remove_prefix(2);
+    } else if (digits.size() > 1 && digits[0] == '0') {
+        base = 8;
+    }
+    long number = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto read = std::from_chars(digits.data(), end, number, base);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,227 @@
+#include "glsl/syntax/tree_facts.hpp"
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+/// Built-in functions that write through an argument.
+struct Writer {
+    std::string_view name;
+    unsigned arguments;
+};
+constexpr Writer k_writers[] = {{"modf", 2u},       {"frexp", 2u},         {"uaddCarry", 4u},
+                                {"usubBorrow", 4u}, {"umulExtended", 12u}, {"imulExtended", 12u}};
+
+bool is_digits_shape(std::string_view text) {
+    const auto digit = [](char c) { return c >= '2' && c <= '4'; };
+    return (text.size() == 1 && digit(text[0])) ||
+           (text.size() == 3 && digit(text[0]) && text[1] == 'x' && digit(text[2]));
+}
+
+bool is_whole_number(std::string_view digits) {
+    const bool hexadecimal = digits.size() > 1 && (digits[1] == 'x' || digits[1] == 'X');
+    return hexadecimal || digits.find_first_of(".eEfF") == std::string_view::npos;
+}
+
+class Collector {
+public:
+    explicit Collector(const ParsedText& text) : text_(text), tree_(text.tree()) {}
+
+    TreeFacts run() {
+        for (NodeId id = 0; id < tree_.nodes.size(); ++id) {
+            switch (tree_[id].kind) {
+            case NodeKind::structure: read_structure(id); break;
+            case NodeKind::function: read_function(id); break;
+            case NodeKind::declaration: read_declaration(id); break;
+            case NodeKind::parameter: declare(tree_.child(id, 0), id); break;
+            default: break;
+            }
+        }
+        facts_.surely_whole.resize(tree_.nodes.size());
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) // children come before their parents
+            facts_.surely_whole[id] = is_whole(id);
+        return std::move(facts_);
+    }
+
+private:
+    bool whole_child(NodeId id, size_t index) const {
+        const NodeId child = tree_.child(id, index);
+        return child != k_no_node && facts_.surely_whole[child];
+    }
+
+    bool is_whole(NodeId id) const {
+        switch (tree_[id].kind) {
+        case NodeKind::literal: return is_whole_number(text_.word_of(id));
+        case NodeKind::name: {
+            const auto found = facts_.names.find(text_.word_of(id));
+            return found != facts_.names.end() && found->second.only_whole();
+        }
+        case NodeKind::call:
+            return class_of_type(called_name(text_, id)) == TypeClass::whole ||
+                   tree_[tree_.child(id, 0)].kind == NodeKind::member;
+        case NodeKind::binary: return whole_child(id, 0) && whole_child(id, 1);
+        case NodeKind::conditional: return whole_child(id, 1) && whole_child(id, 2);
+        case NodeKind::assign:
+        case NodeKind::index:
+        case NodeKind::member:
+        case NodeKind::prefix:
+        case NodeKind::postfix:
+        case NodeKind::parenthesis: return whole_child(id, 0);
+        default: return false;
+        }
+    }
+
+    void read_structure(NodeId id) {
+        if (text_.word(tree_[id].begin) != "struct" || text_.word_of(id) == "struct")
+            return;
+        auto& members = facts_.structures[text_.word_of(id)];
+        members.clear();
+        for (const NodeId declaration : tree_.children(id)) {
+            const NodeId type = tree_.child(declaration, 0);
+            for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next)
+                members.push_back(
+                    {type_name(text_, type), text_.word_of(name), dimensions(text_, type, name) > 0});
+        }
+    }
+
+    void read_function(NodeId id) {
+        FunctionFacts& function = facts_.functions[text_.word_of(id)];
+        const NodeId type = tree_.child(id, 0);
+        function.returns_nothing = function.returns_nothing || type_name(text_, type) == "void";
+        function.returns_array = function.returns_array || dimensions(text_, type, k_no_node) > 0;
+        unsigned bit = 1;
+        for (NodeId part = tree_[type].next; part != k_no_node; part = tree_[part].next) {
+            if (tree_[part].kind == NodeKind::block)
+                function.definitions.push_back(id);
+            const NodeId of = tree_.child(part, 0);
+            if (tree_[part].kind == NodeKind::parameter &&
+                (has_qualifier(text_, of, "out") || has_qualifier(text_, of, "inout")))
+                function.written_arguments |= bit;
+            bit <<= 1;
+        }
+    }
+
+    void read_declaration(NodeId id) {
+        const NodeId type = tree_.child(id, 0);
+        for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next)
+            declare(type, name);
+    }
+
+    void declare(NodeId type, NodeId declared) {
+        Meanings& meanings = facts_.names[text_.word_of(declared)];
+        const TypeClass kind = class_of_type(type_name(text_, type));
+        meanings.floating = meanings.floating || kind == TypeClass::floating;
+        meanings.whole = meanings.whole || kind == TypeClass::whole;
+        meanings.sampler = meanings.sampler || kind == TypeClass::sampler;
+        meanings.structure = meanings.structure || kind == TypeClass::none;
+        meanings.array = meanings.array || dimensions(text_, type, declared) > 0;
+        meanings.uniform = meanings.uniform || has_qualifier(text_, type, "uniform");
+        meanings.constant = meanings.constant || has_qualifier(text_, type, "const");
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    TreeFacts facts_;
+};
+
+} // namespace
+
+TypeClass class_of_type(std::string_view word) {
+    if (word == "float" || (word.starts_with("vec") && is_digits_shape(word.substr(3))) ||
+        (word.starts_with("mat") && is_digits_shape(word.substr(3))))
+        return TypeClass::floating;
+    if (word == "int" || word == "uint" || word == "bool")
+        return TypeClass::whole;
+    if (word.size() == 5 && (word[0] == 'i' || word[0] == 'u' || word[0] == 'b') &&
+        word.substr(1).starts_with("vec") && is_digits_shape(word.substr(4)))
+        return TypeClass::whole;
+    if (word.starts_with("sampler") || word.starts_with("isampler") || word.starts_with("usampler"))
+        return TypeClass::sampler;
+    return word == "void" ? TypeClass::nothing : TypeClass::none;
+}
+
+std::string_view type_name(const ParsedText& text, NodeId type) {
+    const SyntaxTree& tree = text.tree();
+    const NodeId structure = tree.child(type, 0);
+    if (structure != k_no_node)
+        return text.word_of(structure) == "struct" ? std::string_view{} : text.word_of(structure);
+    return text.word_of(type);
+}
+
+bool has_qualifier(const ParsedText& text, NodeId type, std::string_view qualifier) {
+    const Node& node = text.tree()[type];
+    for (size_t i = node.begin; i < node.word; ++i)
+        if (text.word(i) == qualifier)
+            return true;
+    return false;
+}
+
+size_t dimensions(const ParsedText& text, NodeId type, NodeId declared) {
+    const SyntaxTree& tree = text.tree();
+    const NodeId structure = tree.child(type, 0);
+    size_t count = 0;
+    int depth = 0;
+    for (size_t i = structure != k_no_node ? tree[structure].end : tree[type].word + 1; i < tree[type].end;
+         ++i) {
+        if (text.word(i) == "[" && depth++ == 0)
+            ++count;
+        depth -= text.word(i) == "]";
+    }
+    if (declared != k_no_node)
+        for (const NodeId part : tree.children(declared))
+            count += tree[part].kind == NodeKind::index && text.word(tree[part].begin) == "[";
+    return count;
+}
+
+std::string_view called_name(const ParsedText& text, NodeId call) {
+    const NodeId callee = text.tree().child(call, 0);
+    return text.tree()[callee].kind == NodeKind::name ? text.word_of(callee) : std::string_view{};
+}
+
+bool TreeFacts::is_type(std::string_view word) const {
+    return structures.contains(word) || class_of_type(word) != TypeClass::none || word == "double" ||
+           (word.size() > 4 && word[0] == 'd' && class_of_type(word.substr(1)) == TypeClass::floating);
+}
+
+const FunctionFacts* TreeFacts::function(std::string_view name) const {
+    const auto found = functions.find(name);
+    return found == functions.end() ? nullptr : &found->second;
+}
+
+bool TreeFacts::writes_argument(std::string_view name, size_t index) const {
+    if (index >= 32)
+        return true; // nobody has so many: left alone
+    if (const FunctionFacts* own = function(name))
+        return ((own->written_arguments >> index) & 1u) != 0;
+    for (const Writer& writer : k_writers)
+        if (writer.name == name)
+            return ((writer.arguments >> index) & 1u) != 0;
+    return false;
+}
+
+TreeFacts find_facts(const ParsedText& text) {
+    return Collector(text).run();
+}
+
+std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    std::unordered_map<std::string_view, std::vector<std::string_view>> calls;
+    for (NodeId id = 1; id < tree.nodes.size(); ++id)
+        if (tree[id].kind == NodeKind::call)
+            if (const std::string_view name = called_name(text, id); facts.function(name))
+                if (const NodeId caller = tree.around(id, NodeKind::function); caller != k_no_node)
+                    calls[text.word_of(caller)].push_back(name);
+    std::vector<std::string_view> open{"main"};
+    std::unordered_set<std::string_view> found(open.begin(), open.end());
+    while (!open.empty()) {
+        const std::string_view name = open.back();
+        open.pop_back();
+        for (const std::string_view callee : calls[name])
+            if (found.insert(callee).second)
+                open.push_back(callee);
+    }
+    return found;
+}
+
+} // namespace tidemark::glsl

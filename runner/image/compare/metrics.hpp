@@ -1,0 +1,44 @@
+// How far two pictures are apart, in numbers: sample by sample, and as people see it. No verdict.
+#pragma once
+
+#include "base/result.hpp"
+#include "image/image.hpp"
+
+#include <cstddef>
+
+namespace tidemark::image {
+
+/// u8 samples count as v/255. Two NaN are equal, as are two infinities of one sign; any other pair with a
+/// non-finite sample has no difference in numbers: it makes `rmse` and `psnr` NaN, so that no threshold
+/// passes, and leaves `largest`, which is over the other pairs, useful. The left picture is the reference.
+struct PictureDifference {
+    double largest = 0.0; ///< largest absolute difference of two samples
+    double rmse = 0.0;    ///< root of the mean square over all samples
+    double psnr = 0.0;    ///< dB for a peak of 1; infinite for equal pictures
+    /// Mean of (test - reference)² / (|reference| + 0.01)²: as pbrt's MRSE, but that it skips infinities.
+    double relative_mse = 0.0;
+    size_t pixels = 0;
+    size_t differing = 0;       ///< pixels with a sample that differs by more than the tolerance
+    size_t one_non_finite = 0;  ///< pixels that have a NaN or infinity in one picture only
+    size_t both_non_finite = 0; ///< pixels that have one in both
+
+    double differing_share() const { return pixels == 0 ? 0.0 : double(differing) / double(pixels); }
+    bool equal() const { return differing == 0; }
+};
+
+/// The pictures may differ in sample type; a different size or number of channels is an error
+/// (ErrorCode::check_failed). `tolerance` decides what `differing` counts, and nothing else.
+Result<PictureDifference> compare(const Image& left, const Image& right, double tolerance = 0.0);
+
+/// All there is to say of a picture beside its reference. What looks at neighbourhoods (`ssim`, `flip`) is
+/// NaN where `rmse` is.
+struct PictureMetrics {
+    PictureDifference samples;
+    double ssim = 1.0;         ///< image/compare/ssim.hpp
+    double flip = 0.0;         ///< mean of image/compare/flip.hpp
+    double largest_flip = 0.0; ///< of a pixel
+};
+
+Result<PictureMetrics> measure(const Image& reference, const Image& test, double tolerance = 0.0);
+
+} // namespace tidemark::image

@@ -1,0 +1,235 @@
+#include "image/files/child_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+extern char** environ;
+
+namespace tidemark::image {
+namespace {
+
+constexpr int k_patience_ms = 60000;
+
+std::string reason(int error_number) {
+    return std::generic_category().message(error_number);
+}
+
+tl::unexpected<Error> cannot_run(const std::string& program, int error_number) {
+    if (error_number == ENOENT)
+        return fail(ErrorCode::load,
+                    fmt::format("there is no program '{0}' in PATH, which videos need; install the package "
+                                "ffmpeg",
+                                program));
+    return fail(ErrorCode::load, fmt::format("cannot run '{}': {}", program, reason(error_number)));
+}
+
+void close_and_forget(int& fd) {
+    if (fd >= 0)
+        ::close(std::exchange(fd, -1));
+}
+
+/// Both ends, the reading one first; they close with it.
+struct Pipe {
+    std::array<int, 2> ends = {-1, -1};
+
+    explicit Pipe(int our_end) {
+        if (::pipe2(ends.data(), O_CLOEXEC) == 0)
+            ::fcntl(ends[size_t(our_end)], F_SETFL, O_NONBLOCK);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    ~Pipe() {
+        close_and_forget(ends[0]);
+        close_and_forget(ends[1]);
+    }
+    bool good() const { return ends[0] >= 0; }
+};
+
+/// What the child's descriptors and signals are to be.
+class SpawnPlan {
+public:
+    SpawnPlan(ChildProcess::Input kind, int input, int output, int words) {
+        ::posix_spawn_file_actions_init(&actions_);
+        if (kind == ChildProcess::Input::written)
+            ::posix_spawn_file_actions_adddup2(&actions_, input, 0);
+        else
+            ::posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
+        ::posix_spawn_file_actions_adddup2(&actions_, output, 1);
+        ::posix_spawn_file_actions_adddup2(&actions_, words, 2);
+        ::posix_spawn_file_actions_addclosefrom_np(&actions_, 3);
+        ::posix_spawnattr_init(&attributes_);
+        sigset_t none, all;
+        sigemptyset(&none);
+        sigfillset(&all);
+        ::posix_spawnattr_setsigmask(&attributes_, &none);
+        ::posix_spawnattr_setsigdefault(&attributes_, &all);
+        ::posix_spawnattr_setpgroup(&attributes_, 0);
+        ::posix_spawnattr_setflags(&attributes_,
+                                   POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    }
+    SpawnPlan(const SpawnPlan&) = delete;
+    SpawnPlan& operator=(const SpawnPlan&) = delete;
+    ~SpawnPlan() {
+        ::posix_spawnattr_destroy(&attributes_);
+        ::posix_spawn_file_actions_destroy(&actions_);
+    }
+    const posix_spawn_file_actions_t* actions() const { return &actions_; }
+    const posix_spawnattr_t* attributes() const { return &attributes_; }
+
+private:
+    posix_spawn_file_actions_t actions_;
+    posix_spawnattr_t attributes_;
+};
+
+/// read() that is not interrupted; -1 with EAGAIN when there is nothing yet.
+ssize_t read_some(int fd, void* to, size_t size) {
+    ssize_t count;
+    do
+        count = ::read(fd, to, size);
+    while (count < 0 && errno == EINTR);
+    return count;
+}
+
+std::string last_line(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
+        text.pop_back();
+    const size_t end = text.rfind('\n');
+    return end == text.npos ? text : text.substr(end + 1);
+}
+
+} // namespace
+
+Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments, Input kind) {
+    Pipe input(1), output(0), words(0);
+    if (!input.good() || !output.good() || !words.good())
+        return cannot_run(arguments[0], errno);
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    const SpawnPlan plan(kind, input.ends[0], output.ends[1], words.ends[1]);
+    ChildProcess child;
+    const int error =
+        ::posix_spawnp(&child.process_, argv[0], plan.actions(), plan.attributes(), argv.data(), environ);
+    if (error != 0) {
+        child.process_ = -1;
+        return cannot_run(arguments[0], error);
+    }
+    if (kind == Input::written)
+        child.input_ = std::exchange(input.ends[1], -1);
+    child.output_ = std::exchange(output.ends[0], -1);
+    child.words_ = std::exchange(words.ends[0], -1);
+    return child;
+}
+
+void ChildProcess::close_input() {
+    close_and_forget(input_);
+}
+
+void ChildProcess::close_pipes() {
+    close_input();
+    close_and_forget(output_);
+    close_and_forget(words_);
+}
+
+ChildProcess::~ChildProcess() {
+    close_pipes();
+    if (process_ <= 0)
+        return;
+    ::kill(process_, SIGKILL);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+}
+
+void ChildProcess::read_words(std::string& words) {
+    std::array<char, 4096> block;
+    while (words_ >= 0) {
+        const ssize_t count = read_some(words_, block.data(), block.size());
+        if (count > 0)
+            words.append(block.data(), size_t(count));
+        else if (count < 0 && errno == EAGAIN)
+            return;
+        else
+            close_and_forget(words_);
+    }
+}
+
+bool ChildProcess::write(std::span<const std::byte> bytes, std::string& words) {
+    while (!bytes.empty() && input_ >= 0) {
+        read_words(words);
+        const ssize_t count = ::write(input_, bytes.data(), bytes.size());
+        if (count > 0) {
+            bytes = bytes.subspan(size_t(count));
+        } else if (count < 0 && errno == EAGAIN) {
+            std::array<pollfd, 2> wait = {{{input_, POLLOUT, 0}, {words_, POLLIN, 0}}};
+            if (::poll(wait.data(), wait.size(), k_patience_ms) == 0)
+                break;
+        } else if (count == 0 || errno != EINTR) {
+            break;
+        }
+    }
+    return bytes.empty();
+}
+
+Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words) {
+    while (output_ >= 0) {
+        read_words(words);
+        const ssize_t count = read_some(output_, to.data(), to.size());
+        if (count > 0)
+            return size_t(count);
+        if (count == 0 || errno != EAGAIN) {
+            close_and_forget(output_);
+            break;
+        }
+        std::array<pollfd, 2> wait = {{{output_, POLLIN, 0}, {words_, POLLIN, 0}}};
+        const int ready = ::poll(wait.data(), wait.size(), k_patience_ms);
+        if (ready == 0)
+            return fail(ErrorCode::load, "the program that decodes it says nothing for a minute");
+    }
+    read_words(words);
+    return size_t{0};
+}
+
+bool ChildProcess::succeeded() {
+    close_pipes();
+    int status = -1;
+    if (process_ <= 0)
+        return false;
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+Result<std::string> output_of(const std::vector<std::string>& arguments, size_t most) {
+    Result<ChildProcess> child = ChildProcess::start(arguments);
+    if (!child)
+        return fail(std::move(child.error()));
+    std::string output, words;
+    std::array<std::byte, 1 << 14> block;
+    for (;;) {
+        const Result<size_t> count = child->read(block, words);
+        if (!count)
+            return fail(count.error());
+        if (*count == 0)
+            break;
+        output.append(reinterpret_cast<const char*>(block.data()), *count);
+        if (output.size() > most)
+            return fail(ErrorCode::load,
+                        fmt::format("'{}' prints more than {} MiB", arguments[0], most >> 20));
+    }
+    if (!child->succeeded())
+        return fail(ErrorCode::load, last_line(std::move(words)));
+    return output;
+}
+
+} // namespace tidemark::image

@@ -1,0 +1,296 @@
+#include "image/files/cubemap_file.hpp"
+
+#include "image/cube_directions.hpp"
+#include "image/files/file_samples.hpp"
+#include "image/files/picture_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numbers>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace tidemark::image {
+namespace {
+
+constexpr int k_largest_resampled_side = 2048;
+
+tl::unexpected<Error> refuse(const std::string& name, std::string_view why) {
+    return fail(ErrorCode::load, fmt::format("cannot use '{}' as a cubemap: {}", name, why));
+}
+
+// --- Faces of one kind ---------------------------------------------------------------------------------
+
+/// Grey to colour by repeating it, no alpha to alpha 1.
+template <class Sample>
+void spread(std::span<const Sample> from, int from_channels, std::span<Sample> to, int channels, Sample one) {
+    const bool grey = from_channels <= 2, alpha = from_channels % 2 == 0;
+    const int colours = channels >= 3 ? 3 : 1;
+    for (size_t pixel = 0; pixel < to.size() / size_t(channels); ++pixel) {
+        const Sample* source = &from[pixel * size_t(from_channels)];
+        Sample* target = &to[pixel * size_t(channels)];
+        for (int i = 0; i < colours; ++i)
+            target[i] = source[grey ? 0 : i];
+        if (channels > colours)
+            target[colours] = alpha ? source[from_channels - 1] : one;
+    }
+}
+
+Image converted(const Image& image, int channels, SampleType type) {
+    if (image.channels == channels && image.type == type)
+        return image;
+    Image typed = image;
+    if (image.type != type) {
+        typed.bytes = file_samples(image, SampleDepth::f32);
+        typed.type = type;
+    }
+    Image result(image.extent, channels, type);
+    if (type == SampleType::u8)
+        spread<uint8_t>(std::as_const(typed).u8(), image.channels, result.u8(), channels, 255);
+    else
+        spread<float>(std::as_const(typed).f32(), image.channels, result.f32(), channels, 1.0f);
+    return result;
+}
+
+void make_alike(CubeFaces& faces) {
+    bool colour = false, alpha = false, floats = false;
+    for (const Image& face : faces) {
+        colour |= face.channels >= 3;
+        alpha |= face.has_alpha();
+        floats |= face.type == SampleType::f32;
+    }
+    const int channels = (colour ? 3 : 1) + (alpha ? 1 : 0);
+    for (Image& face : faces)
+        face = converted(face, channels, floats ? SampleType::f32 : SampleType::u8);
+}
+
+Result<CubeFaces> assembled(CubeFaces pictures, const std::array<std::string, 6>& names) {
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        const Extent size = pictures[i].extent, first = pictures[0].extent;
+        if (size.width != size.height || size.width < 1)
+            return refuse(names[i],
+                          fmt::format("it is {}x{} pixels; a face is square", size.width, size.height));
+        if (size != first)
+            return refuse(names[i],
+                          fmt::format("it is {}x{} pixels and '{}' is {}x{}; faces are of one size",
+                                      size.width, size.height, names[0], first.width, first.height));
+    }
+    make_alike(pictures);
+    for (Image& picture : pictures)
+        picture = flipped(picture);
+    return pictures;
+}
+
+// --- Several faces in a picture --------------------------------------------------------------------------
+
+/// Where a face lies in the picture, in faces from the left and from the top.
+struct Cell {
+    int column;
+    int row;
+    bool turned = false; ///< by half a turn
+};
+
+struct Layout {
+    int columns;
+    int rows;
+    std::array<Cell, 6> cells;
+};
+
+const Layout* layout_of(Extent size) {
+    static constexpr std::array<Layout, 4> layouts = {{
+        {4, 3, {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}}},
+        {3, 4, {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3, true}}}},
+        {6, 1, {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}}},
+        {1, 6, {{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}}},
+    }};
+    for (const Layout& layout : layouts)
+        if (size.width % layout.columns == 0 && size.height % layout.rows == 0 &&
+            size.width / layout.columns == size.height / layout.rows)
+            return &layout;
+    return nullptr;
+}
+
+Image cut(const Image& picture, const Cell& cell, int side) {
+    Image face({side, side}, picture.channels, picture.type);
+    const size_t pixel = size_t(picture.channels) * size_of(picture.type);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const int from_left = cell.column * side + (cell.turned ? side - 1 - x : x);
+            const int from_top = cell.row * side + (cell.turned ? side - 1 - y : y);
+            const auto row = size_t(picture.extent.height - 1 - from_top);
+            std::memcpy(&face.bytes[(size_t(y) * size_t(side) + size_t(x)) * pixel],
+                        &picture.bytes[row * picture.row_bytes() + size_t(from_left) * pixel], pixel);
+        }
+    return face;
+}
+
+// --- Resampling ------------------------------------------------------------------------------------------
+
+/// A texel of one of several pictures and its share of a sample.
+struct Tap {
+    int picture = 0;
+    size_t texel = 0;
+    double weight = 0.0;
+};
+
+/// The four texels around a place in texels, whose centres are at halves: `tap(x, y)` says which one stands
+/// at a column and row, also one outside.
+template <class TapAt>
+std::array<Tap, 4> taps_around(double x, double y, const TapAt& tap) {
+    const double left = std::floor(x - 0.5), below = std::floor(y - 0.5);
+    const double across = x - 0.5 - left, up = y - 0.5 - below;
+    std::array<Tap, 4> taps;
+    for (int i = 0; i < 4; ++i) {
+        const int dx = i & 1, dy = i >> 1;
+        taps[size_t(i)] = tap(int(left) + dx, int(below) + dy);
+        taps[size_t(i)].weight = (dx ? across : 1.0 - across) * (dy ? up : 1.0 - up);
+    }
+    return taps;
+}
+
+template <class Sample>
+void blend(std::span<const Image> pictures, const std::array<Tap, 4>& taps, size_t channels, Sample* to) {
+    std::array<double, 4> sums{};
+    for (const Tap& tap : taps) {
+        if (tap.weight == 0.0) // an infinity beside the place would make it NaN
+            continue;
+        const auto* from = reinterpret_cast<const Sample*>(pictures[size_t(tap.picture)].bytes.data());
+        for (size_t channel = 0; channel < channels; ++channel)
+            sums[channel] += tap.weight * double(from[tap.texel * channels + channel]);
+    }
+    constexpr double rounding = std::is_integral_v<Sample> ? 0.5 : 0.0;
+    for (size_t channel = 0; channel < channels; ++channel)
+        to[channel] = Sample(sums[channel] + rounding);
+}
+
+void blend(std::span<const Image> pictures, const std::array<Tap, 4>& taps, Image& to, size_t pixel) {
+    const auto channels = size_t(to.channels);
+    if (to.type == SampleType::u8)
+        blend(pictures, taps, channels, &to.u8()[pixel * channels]);
+    else
+        blend(pictures, taps, channels, &to.f32()[pixel * channels]);
+}
+
+std::array<Tap, 4> panorama_taps(Extent size, const Direction& direction) {
+    const auto [x, y, z] = direction;
+    const double a = std::atan2(-x, z), b = std::atan2(y, std::hypot(x, z));
+    const double u = a / (2.0 * std::numbers::pi), v = b / std::numbers::pi + 0.5;
+    return taps_around(u * size.width, v * size.height, [&](int column, int row) {
+        const int wrapped = ((column % size.width) + size.width) % size.width;
+        const int clamped = std::clamp(row, 0, size.height - 1);
+        return Tap{0, size_t(clamped) * size_t(size.width) + size_t(wrapped)};
+    });
+}
+
+CubeFaces cube_of_panorama(const Image& panorama) {
+    const int side = std::clamp(panorama.extent.width / 4, 1, k_largest_resampled_side);
+    CubeFaces faces;
+    for (int face = 0; face < 6; ++face) {
+        Image& to = faces[size_t(face)] = Image({side, side}, panorama.channels, panorama.type);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const Direction direction = direction_of({face, (x + 0.5) / side, (y + 0.5) / side});
+                blend({&panorama, 1}, panorama_taps(panorama.extent, direction), to,
+                      size_t(y) * size_t(side) + size_t(x));
+            }
+    }
+    return faces;
+}
+
+std::array<Tap, 4> cube_taps(int side, const Direction& direction) {
+    const CubePlace place = place_of(direction);
+    return taps_around(place.s * side, place.t * side, [&](int column, int row) {
+        CubePlace at{place.face, (column + 0.5) / side, (row + 0.5) / side};
+        if (column < 0 || column >= side || row < 0 || row >= side)
+            at = place_of(direction_of(at)); // on the neighbour
+        const int x = std::clamp(int(at.s * side), 0, side - 1),
+                  y = std::clamp(int(at.t * side), 0, side - 1);
+        return Tap{at.face, size_t(y) * size_t(side) + size_t(x)};
+    });
+}
+
+} // namespace
+
+Result<CubeFaces> cube_of_faces(std::array<Image, 6> pictures) {
+    return assembled(std::move(pictures), {"face +X", "face -X", "face +Y", "face -Y", "face +Z", "face -Z"});
+}
+
+Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name) {
+    const Extent size = picture.extent;
+    if (size.width == 2 * size.height && size.height > 0)
+        return cube_of_panorama(picture);
+    const Layout* layout = size.pixels() > 0 ? layout_of(size) : nullptr;
+    if (!layout)
+        return refuse(name,
+                      fmt::format("it is {}x{} pixels; one file is a cross (4:3 or 3:4), a row of faces "
+                                  "(6:1 or 1:6) or a panorama (2:1)",
+                                  size.width, size.height));
+    CubeFaces faces;
+    for (size_t face = 0; face < faces.size(); ++face)
+        faces[face] = cut(picture, layout->cells[face], size.width / layout->columns);
+    return faces;
+}
+
+Result<CubeFaces> read_cubemap(const std::vector<std::filesystem::path>& files) {
+    if (files.size() == 1)
+        return read_picture(files[0]).and_then(
+            [&](const Image& picture) { return cube_of_picture(picture, files[0].string()); });
+    if (files.size() != 6)
+        return fail(ErrorCode::load,
+                    fmt::format("a cubemap is made of six files or of one, not of {}{}", files.size(),
+                                files.empty() ? "" : fmt::format(" ('{}', …)", files[0].string())));
+    CubeFaces pictures;
+    std::array<std::string, 6> names;
+    for (size_t i = 0; i < files.size(); ++i) {
+        Result<Image> picture = read_picture(files[i]);
+        if (!picture)
+            return fail(std::move(picture.error()));
+        pictures[i] = std::move(*picture);
+        names[i] = files[i].string();
+    }
+    return assembled(std::move(pictures), names);
+}
+
+Image column_of(const CubeFaces& faces) {
+    const auto& [extent, channels, type, bytes] = faces[0];
+    Image column({extent.width, 6 * extent.height}, channels, type);
+    auto to = column.bytes.end();
+    for (const Image& face : faces) {
+        const Image upright = flipped(face);
+        to -= long(upright.bytes.size());
+        std::copy(upright.bytes.begin(), upright.bytes.end(), to);
+    }
+    return column;
+}
+
+CubeFaces vflipped(const CubeFaces& faces) {
+    return {flipped(faces[0]), flipped(faces[1]), flipped(faces[3]),
+            flipped(faces[2]), flipped(faces[4]), flipped(faces[5])};
+}
+
+Image equirectangular_of(const CubeFaces& faces, Extent size) {
+    Image panorama(size, faces[0].channels, faces[0].type);
+    const int side = faces[0].extent.width;
+    std::vector<Direction> around; // at the equator
+    for (int x = 0; x < size.width; ++x) {
+        const double a = 2.0 * std::numbers::pi * (x + 0.5) / size.width;
+        around.push_back({-std::sin(a), 0.0, std::cos(a)});
+    }
+    for (int y = 0; y < size.height; ++y) {
+        const double b = std::numbers::pi * ((y + 0.5) / size.height - 0.5);
+        const double up = std::sin(b), out = std::cos(b);
+        for (int x = 0; x < size.width; ++x) {
+            const Direction& level = around[size_t(x)];
+            const Direction direction{out * level.x, up, out * level.z};
+            blend(faces, cube_taps(side, direction), panorama, size_t(y) * size_t(size.width) + size_t(x));
+        }
+    }
+    return panorama;
+}
+
+} // namespace tidemark::image

@@ -1,0 +1,282 @@
+#include "image/files/file_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace tidemark::image {
+namespace {
+
+using Checked = tl::expected<std::string, std::string>;
+using Objection = std::optional<std::string>;
+
+tl::unexpected<std::string> refuse(std::string why) {
+    return tl::unexpected<std::string>(std::move(why));
+}
+
+constexpr std::string_view k_cut_short = "the file is damaged or cut short";
+
+uint8_t byte_at(std::string_view file, size_t at) {
+    return uint8_t(file[at]);
+}
+
+uint32_t big_endian(std::string_view file, size_t at, int bytes) {
+    uint32_t value = 0;
+    for (int i = 0; i < bytes; ++i)
+        value = value << 8 | byte_at(file, at + size_t(i));
+    return value;
+}
+
+uint32_t little_endian_32(std::string_view file, size_t at) {
+    uint32_t value = 0;
+    for (size_t i = 4; i-- > 0;)
+        value = value << 8 | byte_at(file, at + i);
+    return value;
+}
+
+constexpr std::array<uint32_t, 256> make_crc_table() {
+    std::array<uint32_t, 256> table{};
+    for (uint32_t i = 0; i < 256; ++i) {
+        uint32_t value = i;
+        for (int bit = 0; bit < 8; ++bit)
+            value = (value >> 1) ^ ((value & 1u) != 0 ? 0xedb88320u : 0u);
+        table[i] = value;
+    }
+    return table;
+}
+
+/// CRC-32 as in the PNG specification, annex D.
+uint32_t crc32(std::string_view bytes) {
+    static constexpr std::array<uint32_t, 256> table = make_crc_table();
+    uint32_t value = 0xffffffffu;
+    for (const char c : bytes)
+        value = table[(value ^ uint8_t(c)) & 0xffu] ^ (value >> 8);
+    return ~value;
+}
+
+struct Signature {
+    FileFormat format;
+    std::string_view bytes;
+};
+
+bool is_webp(std::string_view file) {
+    return file.starts_with("RIFF") && file.size() >= 12 && file.substr(8, 4) == "WEBP";
+}
+
+/// "P1" to "P6" and the float kinds "Pf", "PF", then white space.
+bool is_pnm(std::string_view file) {
+    return file.size() > 2 && file[0] == 'P' && std::string_view("123456fF").find(file[1]) != file.npos &&
+           std::string_view(" \t\r\n").find(file[2]) != file.npos;
+}
+
+bool has_tga_name(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return extension == ".tga";
+}
+
+// --- PNG -------------------------------------------------------------------------------------------
+
+/// Colour type and depth pairs that exist (PNG specification, table 11.1).
+bool is_png_kind(uint8_t colour, uint8_t depth) {
+    const bool small = depth == 1 || depth == 2 || depth == 4;
+    switch (colour) {
+    case 0: return small || depth == 8 || depth == 16;
+    case 3: return small || depth == 8;
+    case 2:
+    case 4:
+    case 6: return depth == 8 || depth == 16;
+    default: return false;
+    }
+}
+
+Objection png_header_objection(std::string_view data) {
+    if (data.size() != 13)
+        return std::string(k_cut_short);
+    if (Objection size = size_objection(big_endian(data, 0, 4), big_endian(data, 4, 4)))
+        return size;
+    const bool sound = is_png_kind(byte_at(data, 9), byte_at(data, 8)) && data[10] == 0 && data[11] == 0 &&
+                       byte_at(data, 12) <= 1;
+    return sound ? Objection() : Objection("its PNG header is not valid");
+}
+
+bool makes_samples(std::string_view chunk) {
+    return chunk == "IHDR" || chunk == "PLTE" || chunk == "tRNS" || chunk == "IDAT" || chunk == "IEND";
+}
+
+/// A reader may pass over the chunks that begin with a small letter, but over no other.
+bool may_be_left_out(std::string_view chunk) {
+    return (byte_at(chunk, 0) & 0x20u) != 0;
+}
+
+/// What is wrong with one chunk: its checksum, its place, or that there is one too many.
+Objection chunk_objection(std::string_view chunk, bool is_first, int palettes) {
+    const std::string_view name = chunk.substr(4, 4);
+    if (crc32(chunk.substr(4, chunk.size() - 8)) != big_endian(chunk, chunk.size() - 4, 4))
+        return "the file is damaged: a checksum in it is wrong";
+    if ((name == "IHDR") != is_first)
+        return "its PNG header is not valid";
+    if (name == "IHDR")
+        return png_header_objection(chunk.substr(8, chunk.size() - 12));
+    if (name == "PLTE" && palettes > 1)
+        return "it has more than one palette";
+    if (!makes_samples(name) && !may_be_left_out(name))
+        return "it has a PNG chunk of a kind that is not known";
+    return {};
+}
+
+Checked checked_png(std::string_view file) {
+    constexpr size_t frame = 12; // a chunk's length, name and checksum
+    std::string kept(file.substr(0, 8));
+    bool has_data = false;
+    int palettes = 0;
+    for (size_t at = 8; file.size() - at >= frame;) {
+        const size_t length = big_endian(file, at, 4);
+        if (length > file.size() - at - frame)
+            break;
+        const std::string_view chunk = file.substr(at, length + frame);
+        const std::string_view name = chunk.substr(4, 4);
+        has_data |= name == "IDAT";
+        palettes += name == "PLTE";
+        if (Objection objection = chunk_objection(chunk, at == 8, palettes))
+            return refuse(std::move(*objection));
+        if (makes_samples(name))
+            kept += chunk;
+        if (name == "IEND")
+            return has_data ? Checked(std::move(kept)) : refuse("it has no pixels");
+        at += chunk.size();
+    }
+    return refuse(std::string(k_cut_short));
+}
+
+// --- JPEG ------------------------------------------------------------------------------------------
+
+bool is_frame_header(uint8_t marker) {
+    return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+}
+
+/// Nothing follows but the next marker: padding, restarts, and a 0xff that is data.
+bool is_bare_marker(uint8_t marker) {
+    return marker == 0x00 || marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
+}
+
+/// Walks from marker to marker, through the compressed data, to the end-of-image marker.
+Objection jpeg_objection(std::string_view file) {
+    size_t at = 2;
+    while ((at = file.find('\xff', at)) != file.npos && at + 1 < file.size()) {
+        const uint8_t marker = byte_at(file, at + 1);
+        if (marker == 0xff) {
+            ++at;
+            continue;
+        }
+        if (marker == 0xd9)
+            return {};
+        if (is_bare_marker(marker)) {
+            at += 2;
+            continue;
+        }
+        if (at + 9 > file.size())
+            break;
+        if (is_frame_header(marker))
+            if (Objection size = size_objection(big_endian(file, at + 7, 2), big_endian(file, at + 5, 2)))
+                return size;
+        at += 2 + big_endian(file, at + 2, 2);
+    }
+    return std::string(k_cut_short);
+}
+
+// --- OpenEXR ---------------------------------------------------------------------------------------
+
+/// The text up to the next zero byte, which `at` is moved behind; nothing when there is none.
+std::optional<std::string_view> zero_terminated(std::string_view file, size_t& at) {
+    const size_t end = file.find('\0', at);
+    if (end == file.npos)
+        return {};
+    const std::string_view text = file.substr(at, end - at);
+    at = end + 1;
+    return text;
+}
+
+Objection window_objection(std::string_view box) {
+    if (box.size() != 16)
+        return std::string(k_cut_short);
+    const auto corner = [&](size_t at) { return int64_t(int32_t(little_endian_32(box, at))); };
+    return size_objection(corner(8) - corner(0) + 1, corner(12) - corner(4) + 1);
+}
+
+/// Walks the attributes of the first part: name, type, size, value; an empty name ends them.
+Objection exr_objection(std::string_view file) {
+    size_t at = 8;
+    bool has_window = false;
+    while (at < file.size()) {
+        const auto name = zero_terminated(file, at);
+        if (name && name->empty())
+            return has_window ? Objection() : Objection("it has no pixels");
+        const auto type = name ? zero_terminated(file, at) : std::nullopt;
+        if (!type || file.size() - at < 4)
+            break;
+        const size_t size = little_endian_32(file, at);
+        at += 4;
+        if (size > file.size() - at)
+            break;
+        if (*name == "dataWindow") {
+            has_window = true;
+            if (Objection objection = window_objection(file.substr(at, size)))
+                return objection;
+        }
+        at += size;
+    }
+    return std::string(k_cut_short);
+}
+
+} // namespace
+
+std::optional<std::string> size_objection(int64_t width, int64_t height) {
+    if (width < 1 || height < 1)
+        return "it has no pixels";
+    if (width > k_largest_side || height > k_largest_side)
+        return fmt::format("it is {}x{} pixels; the limit is {} on a side", width, height, k_largest_side);
+    return {};
+}
+
+std::optional<FileFormat> format_of(std::string_view file, const std::filesystem::path& path) {
+    using namespace std::string_view_literals;
+    static constexpr std::array<Signature, 8> signatures = {{
+        {FileFormat::png, "\x89PNG\r\n\x1a\n"sv},
+        {FileFormat::jpeg, "\xff\xd8\xff"sv},
+        {FileFormat::tiff, "II*\0"sv},
+        {FileFormat::tiff, "MM\0*"sv},
+        {FileFormat::exr, "v/1\x01"sv},
+        {FileFormat::hdr, "#?RADIANCE"sv},
+        {FileFormat::hdr, "#?RGBE"sv},
+        {FileFormat::bmp, "BM"sv},
+    }};
+    for (const Signature& signature : signatures)
+        if (file.starts_with(signature.bytes))
+            return signature.format;
+    if (is_webp(file))
+        return FileFormat::webp;
+    if (is_pnm(file))
+        return FileFormat::pnm;
+    if (has_tga_name(path))
+        return FileFormat::tga;
+    return {};
+}
+
+Checked checked_file(FileFormat format, std::string file) {
+    if (format == FileFormat::png)
+        return checked_png(file);
+    Objection objection;
+    if (format == FileFormat::jpeg)
+        objection = jpeg_objection(file);
+    if (format == FileFormat::exr)
+        objection = exr_objection(file);
+    if (objection)
+        return refuse(std::move(*objection));
+    return file;
+}
+
+} // namespace tidemark::image

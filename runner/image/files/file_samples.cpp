@@ -1,0 +1,71 @@
+#include "image/files/file_samples.hpp"
+
+#include <cstring>
+
+namespace tidemark::image {
+namespace {
+
+/// 0..1 to 0..`largest`, rounded to nearest; NaN fails both comparisons of a number and gives 0.
+template <class Integer>
+Integer quantised(float value, double largest) {
+    if (!(value > 0.0f))
+        return 0;
+    if (value >= 1.0f)
+        return Integer(largest);
+    return Integer(double(value) * largest + 0.5);
+}
+
+template <class To, class From, class Convert>
+std::vector<std::byte> converted(std::span<const From> from, const Convert& convert) {
+    std::vector<std::byte> bytes(from.size() * sizeof(To));
+    To* to = reinterpret_cast<To*>(bytes.data());
+    for (size_t i = 0; i < from.size(); ++i)
+        to[i] = convert(from[i]);
+    return bytes;
+}
+
+std::vector<std::byte> from_u8(const Image& image, SampleDepth depth) {
+    switch (depth) {
+    case SampleDepth::u8: return image.bytes;
+    case SampleDepth::u16:
+        return converted<uint16_t>(image.u8(), [](uint8_t v) { return uint16_t(v * 257); });
+    case SampleDepth::half:
+    case SampleDepth::f32: return converted<float>(image.u8(), [](uint8_t v) { return float(v) / 255.0f; });
+    }
+    return {};
+}
+
+std::vector<std::byte> from_f32(const Image& image, SampleDepth depth) {
+    switch (depth) {
+    case SampleDepth::u8:
+        return converted<uint8_t>(image.f32(), [](float v) { return quantised<uint8_t>(v, 255.0); });
+    case SampleDepth::u16:
+        return converted<uint16_t>(image.f32(), [](float v) { return quantised<uint16_t>(v, 65535.0); });
+    case SampleDepth::half:
+    case SampleDepth::f32: return image.bytes;
+    }
+    return {};
+}
+
+} // namespace
+
+std::vector<std::byte> file_samples(const Image& image, SampleDepth depth) {
+    return image.type == SampleType::u8 ? from_u8(image, depth) : from_f32(image, depth);
+}
+
+Image radiance_samples(const Image& image) {
+    const Image colour = without_alpha(image);
+    const std::vector<std::byte> floats = file_samples(colour, SampleDepth::f32);
+    const auto channels = size_t(colour.channels);
+    constexpr float largest = 0x1.fep126f; // mantissa 255/256, exponent byte 255
+    Image result(image.extent, 3, SampleType::f32);
+    for (size_t i = 0; i < result.samples(); ++i) {
+        float value;
+        const size_t source = channels == 3 ? i : i / 3;
+        std::memcpy(&value, floats.data() + source * sizeof value, sizeof value);
+        result.f32()[i] = value > 0.0f ? (value < largest ? value : largest) : 0.0f;
+    }
+    return result;
+}
+
+} // namespace tidemark::image

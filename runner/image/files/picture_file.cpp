@@ -1,0 +1,347 @@
+#include "image/files/picture_file.hpp"
+
+#include "base/file.hpp"
+#include "image/files/codec_loader.hpp"
+#include "image/files/file_check.hpp"
+#include "image/files/file_samples.hpp"
+#include "image/files/png_codec.hpp"
+#include "image/plugin/picture_codec.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace tidemark::image {
+namespace fs = std::filesystem;
+namespace {
+
+/// A JPEG segment holds 64 KiB, of which other entries need some; libjpeg ends the process when it is more.
+constexpr size_t k_longest_jpeg_text = 32000;
+
+struct WrittenFormat {
+    std::string_view extension;
+    FileFormat format;
+    bool has_alpha;
+    std::vector<SampleDepth> depths; ///< the natural one first
+    int longest_side = 1'000'000;    ///< libpng's own limit, and sense
+};
+
+const std::vector<WrittenFormat>& written_formats() {
+    using enum SampleDepth;
+    static const std::vector<WrittenFormat> formats = {
+        {".png", FileFormat::png, true, {u8, u16}},        {".jpg", FileFormat::jpeg, false, {u8}, 65500},
+        {".jpeg", FileFormat::jpeg, false, {u8}, 65500},   {".tif", FileFormat::tiff, true, {u8, u16, f32}},
+        {".tiff", FileFormat::tiff, true, {u8, u16, f32}}, {".exr", FileFormat::exr, true, {half, f32}},
+        {".hdr", FileFormat::hdr, false, {f32}},
+    };
+    return formats;
+}
+
+std::string lower_extension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z')
+            c = char(c - 'A' + 'a');
+    return extension;
+}
+
+const WrittenFormat* written_format(const fs::path& path) {
+    const std::string extension = lower_extension(path);
+    const auto& formats = written_formats();
+    const auto found = std::find_if(formats.begin(), formats.end(), [&](const WrittenFormat& format) {
+        return format.extension == extension;
+    });
+    return found == formats.end() ? nullptr : &*found;
+}
+
+std::string_view name_of(SampleDepth depth) {
+    switch (depth) {
+    case SampleDepth::u8: return "8-bit";
+    case SampleDepth::u16: return "16-bit";
+    case SampleDepth::half: return "half";
+    case SampleDepth::f32: return "float";
+    }
+    return "";
+}
+
+std::string names_of(const std::vector<SampleDepth>& depths) {
+    std::vector<std::string_view> names;
+    for (const SampleDepth depth : depths)
+        names.push_back(name_of(depth));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+[[maybe_unused]] bool is_metadata_name(std::string_view name) {
+    return !name.empty() && name.size() <= 60 &&
+           std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+}
+
+/// Names that no format gives a meaning of its own, which would change the file or be dropped.
+std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, const PictureFormat& wanted) {
+    std::vector<std::pair<std::string, std::string>> all;
+    std::string lines;
+    for (const auto& [name, value] : wanted.metadata) {
+        assert(is_metadata_name(name));
+        const std::string text(
+            value.c_str()); // NOLINT(readability-redundant-string-cstr): ends at a zero byte
+        all.emplace_back("tidemark:" + name, text);
+        lines += fmt::format("{}={}\n", all.back().first, text);
+    }
+    if (format == FileFormat::png || format == FileFormat::exr)
+        return all;
+    if (format == FileFormat::jpeg)
+        lines.resize(std::min(lines.size(), k_longest_jpeg_text));
+    if (format == FileFormat::hdr || lines.empty())
+        return {};
+    return {{"ImageDescription", lines}};
+}
+
+EncodeJob job_without_samples(const WrittenFormat& written, Extent extent, int channels,
+                              const PictureFormat& wanted) {
+    return {written.format, wanted.depth, extent, channels, {}, attributes(written.format, wanted)};
+}
+
+/// The samples of a picture, or of a band of one, as its file holds them; their channels.
+std::pair<std::vector<std::byte>, int> stored(const WrittenFormat& written, const Image& image, bool alpha,
+                                              SampleDepth depth) {
+    const auto take = [&](const Image& kept) { return std::pair(file_samples(kept, depth), kept.channels); };
+    if (written.format == FileFormat::hdr)
+        return take(radiance_samples(image));
+    return image.has_alpha() && !(alpha && written.has_alpha) ? take(without_alpha(image)) : take(image);
+}
+
+EncodeJob encode_job(const WrittenFormat& written, const Image& image, const PictureFormat& wanted) {
+    auto [samples, channels] = stored(written, image, !has_opaque_alpha(image), wanted.depth);
+    EncodeJob job = job_without_samples(written, image.extent, channels, wanted);
+    job.samples = std::move(samples);
+    return job;
+}
+
+tl::unexpected<Error> cannot_write(const fs::path& path, std::string_view why) {
+    return fail(ErrorCode::write, fmt::format("cannot write '{}': {}", path.string(), why));
+}
+
+Result<void> check_extent(const fs::path& path, const Image& image) {
+    const Extent extent = image.extent;
+    if (extent.width < 1 || extent.height < 1)
+        return cannot_write(path, "the picture has no pixels");
+    if (extent.width > k_largest_side || extent.height > k_largest_side)
+        return cannot_write(path, fmt::format("it is {}x{} pixels; the limit is {} on a side", extent.width,
+                                              extent.height, k_largest_side));
+    assert(image.channels >= 1 && image.channels <= 4);
+    assert(image.bytes.size() == image.samples() * size_of(image.type));
+    return {};
+}
+
+/// The outer error: there is no codec for it. The inner one: what the codec says of the picture.
+Result<DecodeResult> decode(FileFormat format, std::span<const std::byte> file) {
+    if (format == FileFormat::png)
+        return decode_png(file);
+    return picture_codec().map([&](const PictureCodec* codec) { return codec->decode(format, file); });
+}
+
+Result<EncodeResult> encode(const EncodeJob& job) {
+    if (job.format == FileFormat::png)
+        return encode_png(job);
+    return picture_codec().map([&](const PictureCodec* codec) { return codec->encode(job); });
+}
+
+Result<RowEncoderResult> encode_rows(const EncodeJob& job, std::FILE* file) {
+    if (job.format == FileFormat::png)
+        return encode_png_rows(job, file);
+    return picture_codec().map([&](const PictureCodec* codec) { return codec->encode_rows(job, file); });
+}
+
+} // namespace
+
+Result<void> check_picture_name(const fs::path& path) {
+    if (written_format(path))
+        return {};
+    return fail(ErrorCode::usage,
+                fmt::format("cannot tell the picture format of '{}': its name must end in .png, "
+                            ".jpg, .jpeg, .tif, .tiff, .exr or .hdr",
+                            path.string()));
+}
+
+Result<void> check_picture_format(const fs::path& path, SampleDepth depth) {
+    return check_picture_name(path).and_then([&]() -> Result<void> {
+        const WrittenFormat& format = *written_format(path);
+        if (std::find(format.depths.begin(), format.depths.end(), depth) != format.depths.end())
+            return {};
+        return fail(ErrorCode::usage, fmt::format("'{}' cannot hold {} samples: {} holds {}", path.string(),
+                                                  name_of(depth), format.extension, names_of(format.depths)));
+    });
+}
+
+SampleDepth natural_depth(const fs::path& path) {
+    const WrittenFormat* format = written_format(path);
+    return format ? format->depths.front() : SampleDepth::u8;
+}
+
+std::jthread preload_picture_codec(const fs::path& path) {
+    const WrittenFormat* format = written_format(path);
+    if (!format || format->format == FileFormat::png)
+        return {};
+    return std::jthread([] { picture_codec(); });
+}
+
+Result<Image> read_picture(const fs::path& path) {
+    Result<std::string> file = read_file(path, k_largest_picture);
+    if (!file)
+        return fail(std::move(file.error()));
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", path.string(), why));
+    };
+    if (file->empty())
+        return refuse("the file is empty");
+    const std::optional<FileFormat> format = format_of(*file, path);
+    if (!format)
+        return refuse("it is no PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture");
+    const auto checked = checked_file(*format, std::move(*file));
+    if (!checked)
+        return refuse(checked.error());
+    auto image = decode(*format, std::as_bytes(std::span(*checked)));
+    if (!image)
+        return fail(std::move(image.error()));
+    if (!*image)
+        return refuse(image->error());
+    return std::move(**image);
+}
+
+Result<void> write_picture(const fs::path& path, const Image& image, const PictureFormat& format) {
+    if (Result<void> checked = check_picture_format(path, format.depth); !checked)
+        return checked;
+    if (Result<void> checked = check_extent(path, image); !checked)
+        return checked;
+    const auto file = encode(encode_job(*written_format(path), image, format));
+    if (!file)
+        return fail(ErrorCode::write, file.error().message);
+    if (!*file)
+        return cannot_write(path, file->error());
+    return write_file(path, std::as_bytes(std::span(**file)));
+}
+
+/// A stream for encoders, which learn nothing of a disk that is full: libjpeg would end the process, and
+/// others do not say why.
+class PictureStream::File {
+public:
+    explicit File(const fs::path& path)
+        : descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        if (descriptor_ < 0)
+            error_ = errno;
+        else
+            stream_ = ::fopencookie(this, "wb", {nullptr, write, seek, close});
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File() { finish(); }
+
+    std::FILE* stream() const { return stream_; }
+    /// errno of the first thing that failed; 0: nothing.
+    int error() const { return error_; }
+    void finish() {
+        if (std::FILE* stream = std::exchange(stream_, nullptr))
+            std::fclose(stream);
+    }
+
+private:
+    void keep_error() {
+        if (error_ == 0)
+            error_ = errno;
+    }
+    static ssize_t write(void* file, const char* bytes, size_t size) {
+        auto& self = *static_cast<File*>(file);
+        for (size_t done = 0; done < size && self.error_ == 0;) {
+            const ssize_t written = ::write(self.descriptor_, bytes + done, size - done);
+            if (written >= 0)
+                done += size_t(written);
+            else if (errno != EINTR)
+                self.keep_error();
+        }
+        return ssize_t(size);
+    }
+    static int seek(void* file, off64_t* offset, int from) {
+        *offset = ::lseek64(static_cast<File*>(file)->descriptor_, *offset, from);
+        return *offset < 0 ? -1 : 0;
+    }
+    static int close(void* file) {
+        auto& self = *static_cast<File*>(file);
+        if (::close(self.descriptor_) != 0)
+            self.keep_error();
+        return 0;
+    }
+
+    int descriptor_;
+    int error_ = 0;
+    std::FILE* stream_ = nullptr;
+};
+
+PictureStream::PictureStream(const fs::path& path, bool alpha, PictureFormat format)
+    : path_(path), alpha_(alpha), format_(std::move(format)), staged_(path),
+      file_(std::make_unique<File>(staged_.path())) {}
+
+PictureStream::PictureStream(PictureStream&&) noexcept = default;
+PictureStream::~PictureStream() = default;
+
+/// The system's objection goes before the encoder's (empty: none).
+Result<void> PictureStream::checked(const std::string& objection) const {
+    if (const int error = file_->error())
+        return cannot_write(path_, std::generic_category().message(error));
+    return objection.empty() ? Result<void>() : cannot_write(path_, objection);
+}
+
+Result<void> PictureStream::check_extent(const fs::path& path, Extent extent) {
+    const int longest = written_format(path)->longest_side;
+    if (std::max(extent.width, extent.height) <= longest)
+        return {};
+    return fail(ErrorCode::usage, fmt::format("--size {}x{}: a {} has at most {} pixels on a side",
+                                              extent.width, extent.height, lower_extension(path), longest));
+}
+
+Result<PictureStream> PictureStream::create(const fs::path& path, Extent extent, bool alpha,
+                                            PictureFormat format) {
+    if (Result<void> checked = check_picture_format(path, format.depth); !checked)
+        return fail(std::move(checked.error()));
+    if (Result<void> checked = check_extent(path, extent); !checked)
+        return fail(std::move(checked.error()));
+    PictureStream stream(path, alpha, std::move(format));
+    if (auto opened = stream.checked({}); !opened)
+        return fail(std::move(opened.error()));
+    const WrittenFormat& written = *written_format(path);
+    const bool keeps_alpha = alpha && written.has_alpha;
+    auto encoder = encode_rows(job_without_samples(written, extent, keeps_alpha ? 4 : 3, stream.format_),
+                               stream.file_->stream());
+    if (!encoder)
+        return fail(ErrorCode::write, encoder.error().message);
+    if (!*encoder)
+        return cannot_write(path, encoder->error());
+    stream.encoder_ = **std::move(encoder);
+    return stream;
+}
+
+Result<void> PictureStream::add(const Image& band) {
+    const auto [samples, channels] = stored(*written_format(path_), band, alpha_, format_.depth);
+    const auto added = encoder_->add(samples, band.extent.height);
+    return checked(added ? std::string() : added.error());
+}
+
+Result<void> PictureStream::finish() {
+    const auto finished = encoder_->finish();
+    encoder_.reset();
+    file_->finish();
+    if (auto written = checked(finished ? std::string() : finished.error()); !written)
+        return written;
+    return staged_.commit();
+}
+
+} // namespace tidemark::image

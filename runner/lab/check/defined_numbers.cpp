@@ -1,0 +1,32 @@
+#include "lab/check/defined_numbers.hpp"
+
+#include "glsl/overrides.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace tidemark::lab {
+
+std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene,
+                                           std::initializer_list<std::string_view> words) {
+    std::vector<DefinedNumber> numbers;
+    for (const std::string& name : glsl::definition_names(scene)) {
+        if (!speaks_of(name, words))
+            continue;
+        const std::string text = glsl::definition_of(scene, name).value_or("");
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc{} && end == text.data() + text.size())
+            numbers.push_back({name, value, text.find_first_of(".eE") == text.npos});
+    }
+    return numbers;
+}
+
+bool speaks_of(std::string_view name, std::initializer_list<std::string_view> words) {
+    std::string lower(name);
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
+}
+
+} // namespace tidemark::lab

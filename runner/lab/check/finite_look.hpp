@@ -1,0 +1,16 @@
+// Whether all numbers of a scene are finite in given situations, counted by bits on the CPU.
+#pragma once
+
+#include "lab/check/probe.hpp"
+
+#include <vector>
+
+namespace tidemark::lab {
+
+/// Asks the same of every situation; the first bad one is told.
+Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations);
+
+/// As `look`, of situations that are new only where the plain one is clean.
+Result<Answer> look_anew(ProbeBench& bench, const std::vector<Situation>& situations);
+
+} // namespace tidemark::lab

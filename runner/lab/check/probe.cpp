@@ -1,0 +1,105 @@
+#include "lab/check/probe.hpp"
+
+#include "lab/check/probes.hpp"
+
+namespace tidemark::lab {
+
+std::string_view to_string(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::pass: return "pass";
+    case Verdict::warn: return "warn";
+    case Verdict::fail: return "fail";
+    case Verdict::not_applicable: return "n/a";
+    }
+    return {};
+}
+
+std::span<const Probe> all_probes() {
+    static constexpr Probe probes[] = {
+        {"times",
+         "NaN or infinity in any pass, at 0, 1e-6 and 1 s, around 62.83 s, to 1e6 s, at 2^24 and -5 s",
+         ask_times},
+        {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, held down", ask_mouse},
+        {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},
+        {"inputs",
+         "NaN or infinity with each input of Image unbound, black, white, one texel or noise; how far a "
+         "NaN in it spreads",
+         ask_inputs},
+        {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
+        {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
+         ask_hashes},
+        {"unassigned", "variables that are read before they have a value, `out` that never get one",
+         ask_unassigned},
+        {"divergence",
+         "derivatives, and textures that choose a mipmap, where neighbouring pixels may have gone "
+         "another way",
+         ask_divergence},
+        {"undefined",
+         "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
+         "nothing, smoothstep with equal edges, mod by 0: where the picture hangs on what a GPU makes of it",
+         ask_undefined},
+        {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
+         ask_repeats},
+        {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
+         ask_tiles},
+        {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
+         ask_witnesses},
+        {"budget", "rays that run out of steps (mainHit)", ask_budget},
+        {"stiffness",
+         "the same, and distances that are no number, with each knob at both ends, at 0, 1/2, 2 and 4 times "
+         "its value within its range, and with defined heights and scales so (mainHit)",
+         ask_stiffness},
+        {"grazing",
+         "rays that run out of steps along the horizon, at all mouse heights that show it, and in exactly "
+         "level rays (mainHit)",
+         ask_grazing},
+        {"far", "flicker before a far plane that moves by a thousandth (mainHit, knob far_distance)",
+         ask_far},
+        {"folds",
+         "waves whose steepness adds up to 0.75, 0.99, 1 and 1.5: from 1 on crests fold over (mainHit, knob "
+         "of a steepness)",
+         ask_folds},
+        {"octaves",
+         "as few and as many octaves as the scene allows: coordinates beyond what floats hold (mainHit)",
+         ask_octaves},
+        {"clicks",
+         "a click in the first column or row that is taken for none, and shows another view than the next",
+         ask_clicks},
+        {"camera",
+         "turns of the picture under a one-pixel step of the mouse, up and across; no number at a pole",
+         ask_camera},
+        {"jumps",
+         "cuts: an instant that is less like the next than before and after, at every number in the text",
+         ask_jumps},
+        {"horizon", "until when float and double show the same, to 1/255 in 99 % of the pixels", ask_horizon},
+        {"rays", "until when rays meet the same in float and double, to a pixel's width in 99 % (mainHit)",
+         ask_rays},
+        {"epsilon",
+         "rays that run out of steps in float and not in double: they wait for a value that rounding "
+         "keeps away (mainHit)",
+         ask_epsilon},
+        {"places",
+         "the camera below the surface, high above, and 10 to 1e6 units away: finite, and the same in float "
+         "and double (mainHit, iCamera or knob camera_position)",
+         ask_places},
+        {"normals",
+         "slopes by differences of the field, in float against double, over 0.1 to 1e-6 (mainHit, "
+         "march_field)",
+         ask_normals},
+        {"sine",
+         "the picture with sines and cosines a unit in the last place up and down, and reduced and rounded "
+         "as NVIDIA's: apart by more than 1/255 in 1 % of the pixels",
+         ask_sine},
+        {"rounding",
+         "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, and with "
+         "every second + - * / a unit off, as contracting and reordering do: apart by as much",
+         ask_rounding},
+        {"halves",
+         "the picture with every + - * / in half floats, where the text says `mediump` or `lowp`: apart by "
+         "as much",
+         ask_halves},
+    };
+    return probes;
+}
+
+} // namespace tidemark::lab

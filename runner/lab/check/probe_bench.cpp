@@ -1,0 +1,114 @@
+#include "lab/check/probe_bench.hpp"
+
+#include "glsl/hit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+
+ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises)
+    : scene_(scene), hit_scene_(glsl::hit_scene(scene)), promises_(std::move(promises)) {}
+
+/// What stands in the text is compiled; knobs are turned.
+Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry entry,
+                                               glsl::Precision precision) {
+    std::string key = fmt::format("{} {}", int(entry), int(precision));
+    for (const std::string& channel : situation.channels)
+        key += " " + channel;
+    for (const Setting& setting : situation.definitions)
+        key += fmt::format(" {}={}", setting.name, setting.value);
+    auto set = in_situation(entry == Entry::hit ? *hit_scene_ : scene_, situation);
+    if (!set)
+        return fail(std::move(set.error()));
+    std::vector<scene::Knob> knobs = set->knobs;
+    auto found = renderers_.find(key);
+    if (found == renderers_.end()) {
+        auto made = render::Renderer::create(
+            *std::move(set), {.extent = situation.extent,
+                              .samples = image::SampleType::f32,
+                              .precision = precision,
+                              .specialise = glsl::Specialise::unreachable,
+                              .extras = {.unchanged = true}}); // a probe asks whether a drawing repeats
+        if (!made)
+            return fail(std::move(made.error()));
+        found = renderers_.emplace(std::move(key), *std::move(made)).first;
+    }
+    render::Renderer& renderer = found->second;
+    renderer.turn(std::move(knobs));
+    if (renderer.extent() != situation.extent)
+        if (auto resized = renderer.resize(situation.extent); !resized)
+            return fail(std::move(resized.error()));
+    return &renderer;
+}
+
+Result<render::Renderer*> ProbeBench::poised(const Situation& situation, Entry entry,
+                                             glsl::Precision precision) {
+    auto made = renderer(situation, entry, precision);
+    if (!made)
+        return made;
+    if ((*made)->plan().feedback) {
+        (*made)->reset();
+        for (int before = run_up_of(situation); before > 0; --before)
+            (*made)->draw(inputs_of(situation, before));
+    }
+    return made;
+}
+
+Result<render::Renderer*> ProbeBench::poised(const Situation& situation) {
+    return poised(situation, Entry::picture, glsl::Precision::single);
+}
+
+Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry entry,
+                                            glsl::Precision precision) {
+    auto made = poised(situation, entry, precision);
+    if (made)
+        (*made)->draw(inputs_of(situation));
+    return made;
+}
+
+Result<image::Image> ProbeBench::picture(const Situation& situation, glsl::Precision precision) {
+    auto renderer = drawn(situation, Entry::picture, precision);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    return image::without_alpha((*renderer)->read_back());
+}
+
+Result<image::Image> ProbeBench::fresh_picture(const Situation& situation) {
+    renderers_.clear();
+    return picture(situation);
+}
+
+Result<std::vector<PassPicture>> ProbeBench::passes(const Situation& situation) {
+    auto renderer = drawn(situation, Entry::picture, glsl::Precision::single);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    std::vector<PassPicture> pictures;
+    for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
+        const scene::Pass& pass = scene_.passes[planned.pass];
+        if (pass.kind != scene::PassKind::cubemap)
+            pictures.push_back({pass.name, (*renderer)->read_back(planned.pass)});
+    }
+    return pictures;
+}
+
+Result<Hits> ProbeBench::hits(const Situation& situation, glsl::Precision precision) {
+    auto renderer = drawn(situation, Entry::hit, precision);
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    return hits_of((*renderer)->read_back());
+}
+
+Result<std::vector<glsl::KeptHash>> ProbeBench::hashes() {
+    auto made = renderer({}, Entry::picture, glsl::Precision::promoted);
+    if (!made)
+        return fail(std::move(made.error()));
+    std::vector<glsl::KeptHash> all;
+    for (const render::PlannedPass& planned : (*made)->plan().passes)
+        for (const glsl::KeptHash& hash : (*made)->kept_hashes(planned.pass))
+            all.push_back(hash);
+    return all;
+}
+
+} // namespace tidemark::lab

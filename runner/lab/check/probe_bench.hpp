@@ -1,0 +1,60 @@
+// Where probes look at a scene: draws it in any situation and keeps what was compiled for the next question.
+// A context must be current as long as it lives.
+#pragma once
+
+#include "lab/check/promises.hpp"
+#include "lab/check/situation.hpp"
+#include "lab/hits.hpp"
+#include "render/renderer.hpp"
+#include "scene/scene.hpp"
+
+#include <map>
+#include <string>
+
+namespace tidemark::lab {
+
+/// What one pass holds after a frame.
+struct PassPicture {
+    std::string pass;
+    image::Image picture; ///< RGBA, floats
+};
+
+class ProbeBench {
+public:
+    ProbeBench(const scene::Scene& scene, Promises promises);
+
+    const scene::Scene& scene() const { return scene_; }
+    const Promises& promises() const { return promises_; }
+
+    /// RGB of Image, floats. A scene with feedback is drawn from its start, run_up_of frames before that
+    /// moment.
+    Result<image::Image> picture(const Situation& situation,
+                                 glsl::Precision precision = glsl::Precision::single);
+    /// All passes that are drawn, but cubemaps.
+    Result<std::vector<PassPicture>> passes(const Situation& situation);
+
+    bool has_hits() const { return hit_scene_.has_value(); }
+    Result<Hits> hits(const Situation& situation, glsl::Precision precision = glsl::Precision::single);
+
+    /// A renderer in that situation, for what is drawn in the place of a pass: all frames before are drawn.
+    Result<render::Renderer*> poised(const Situation& situation);
+
+    /// Compiles anew, where `picture` takes what it has.
+    Result<image::Image> fresh_picture(const Situation& situation);
+
+    /// The promoted scene's hashes; the error of a scene that cannot be promoted.
+    Result<std::vector<glsl::KeptHash>> hashes();
+
+private:
+    enum class Entry { picture, hit };
+    Result<render::Renderer*> poised(const Situation& situation, Entry entry, glsl::Precision precision);
+    Result<render::Renderer*> drawn(const Situation& situation, Entry entry, glsl::Precision precision);
+    Result<render::Renderer*> renderer(const Situation& situation, Entry entry, glsl::Precision precision);
+
+    scene::Scene scene_;
+    std::optional<scene::Scene> hit_scene_;
+    Promises promises_;
+    std::map<std::string, render::Renderer> renderers_;
+};
+
+} // namespace tidemark::lab

@@ -1,0 +1,61 @@
+// The probes themselves, by subject. What each asks stands in lab/check/probe.cpp, where people read it too.
+#pragma once
+
+#include "lab/check/probe.hpp"
+
+namespace tidemark::lab {
+
+// probes_finite.cpp
+Result<Answer> ask_times(ProbeBench& bench);
+Result<Answer> ask_mouse(ProbeBench& bench);
+Result<Answer> ask_sizes(ProbeBench& bench);
+Result<Answer> ask_knobs(ProbeBench& bench);
+
+// probes_inputs.cpp
+Result<Answer> ask_inputs(ProbeBench& bench);
+
+// probes_undefined.cpp
+Result<Answer> ask_undefined(ProbeBench& bench);
+
+// probes_text.cpp
+Result<Answer> ask_unassigned(ProbeBench& bench);
+Result<Answer> ask_divergence(ProbeBench& bench);
+
+// probes_time.cpp
+Result<Answer> ask_horizon(ProbeBench& bench);
+Result<Answer> ask_jumps(ProbeBench& bench);
+Result<Answer> ask_hashes(ProbeBench& bench);
+
+// probes_tiles.cpp
+Result<Answer> ask_tiles(ProbeBench& bench);
+
+// probes_motion.cpp
+Result<Answer> ask_repeats(ProbeBench& bench);
+Result<Answer> ask_camera(ProbeBench& bench);
+Result<Answer> ask_clicks(ProbeBench& bench);
+
+// probes_portable.cpp
+Result<Answer> ask_sine(ProbeBench& bench);
+Result<Answer> ask_rounding(ProbeBench& bench);
+Result<Answer> ask_halves(ProbeBench& bench);
+
+// probes_hit.cpp
+Result<Answer> ask_witnesses(ProbeBench& bench);
+Result<Answer> ask_budget(ProbeBench& bench);
+Result<Answer> ask_stiffness(ProbeBench& bench);
+
+// probes_rays.cpp
+Result<Answer> ask_rays(ProbeBench& bench);
+Result<Answer> ask_epsilon(ProbeBench& bench);
+Result<Answer> ask_octaves(ProbeBench& bench);
+Result<Answer> ask_folds(ProbeBench& bench);
+
+// probes_place.cpp
+Result<Answer> ask_grazing(ProbeBench& bench);
+Result<Answer> ask_places(ProbeBench& bench);
+Result<Answer> ask_far(ProbeBench& bench);
+
+// probes_slope.cpp
+Result<Answer> ask_normals(ProbeBench& bench);
+
+} // namespace tidemark::lab

@@ -1,0 +1,64 @@
+// Non-finite numbers: drawn in many situations, counted by bits on the CPU.
+#include "gl/capabilities.hpp"
+#include "lab/check/finite_look.hpp"
+#include "lab/check/probes.hpp"
+
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+std::string middle_of(const scene::Knob& knob) {
+    scene::KnobValue value{};
+    for (size_t i = 0; i < value.size(); ++i) {
+        value[i] = (knob.range->low[i] + knob.range->high[i]) / 2;
+        if (scene::info(knob.type).whole)
+            value[i] = std::floor(value[i]);
+    }
+    return scene::to_string(knob, value);
+}
+
+} // namespace
+
+Result<Answer> ask_times(ProbeBench& bench) {
+    std::vector<Situation> situations;
+    for (const double time :
+         {0.0, 1e-6, 1.0, 60.0, 62.83 - 1 / 60.0, 62.83 + 1 / 60.0, 1e3, 1e4, 1e5, 1e6, 16777216.0, -5.0})
+        situations.push_back({.time = time});
+    return look(bench, situations);
+}
+
+Result<Answer> ask_mouse(ProbeBench& bench) {
+    const Extent size = Situation().extent;
+    const int w = size.width, h = size.height;
+    std::vector<Situation> situations;
+    for (const glm::ivec2 pixel :
+         {glm::ivec2(1, 1), glm::ivec2(w - 1, 1), glm::ivec2(1, h - 1), glm::ivec2(w - 1, h - 1),
+          glm::ivec2(w / 2, 0), glm::ivec2(0, h / 2), glm::ivec2(w / 2, h - 1), glm::ivec2(w - 1, h / 2),
+          glm::ivec2(w / 2, h / 2), glm::ivec2(-w, -h), glm::ivec2(2 * w, 2 * h)})
+        for (const bool down : {false, true})
+            situations.push_back({.mouse = pixel, .down = down});
+    return look_anew(bench, situations);
+}
+
+Result<Answer> ask_sizes(ProbeBench& bench) {
+    std::vector<Situation> situations;
+    for (const Extent size : {Extent{1, 1}, Extent{1, 64}, Extent{64, 1}, Extent{63, 37},
+                              Extent{gl::query_capabilities().largest_target, 1}})
+        situations.push_back({.extent = size});
+    return look_anew(bench, situations);
+}
+
+Result<Answer> ask_knobs(ProbeBench& bench) {
+    std::vector<Situation> situations;
+    for (const scene::Knob& knob : bench.scene().knobs)
+        if (knob.range)
+            for (const std::string& value : {scene::to_string(knob, knob.range->low), middle_of(knob),
+                                             scene::to_string(knob, knob.range->high)})
+                situations.push_back({.settings = {{knob.name, value}}});
+    if (situations.empty())
+        return Answer{Verdict::not_applicable, "the scene has no knob with a range"};
+    return look_anew(bench, situations);
+}
+
+} // namespace tidemark::lab

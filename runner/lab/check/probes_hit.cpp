@@ -1,0 +1,153 @@
+// What rays met, of scenes with mainHit: steps that were too long, and too many of them.
+#include "lab/check/defined_numbers.hpp"
+#include "lab/check/probes.hpp"
+#include "lab/check/rays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tidemark::lab {
+namespace {
+
+/// The largest share of flagged rays in the usual views, against what is promised.
+Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promised, const char* what) {
+    if (!bench.has_hits())
+        return without_hits();
+    double most = -1;
+    Situation where;
+    image::Image map;
+    for (const Situation& view : usual_views()) {
+        const auto hits = bench.hits(view);
+        if (!hits)
+            return fail(hits.error());
+        if (const double share = flagged(*hits, flag); share > most) {
+            most = share;
+            where = view;
+            map = ray_map(*hits, view.extent, [&](size_t i) { return (hits->flags[i] & flag) != 0; });
+        }
+    }
+    Answer answer{most > promised ? Verdict::fail : Verdict::pass,
+                  fmt::format("{:.3g} % of the rays {} in the worst of four views", most, what),
+                  {},
+                  {}};
+    if (answer.verdict == Verdict::fail) {
+        answer.sentence += fmt::format("; promised are at most {:g} %", promised);
+        answer.where = where;
+        answer.picture = std::move(map);
+    }
+    return answer;
+}
+
+constexpr double k_multiples[] = {0, 0.5, 2, 4};
+
+/// Both ends of the knob's range and multiples of its value in between; multiples alone where it has none.
+std::vector<Setting> ends_and_multiples(const scene::Knob& knob, const Promises& promises) {
+    auto range = knob.range;
+    if (const auto promised = promises.ranges.find(knob.name); promised != promises.ranges.end()) {
+        range.emplace();
+        range->low.fill(promised->second.first);
+        range->high.fill(promised->second.second);
+    }
+    std::set<std::string> values;
+    for (const double factor : k_multiples) {
+        scene::KnobValue value = knob.value;
+        for (size_t i = 0; i < value.size(); ++i) {
+            value[i] *= factor;
+            if (range)
+                value[i] = std::clamp(value[i], range->low[i], range->high[i]);
+            if (scene::info(knob.type).whole)
+                value[i] = std::floor(value[i]);
+        }
+        values.insert(scene::to_string(knob, value));
+    }
+    if (range) {
+        values.insert(scene::to_string(knob, range->low));
+        values.insert(scene::to_string(knob, range->high));
+    }
+    std::vector<Setting> settings;
+    for (const std::string& value : values)
+        settings.push_back({knob.name, value});
+    return settings;
+}
+
+/// Multiples of the numbers that a text defines by a name of heights or scales. Each is compiled: of at most
+/// four names.
+std::vector<Setting> multiples_of_definitions(const ProbeBench& bench) {
+    std::vector<DefinedNumber> numbers =
+        defined_numbers(bench.scene(), {"height", "ampl", "scale", "steep", "chop"});
+    numbers.resize(std::min<size_t>(numbers.size(), 4));
+    std::vector<Setting> settings;
+    for (const DefinedNumber& number : numbers) {
+        const auto promised = bench.promises().ranges.find(number.name);
+        for (const double factor : k_multiples) {
+            double multiple = factor * number.value;
+            if (promised != bench.promises().ranges.end())
+                multiple = std::clamp(multiple, promised->second.first, promised->second.second);
+            settings.push_back({number.name, number.whole ? fmt::format("{:.0f}", std::floor(multiple))
+                                                          : fmt::format("{:#.9g}", multiple)});
+        }
+    }
+    return settings;
+}
+
+std::vector<Situation> stiff_situations(const ProbeBench& bench) {
+    std::vector<Situation> situations;
+    for (const scene::Knob& knob : bench.scene().knobs)
+        for (const Setting& setting : ends_and_multiples(knob, bench.promises())) {
+            situations.push_back(typical_view());
+            situations.back().settings = {setting};
+        }
+    for (const Setting& setting : multiples_of_definitions(bench)) {
+        situations.push_back(typical_view());
+        situations.back().definitions = {setting};
+    }
+    return situations;
+}
+
+} // namespace
+
+Result<Answer> ask_witnesses(ProbeBench& bench) {
+    return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_witness_percent,
+                        "take a sample below the surface");
+}
+
+Result<Answer> ask_budget(ProbeBench& bench) {
+    return most_flagged(bench, glsl::k_hit_exhausted, bench.promises().most_exhausted_percent,
+                        "run out of steps");
+}
+
+Result<Answer> ask_stiffness(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
+    double most = -1;
+    for (const Situation& situation : stiff_situations(bench)) {
+        const std::string set =
+            to_string(merged(situation.settings.empty() ? situation.definitions : situation.settings));
+        const auto hits = bench.hits(situation);
+        if (!hits)
+            return fail(hits.error());
+        if (const double nothing = unanswered(*hits); nothing > 0)
+            return Answer{Verdict::fail,
+                          fmt::format("{}: {:.3g} % of the distances are no number", set, nothing),
+                          situation};
+        const double witnesses = flagged(*hits, glsl::k_hit_negative);
+        if (witnesses <= most)
+            continue;
+        most = witnesses;
+        answer = {witnesses > bench.promises().most_witness_percent ? Verdict::warn : Verdict::pass,
+                  fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
+                              "{:.3g} % run out of steps",
+                              set, witnesses, flagged(*hits, glsl::k_hit_exhausted)),
+                  {},
+                  {}};
+        if (answer.verdict == Verdict::warn)
+            answer.where = situation;
+    }
+    return answer;
+}
+
+} // namespace tidemark::lab

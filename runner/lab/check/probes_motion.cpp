@@ -1,0 +1,175 @@
+// The same again, and the next pixel of the mouse.
+#include "image/census.hpp"
+#include "image/compare/metrics.hpp"
+#include "lab/check/probes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+namespace tidemark::lab {
+namespace {
+
+/// Narrow and high: small steps of the mouse in few pixels.
+constexpr Extent k_narrow{16, 180};
+/// A step that changes the picture so much more than the steps before and after it is a turn.
+constexpr double k_turn = 4; // dB
+/// Pictures that are closer do not jump, however alike their neighbours are.
+constexpr double k_alike = 60; // dB
+
+} // namespace
+
+Result<Answer> ask_repeats(ProbeBench& bench) {
+    const Situation situation{.time = 2};
+    const auto first = bench.picture(situation);
+    if (!first)
+        return fail(first.error());
+    const auto same = [&](const Result<image::Image>& other) {
+        return other && other->bytes == first->bytes;
+    };
+    const auto say_no = [&](const char* when) {
+        return Answer{Verdict::fail, fmt::format("another picture {}", when), situation, *first};
+    };
+    if (!same(bench.picture(situation)))
+        return say_no("at once again");
+    (void)bench.picture({.time = 7});
+    if (!same(bench.picture(situation)))
+        return say_no("after another frame");
+    if (!same(bench.fresh_picture(situation)))
+        return say_no("after compiling anew");
+    return Answer{Verdict::pass, "the same bytes again, after another frame and compiled anew"};
+}
+
+namespace {
+
+/// The mouse moved by a pixel at a time along one side of the picture, the other in the middle.
+struct Sweep {
+    const char* axis;
+    Extent extent;
+    int length;
+    std::function<glm::ivec2(int)> at;
+};
+
+/// The step that changes the picture most beside its neighbours, and the first picture with no numbers in it.
+struct Swept {
+    bool changes = false;
+    double most = 0; ///< dB less than the steps before and after it
+    double psnr = 0;
+    int step = 1; ///< from this pixel to the next
+    std::optional<int> not_finite{};
+};
+
+Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
+    Swept found;
+    std::vector<double> steps;
+    std::optional<image::Image> last;
+    for (int pixel = 1; pixel < sweep.length; ++pixel) {
+        auto picture = bench.picture({.extent = sweep.extent, .mouse = sweep.at(pixel)});
+        if (!picture)
+            return fail(std::move(picture.error()));
+        if (!found.not_finite && image::census(*picture).non_finite() > 0)
+            found.not_finite = pixel;
+        if (last)
+            steps.push_back(image::compare(*last, *picture)->psnr);
+        last = *std::move(picture);
+    }
+    found.changes = !std::ranges::all_of(steps, [](double psnr) { return std::isinf(psnr); });
+    for (size_t i = 1; i + 1 < steps.size(); ++i)
+        if (const double drop = std::min(steps[i - 1], steps[i + 1]) - steps[i]; drop > found.most) {
+            found.most = drop;
+            found.psnr = steps[i];
+            found.step = int(i) + 1;
+        }
+    return found;
+}
+
+/// The answer, where there is a fault.
+Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const Swept& found) {
+    const auto show = [&](int pixel, std::string sentence) -> Result<std::optional<Answer>> {
+        const Situation where{.extent = sweep.extent, .mouse = sweep.at(pixel)};
+        auto picture = bench.picture(where);
+        if (!picture)
+            return fail(std::move(picture.error()));
+        return Answer{Verdict::fail, std::move(sentence), where, *std::move(picture)};
+    };
+    if (found.not_finite)
+        return show(*found.not_finite,
+                    fmt::format("the picture is not finite with the mouse at {} = {} of {}", sweep.axis,
+                                *found.not_finite, sweep.length));
+    if (found.most > k_turn)
+        return show(
+            found.step + 1,
+            fmt::format("the mouse from {} = {} to {} of {} turns the picture: {:.1f} dB, {:.1f} less than "
+                        "the steps beside it",
+                        sweep.axis, found.step, found.step + 1, sweep.length, found.psnr, found.most));
+    return std::optional<Answer>{};
+}
+
+} // namespace
+
+Result<Answer> ask_camera(ProbeBench& bench) {
+    const Sweep sweeps[] = {
+        {"y", k_narrow, k_narrow.height, [](int y) { return glm::ivec2(k_narrow.width / 2, y); }},
+        {"x", {k_narrow.height, k_narrow.width}, k_narrow.height, [](int x) {
+             return glm::ivec2(x, k_narrow.width / 2);
+         }}};
+    bool changes = false;
+    double most = 0;
+    for (const Sweep& sweep : sweeps) {
+        const auto found = swept(bench, sweep);
+        if (!found)
+            return fail(found.error());
+        auto answer = fault(bench, sweep, *found);
+        if (!answer)
+            return fail(std::move(answer.error()));
+        if (*answer)
+            return **std::move(answer);
+        changes |= found->changes;
+        most = std::max(most, found->most);
+    }
+    if (!changes)
+        return Answer{Verdict::not_applicable, "the mouse changes nothing"};
+    return Answer{Verdict::pass,
+                  fmt::format("one pixel of the mouse changes the picture evenly, to {:.1f} dB", most)};
+}
+
+Result<Answer> ask_clicks(ProbeBench& bench) {
+    const Extent size = Situation().extent;
+    const std::pair<const char*, glm::ivec2> edges[] = {{"column", {0, size.height / 2}},
+                                                        {"row", {size.width / 2, 0}}};
+    for (const auto& [name, first] : edges) {
+        const glm::ivec2 inwards = first.x == 0 ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
+        std::vector<image::Image> pictures;
+        for (int pixel = 0; pixel < 3; ++pixel) {
+            auto picture = bench.picture({.mouse = first + pixel * inwards});
+            if (!picture)
+                return fail(std::move(picture.error()));
+            pictures.push_back(*std::move(picture));
+        }
+        const double edge = image::compare(pictures[0], pictures[1])->psnr;
+        const double next = std::min(image::compare(pictures[1], pictures[2])->psnr, k_alike);
+        if (next - edge > k_turn)
+            return Answer{
+                Verdict::fail,
+                fmt::format("a click in {0} 0 shows another view than in {0} 1: {1:.1f} dB, and {2:.1f} "
+                            "from there to the next",
+                            name, edge, next),
+                Situation{.mouse = first}, pictures[0]};
+    }
+    const auto untouched = bench.picture({});
+    const auto corner = bench.picture({.mouse = glm::ivec2(1, 1)});
+    if (!untouched || !corner)
+        return fail(!untouched ? untouched.error() : corner.error());
+    const double psnr = image::compare(*untouched, *corner)->psnr;
+    return Answer{std::isinf(psnr) ? Verdict::not_applicable : Verdict::pass,
+                  std::isinf(psnr)
+                      ? std::string("a click changes nothing")
+                      : fmt::format("clicks at the edges are clicks; the first one in the corner changes "
+                                    "the picture to {:.1f} dB",
+                                    psnr)};
+}
+
+} // namespace tidemark::lab

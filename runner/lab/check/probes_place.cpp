@@ -1,0 +1,254 @@
+// Where a camera may stand and look, of scenes with mainHit: under the surface, far away, along the horizon,
+// to the far plane. A probe moves the orbit camera of a scene that declares iCamera, or its knob
+// camera_position.
+#include "image/census.hpp"
+#include "lab/check/probes.hpp"
+#include "lab/check/rays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace tidemark::lab {
+namespace {
+
+const scene::Knob* knob_of(const scene::Scene& scene, std::string_view name) {
+    const auto found = std::ranges::find(scene.knobs, name, &scene::Knob::name);
+    return found == scene.knobs.end() ? nullptr : &*found;
+}
+
+bool has_orbit_camera(const scene::Scene& scene) {
+    return scene.image().text.text().find("iCamera") != std::string::npos;
+}
+
+Situation moved(const scene::Knob& position, const glm::dvec3& by) {
+    scene::KnobValue value = position.value;
+    for (int i = 0; i < 3; ++i)
+        value[size_t(i)] += by[i];
+    Situation situation = typical_view();
+    situation.settings = {{position.name, scene::to_string(position, value)}};
+    return situation;
+}
+
+/// `distance` units from where the camera stands; none: the scene has no camera that can be moved.
+std::optional<Situation> away(const ProbeBench& bench, double distance) {
+    if (const scene::Knob* position = knob_of(bench.scene(), "camera_position"))
+        return moved(*position, {distance, 0, distance});
+    if (!has_orbit_camera(bench.scene()))
+        return std::nullopt;
+    Situation situation = typical_view();
+    situation.camera = render::OrbitCamera{.distance = 10 + distance};
+    return situation;
+}
+
+std::vector<Situation> below_and_above(const ProbeBench& bench) {
+    std::vector<Situation> situations;
+    if (const scene::Knob* position = knob_of(bench.scene(), "camera_position")) {
+        for (const double height : {-3.0, -30.0, 1e3, 1e5})
+            situations.push_back(moved(*position, {0, height, 0}));
+        return situations;
+    }
+    for (const double distance : {0.01, 1.0}) {
+        situations.push_back(typical_view());
+        situations.back().camera = render::OrbitCamera{.distance = distance};
+    }
+    for (const double elevation : {-20.0, -89.9, 89.9}) {
+        situations.push_back(typical_view());
+        situations.back().camera = render::OrbitCamera{.elevation = elevation};
+    }
+    return situations;
+}
+
+/// What is wrong there with the picture or with the rays, as a sentence; empty: nothing is.
+Result<std::string> broken(ProbeBench& bench, const Situation& situation) {
+    const auto passes = bench.passes(situation);
+    if (!passes)
+        return fail(passes.error());
+    for (const PassPicture& pass : *passes)
+        if (const size_t count = image::census(pass.picture).non_finite(); count > 0)
+            return fmt::format("{} samples of {} are no number", count, pass.pass);
+    const auto hits = bench.hits(situation);
+    if (!hits)
+        return fail(hits.error());
+    const double lost = unanswered(*hits);
+    return lost > 0 ? fmt::format("{:.3g} % of the distances are no number", lost) : std::string();
+}
+
+std::string place_of(const Situation& situation) {
+    return situation.camera ? fmt::format("--camera {},{},{}", situation.camera->azimuth,
+                                          situation.camera->elevation, situation.camera->distance)
+                            : to_string(situation.settings);
+}
+
+/// How far out rays meet the same in float and double.
+Result<Answer> how_far(ProbeBench& bench) {
+    double good = 0;
+    for (const double distance : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+        const Situation situation = *away(bench, distance);
+        const auto wrong = broken(bench, situation);
+        if (!wrong)
+            return fail(wrong.error());
+        if (!wrong->empty())
+            return Answer{Verdict::fail, place_of(situation) + ": " + *wrong, situation};
+        const auto both = parting(bench, situation);
+        if (!both)
+            return Answer{Verdict::pass,
+                          "finite below, above and to 1e6 units away; not to be had in double"};
+        if (both->parted <= k_same) {
+            good = distance;
+            continue;
+        }
+        const bool kept = good >= bench.promises().space_horizon;
+        return Answer{
+            kept ? Verdict::pass : Verdict::fail,
+            fmt::format("good to {:g} units away; at {:g} {:.3g} % of the rays meet something else than "
+                        "in double",
+                        good, distance, both->parted),
+            situation, both->map};
+    }
+    return Answer{Verdict::pass,
+                  "float and double meet the same to 1e6 units away; finite below and high above"};
+}
+
+/// Mouse heights at which part of the rays meet something and part nothing: the horizon is in sight.
+Result<std::vector<Situation>> views_of_the_horizon(ProbeBench& bench) {
+    std::vector<Situation> views;
+    std::vector<Situation> candidates;
+    if (has_orbit_camera(bench.scene()))
+        for (const double elevation : {0.0, 0.1, 1.0, 3.0}) {
+            candidates.push_back({.extent = k_ray_extent, .time = 10});
+            candidates.back().camera = render::OrbitCamera{.elevation = elevation};
+        }
+    else
+        for (int y = 1; y < k_ray_extent.height; y += 3)
+            candidates.push_back(
+                {.extent = k_ray_extent, .time = 10, .mouse = glm::ivec2(k_ray_extent.width / 2, y)});
+    for (const Situation& candidate : candidates) {
+        const auto hits = bench.hits(candidate);
+        if (!hits)
+            return fail(hits.error());
+        const double met = percent(*hits, [&](size_t i) { return hits->distance[i] >= 0; });
+        if (met > 5 && met < 95)
+            views.push_back(candidate);
+    }
+    return views;
+}
+
+/// A picture of an odd height whose middle row looks exactly level, where the camera can be told to.
+std::optional<Situation> level_view(const scene::Scene& scene) {
+    Situation situation{.extent = {k_ray_extent.width, k_ray_extent.height + 1}, .time = 10};
+    if (has_orbit_camera(scene)) {
+        situation.camera = render::OrbitCamera{.elevation = 0};
+        return situation;
+    }
+    const scene::Knob* turn = knob_of(scene, "default_turn");
+    if (!turn)
+        return std::nullopt;
+    situation.settings = {{turn->name, scene::to_string(*turn, {turn->value[0], 0.5, 0, 0})}};
+    return situation;
+}
+
+} // namespace
+
+Result<Answer> ask_places(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    if (!away(bench, 0))
+        return Answer{Verdict::not_applicable, "no iCamera and no knob camera_position to move"};
+    for (const Situation& situation : below_and_above(bench)) {
+        const auto wrong = broken(bench, situation);
+        if (!wrong)
+            return fail(wrong.error());
+        if (!wrong->empty())
+            return Answer{Verdict::fail, place_of(situation) + ": " + *wrong, situation};
+    }
+    return how_far(bench);
+}
+
+Result<Answer> ask_grazing(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    auto views = views_of_the_horizon(bench);
+    if (!views)
+        return fail(std::move(views.error()));
+    const size_t turned = views->size();
+    if (const auto level = level_view(bench.scene()))
+        views->push_back(*level);
+    if (views->empty())
+        return Answer{Verdict::not_applicable, "the mouse never turns the horizon into sight"};
+    Answer answer;
+    double most = -1;
+    for (const Situation& view : *views) {
+        const auto hits = bench.hits(view);
+        if (!hits)
+            return fail(hits.error());
+        if (const double lost = unanswered(*hits); lost > 0)
+            return Answer{Verdict::fail, fmt::format("{:.3g} % of the distances are no number", lost), view};
+        const double out = flagged(*hits, glsl::k_hit_exhausted);
+        if (out <= most)
+            continue;
+        most = out;
+        answer.sentence =
+            fmt::format("{:.3g} % of the rays run out of steps in the worst of {} views of the "
+                        "horizon{}, {:.3g} samples a ray",
+                        out, views->size(), views->size() > turned ? ", one with level rays" : "",
+                        mean_evaluations(*hits));
+        answer.where = view;
+        answer.picture = ray_map(*hits, view.extent,
+                                 [&](size_t i) { return (hits->flags[i] & glsl::k_hit_exhausted) != 0; });
+    }
+    if (most > bench.promises().most_exhausted_percent) {
+        answer.verdict = Verdict::fail;
+        answer.sentence +=
+            fmt::format("; promised are at most {:g} %", bench.promises().most_exhausted_percent);
+    } else {
+        answer.where.reset();
+        answer.picture.reset();
+    }
+    return answer;
+}
+
+/// A far plane that moves by a thousandth may take or give what lies beyond it, and nothing before it.
+Result<Answer> ask_far(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    const scene::Knob* far = knob_of(bench.scene(), "far_distance");
+    if (!far)
+        return Answer{Verdict::not_applicable, "no knob far_distance to move"};
+    double most = -1, beyond = 0;
+    Answer answer;
+    for (Situation view : usual_views()) {
+        const auto before = bench.hits(view);
+        const double moved_to = 1.001 * far->value[0];
+        view.settings = {{far->name, scene::to_string(*far, {moved_to, 0, 0, 0})}};
+        const auto after = bench.hits(view);
+        if (!before || !after)
+            return fail(!before ? before.error() : after.error());
+        const double last = far->value[0] * (1 - 1e-6);
+        const double flickers = percent(*before, [&](size_t i) {
+            const double one = before->distance[i], other = after->distance[i];
+            const bool near = (one >= 0 && one < last) || (other >= 0 && other < last);
+            return near && !(std::abs(one - other) <= std::max(one, other) / view.extent.height);
+        });
+        beyond +=
+            percent(*before, [&](size_t i) { return before->distance[i] > far->value[0] * (1 + 1e-6); });
+        if (flickers <= most)
+            continue;
+        most = flickers;
+        answer.where = view;
+    }
+    answer.sentence =
+        fmt::format("{:.3g} % of the rays meet something else before the far plane when it moves by "
+                    "a thousandth",
+                    most);
+    if (beyond > 0)
+        answer.sentence += "; some meet something beyond it";
+    answer.verdict = most > k_same || beyond > 0 ? Verdict::fail : Verdict::pass;
+    if (answer.verdict == Verdict::pass)
+        answer.where.reset();
+    return answer;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,162 @@
+// What other GPUs, drivers and roundings would make of the picture.
+#include "glsl/watch/variation.hpp"
+#include "image/compare/difference.hpp"
+#include "image/compare/metrics.hpp"
+#include "lab/check/picture_gap.hpp"
+#include "lab/check/probe_text.hpp"
+#include "lab/check/probes.hpp"
+#include "lab/trace/stand_in.hpp"
+
+#include <fmt/format.h>
+
+#include <span>
+
+namespace tidemark::lab {
+namespace {
+
+/// Late enough for arguments of sines to have grown as they do while people look.
+const Situation k_situation{.time = 10};
+
+struct Mode {
+    int number;
+    const char* name;
+};
+
+/// One way to write a text, and what it stands for.
+struct Manner {
+    glsl::Variation (*vary)(const glsl::ParsedText& text, const glsl::TreeFacts& facts);
+    std::vector<Mode> modes;
+};
+
+/// What the modes of one manner change, over all passes.
+class PortabilityProbe {
+public:
+    explicit PortabilityProbe(ProbeBench& bench) : bench_(bench) {}
+
+    /// Fails where a text cannot be written in that manner, or the driver refuses it.
+    Result<void> add(const Manner& manner) {
+        const auto texts = read_texts(bench_, false);
+        if (!texts)
+            return fail(texts.error());
+        for (const PassText& pass : *texts)
+            if (const auto varied = manner.vary(*pass.text, pass.facts); varied.places > 0)
+                if (auto done = compare(pass.pass, varied, manner.modes); !done)
+                    return done;
+        return {};
+    }
+
+    bool asked() const { return asked_; }
+
+    Answer answer(const std::string& sound) {
+        if (visible_.empty())
+            return {Verdict::pass, sound + ": " + (said_.empty() ? "the same picture" : listed(said_))};
+        Answer answer{Verdict::warn, "another picture with " + listed(visible_), k_situation,
+                      std::move(picture_)};
+        answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
+        return answer;
+    }
+
+private:
+    Result<void> compare(size_t pass, const glsl::Variation& varied, std::span<const Mode> modes) {
+        const auto renderer = bench_.poised(k_situation);
+        if (!renderer)
+            return fail(renderer.error());
+        const render::FrameInputs inputs = inputs_of(k_situation);
+        (*renderer)->draw_before(pass, inputs);
+        const Moment moment{**renderer, pass, inputs};
+        auto stand_in = StandIn::link(moment, varied.text, "a variation of the text");
+        if (!stand_in)
+            return fail(std::move(stand_in.error()));
+        asked_ = true;
+        std::vector<image::Image> others;
+        for (const Mode& mode : modes)
+            others.push_back(drawn(*stand_in, moment, varied, mode.number));
+        const image::Image plain = varied.mode_uniform.empty() ? as_drawn(**renderer, pass, inputs)
+                                                               : drawn(*stand_in, moment, varied, 0);
+        for (size_t i = 0; i < modes.size(); ++i)
+            note(pass, modes[i], plain, others[i]);
+        return {};
+    }
+
+    static image::Image drawn(StandIn& stand_in, const Moment& moment, const glsl::Variation& varied,
+                              int mode) {
+        stand_in.set(varied.mode_uniform, mode);
+        stand_in.draw(moment);
+        return stand_in.picture();
+    }
+
+    /// By the author's own text; the renderer is behind that frame then.
+    static image::Image as_drawn(render::Renderer& renderer, size_t pass, const render::FrameInputs& inputs) {
+        renderer.draw(inputs);
+        return renderer.read_floats(pass);
+    }
+
+    void note(size_t pass, const Mode& mode, const image::Image& plain, const image::Image& other) {
+        const double gap = p99_difference(plain, other);
+        const auto difference = image::compare(plain, other);
+        const std::string said = difference->equal()
+                                     ? fmt::format("{}: the same bytes", mode.name)
+                                     : fmt::format("{}: {:.1f} dB", mode.name, difference->psnr);
+        if (gap <= k_visible_gap) {
+            if (!difference->equal())
+                said_.push_back(said);
+            return;
+        }
+        visible_.push_back(fmt::format("{}, 1 % of the pixels by {:.2g} or more", said, gap));
+        if (gap <= worst_)
+            return;
+        worst_ = gap;
+        pass_ = pass;
+        picture_ = image::difference_picture(plain, other, 1);
+    }
+
+    ProbeBench& bench_;
+    bool asked_ = false;
+    std::vector<std::string> said_;    ///< what differs, and does not show
+    std::vector<std::string> visible_; ///< what shows
+    double worst_ = 0;
+    size_t pass_ = 0;
+    std::optional<image::Image> picture_;
+};
+
+} // namespace
+
+Result<Answer> ask_sine(ProbeBench& bench) {
+    using glsl::SineMode;
+    PortabilityProbe probe(bench);
+    const Manner sines{glsl::vary_sines,
+                       {{int(SineMode::unit_up), "sines a unit in the last place larger"},
+                        {int(SineMode::unit_down), "sines a unit smaller"},
+                        {int(SineMode::like_nvidia), "a sine like NVIDIA's"}}};
+    if (auto done = probe.add(sines); !done)
+        return Answer{Verdict::not_applicable, to_string(done.error())};
+    if (!probe.asked())
+        return Answer{Verdict::not_applicable, "the scene has no sine"};
+    return probe.answer("other GPUs' sines");
+}
+
+Result<Answer> ask_rounding(ProbeBench& bench) {
+    PortabilityProbe probe(bench);
+    const Manner manners[] = {
+        {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger"}}},
+        {glsl::vary_precision, {{0, "everything `precise`"}}},
+        {glsl::vary_rounding, {{1, "sums and products a unit off"}}},
+    };
+    for (const Manner& manner : manners)
+        if (auto done = probe.add(manner); !done)
+            return Answer{Verdict::not_applicable, to_string(done.error())};
+    return probe.answer("rounded otherwise");
+}
+
+Result<Answer> ask_halves(ProbeBench& bench) {
+    PortabilityProbe probe(bench);
+    if (auto done =
+            probe.add({glsl::vary_halves, {{1, "sums and products in halves, as phones have `mediump`"}}});
+        !done)
+        return Answer{Verdict::not_applicable, to_string(done.error())};
+    if (!probe.asked())
+        return Answer{Verdict::not_applicable, "nothing is `mediump` or `lowp`"};
+    return probe.answer("in halves");
+}
+
+} // namespace tidemark::lab

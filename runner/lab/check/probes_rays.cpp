@@ -1,0 +1,222 @@
+// What floats lose of the rays of scenes with mainHit, held against the same scene in doubles: as time goes
+// on, near the surface, far out on the lattice of a noise, in waves that fold over.
+#include "lab/check/defined_numbers.hpp"
+#include "lab/check/probes.hpp"
+#include "lab/check/rays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+Answer without_doubles(const Error& error) {
+    return {Verdict::not_applicable, "not to be had in double: " + to_string(error)};
+}
+
+} // namespace
+
+Result<Answer> ask_rays(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    double good = 0;
+    for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+        Situation situation = typical_view();
+        situation.time = time + 1.0 / 3; // a moment like most, which is no float
+        const auto both = parting(bench, situation);
+        if (!both)
+            return without_doubles(both.error());
+        if (both->parted <= k_same) {
+            good = time;
+            continue;
+        }
+        const bool kept = good >= bench.promises().time_horizon;
+        return Answer{kept        ? Verdict::pass
+                      : good == 0 ? Verdict::warn
+                                  : Verdict::fail,
+                      fmt::format("{}; at {:g} s {:.3g} % of the rays meet something else than in double, by "
+                                  "more than a pixel's width",
+                                  good == 0 ? std::string("never good") : fmt::format("good to {:g} s", good),
+                                  time, both->parted),
+                      situation, both->map};
+    }
+    return Answer{Verdict::pass, "float and double meet the same up to 1e6 s, to a pixel's width"};
+}
+
+/// A solver that waits for a smaller value than the rounding of its field leaves will wait in vain; in
+/// doubles the same value comes.
+Result<Answer> ask_epsilon(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    Answer answer;
+    double most = -1;
+    for (const Situation& view : usual_views()) {
+        const auto both = parting(bench, view);
+        if (!both)
+            return without_doubles(both.error());
+        const double out = flagged(both->in_float, glsl::k_hit_exhausted);
+        const double out_anyway = flagged(both->in_double, glsl::k_hit_exhausted);
+        if (out - out_anyway <= most)
+            continue;
+        most = out - out_anyway;
+        answer.sentence =
+            fmt::format("{:.3g} % of the rays run out of steps in float, {:.3g} % in double; samples "
+                        "a ray: {:.3g} and {:.3g}",
+                        out, out_anyway, mean_evaluations(both->in_float), mean_evaluations(both->in_double));
+        answer.where = view;
+        answer.picture = ray_map(both->in_float, view.extent, [&](size_t i) {
+            return (both->in_float.flags[i] & glsl::k_hit_exhausted) != 0;
+        });
+    }
+    if (most > std::max(bench.promises().most_exhausted_percent, k_same)) {
+        answer.verdict = Verdict::fail;
+        answer.sentence += ": the solver waits for a value below the rounding of its field";
+    } else {
+        answer.where.reset();
+        answer.picture.reset();
+    }
+    return answer;
+}
+
+namespace {
+
+/// A number of octaves that a text defines or a knob sets.
+struct Count {
+    std::string name;
+    double value;
+    bool knob;
+};
+
+std::vector<Count> counts_of_octaves(const scene::Scene& scene) {
+    std::vector<Count> counts;
+    for (const DefinedNumber& number : defined_numbers(scene, {"octave"}))
+        if (number.whole)
+            counts.push_back({number.name, number.value, false});
+    for (const scene::Knob& knob : scene.knobs)
+        if (speaks_of(knob.name, {"octave"}))
+            counts.push_back({knob.name, knob.value[0], true});
+    return counts;
+}
+
+/// As few as the scene allows, or one; and as many, or half as many again as it has.
+struct Extremes {
+    double least = 1;
+    double most = 0;
+    bool stated = true; ///< by the scene
+};
+Extremes extremes_of(const ProbeBench& bench, const Count& count) {
+    const auto promised = bench.promises().ranges.find(count.name);
+    if (promised != bench.promises().ranges.end())
+        return {promised->second.first, promised->second.second};
+    const auto knob = std::ranges::find(bench.scene().knobs, count.name, &scene::Knob::name);
+    if (count.knob && knob->range)
+        return {knob->range->low[0], knob->range->high[0]};
+    return {1, std::ceil(1.5 * count.value), false};
+}
+
+Situation with_octaves(const Count& count, double octaves) {
+    Situation situation = typical_view();
+    (count.knob ? situation.settings : situation.definitions) = {{count.name, fmt::format("{:g}", octaves)}};
+    return situation;
+}
+
+Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
+    const Extremes extremes = extremes_of(bench, count);
+    for (const double octaves : {extremes.least, extremes.most}) {
+        const Situation situation = with_octaves(count, octaves);
+        const auto hits = bench.hits(situation);
+        if (!hits)
+            return Answer{Verdict::warn,
+                          fmt::format("{} = {:g}: {}", count.name, octaves, to_string(hits.error()))};
+        if (const double lost = unanswered(*hits); lost > 0)
+            return Answer{
+                Verdict::fail,
+                fmt::format("{} = {:g}: {:.3g} % of the distances are no number", count.name, octaves, lost),
+                situation};
+    }
+    const Situation situation = with_octaves(count, extremes.most);
+    const auto both = parting(bench, situation);
+    if (!both)
+        return without_doubles(both.error());
+    Answer answer{Verdict::pass,
+                  fmt::format("with {} = {:g} {:.3g} % of the rays meet something else than in double",
+                              count.name, extremes.most, both->parted)};
+    if (both->parted > k_same) {
+        answer.verdict = extremes.stated ? Verdict::fail : Verdict::warn;
+        answer.sentence += ": floats do not hold the coordinates of so fine a lattice";
+        answer.where = situation;
+        answer.picture = both->map;
+    }
+    return answer;
+}
+
+} // namespace
+
+Result<Answer> ask_octaves(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    const std::vector<Count> counts = counts_of_octaves(bench.scene());
+    Answer all{Verdict::not_applicable, "no definition and no knob is a number of octaves"};
+    for (const Count& count : counts) {
+        auto answer = ask_count(bench, count);
+        if (!answer || answer->verdict != Verdict::pass)
+            return answer;
+        answer->sentence = (all.verdict == Verdict::pass ? all.sentence + "; " : "") + answer->sentence;
+        all = *std::move(answer);
+    }
+    return all;
+}
+
+/// A train of trochoidal waves is as steep as its height times its wavenumber; trains that add up to 1 and
+/// more fold over themselves, and the water over a place is no function of the place any more.
+Result<Answer> ask_folds(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    const auto knob = std::ranges::find_if(
+        bench.scene().knobs, [](const scene::Knob& each) { return speaks_of(each.name, {"steepness"}); });
+    double sum = 0;
+    if (knob != bench.scene().knobs.end())
+        for (const double part : knob->value)
+            sum += std::abs(part);
+    // A factor of another name, like a foam's, is not told from waves' where it alone moves no ray.
+    if (sum == 0)
+        return Answer{Verdict::not_applicable, "no knob is a steepness of waves"};
+    const auto as_is = bench.hits(typical_view());
+    if (!as_is)
+        return fail(as_is.error());
+    bool moves = false;
+    double calm = 0;
+    for (const double steepness : {0.75, 0.99, 1.0, 1.5}) {
+        Situation situation = typical_view();
+        scene::KnobValue value = knob->value;
+        bool inside = true;
+        for (size_t i = 0; i < value.size(); ++i) {
+            value[i] *= steepness / sum;
+            inside &= !knob->range || value[i] <= knob->range->high[i];
+        }
+        situation.settings = {{knob->name, scene::to_string(*knob, value)}};
+        const auto both = parting(bench, situation);
+        if (!both)
+            return without_doubles(both.error());
+        moves |= both->in_float.distance != as_is->distance;
+        const double lost = unanswered(both->in_float);
+        if (lost == 0 && both->parted <= k_same) {
+            calm = steepness;
+            continue;
+        }
+        return Answer{
+            inside || steepness < 1 ? Verdict::fail : Verdict::warn,
+            fmt::format("steepness that adds up to {:g}: crests fold over{}: {:.3g} % of the rays meet "
+                        "something else than in double, {:.3g} % of the distances are no number",
+                        steepness, inside ? "" : ", beyond the knob's range", both->parted, lost),
+            situation, both->map};
+    }
+    if (!moves)
+        return Answer{Verdict::not_applicable, fmt::format("{} moves no ray", knob->name)};
+    return Answer{Verdict::pass, fmt::format("no crest folds over, with {} that adds up to {:g} and less",
+                                             knob->name, calm)};
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,67 @@
+// What the text alone tells.
+#include "glsl/watch/divergence.hpp"
+#include "glsl/watch/unassigned.hpp"
+#include "lab/check/probe_text.hpp"
+#include "lab/check/probes.hpp"
+#include "scene/host_uniforms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+
+Result<Answer> ask_unassigned(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "not to be followed: " + to_string(texts.error())};
+    std::vector<std::string> found;
+    for (const PassText& pass : *texts)
+        for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
+            const bool unread = each.read == glsl::k_no_node;
+            const size_t word = pass.text->tree()[unread ? each.variable : each.read].word;
+            const std::string place = place_of(*pass.text, word);
+            const std::string said = fmt::format("{} ({}{})", pass.text->word_of(each.variable), place,
+                                                 unread ? ", an `out` that is never written" : "");
+            if (!place.empty() && std::ranges::find(found, said) == found.end())
+                found.push_back(said);
+        }
+    if (found.empty())
+        return Answer{Verdict::pass, "nothing is read before it has a value"};
+    return Answer{Verdict::warn,
+                  "read before it has a value, which is 0 on ShaderToy's site and here, and anything "
+                  "elsewhere: " +
+                      listed(found)};
+}
+
+Result<Answer> ask_divergence(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "not to be followed: " + to_string(texts.error())};
+    std::vector<std::string> found;
+    for (const PassText& pass : *texts) {
+        const scene::Channels& channels = bench.scene().passes[pass.pass].channels;
+        const auto has_mipmaps = [&](std::string_view sampler) {
+            const auto name = std::ranges::find(scene::k_channel_names, sampler);
+            return name != scene::k_channel_names.end() &&
+                   channels[size_t(name - scene::k_channel_names.begin())].sampling.mipmaps !=
+                       scene::Mipmaps::none;
+        };
+        const glsl::ParsedText& text = *pass.text;
+        for (const glsl::Divergent& each : glsl::find_divergent(text, pass.facts, has_mipmaps)) {
+            const std::string place = place_of(text, text.tree()[each.call].begin);
+            const std::string way = each.condition == glsl::k_no_node
+                                        ? std::string("where its function is called")
+                                        : place_of(text, text.tree()[each.condition].begin);
+            if (!place.empty())
+                found.push_back(
+                    fmt::format("{} ({}, parted at {})", glsl::called_name(text, each.call), place, way));
+        }
+    }
+    if (found.empty())
+        return Answer{Verdict::pass, "neighbours are at hand wherever they are asked for"};
+    return Answer{Verdict::warn,
+                  "needs neighbouring pixels that may have gone another way: " + listed(found)};
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,53 @@
+// Large pictures are drawn in tiles (render/tile_grid.hpp): whether their seams would show.
+#include "lab/check/probes.hpp"
+#include "render/bands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+namespace {
+
+/// Odd, so that tiles stick out on both sides.
+constexpr Extent k_odd{61, 37};
+constexpr Extent k_tile{16, 8};
+
+size_t different_pixels(const image::Image& left, const image::Image& right) {
+    const auto pixel = std::ptrdiff_t(left.row_bytes()) / left.extent.width;
+    size_t count = 0;
+    for (auto a = left.bytes.begin(), b = right.bytes.begin(); a != left.bytes.end(); a += pixel, b += pixel)
+        count += !std::equal(a, a + pixel, b);
+    return count;
+}
+
+} // namespace
+
+Result<Answer> ask_tiles(ProbeBench& bench) {
+    const Situation situation{.extent = k_odd, .time = 0}; // no frame goes before
+    const render::FrameInputs inputs = inputs_of(situation);
+    const auto drawn = [&](std::optional<Extent> tile) {
+        auto renderer = render::Renderer::create(
+            bench.scene(), {.extent = k_odd, .samples = image::SampleType::f32, .tile = tile});
+        if (renderer)
+            renderer->draw(inputs);
+        return renderer;
+    };
+    const auto cut = drawn(k_tile);
+    if (!cut)
+        return fail(cut.error());
+    if (!cut->tiles())
+        return Answer{Verdict::not_applicable, "a pass reads the picture, which is drawn whole at any size"};
+    const image::Image tiled = render::draw_in_tiles(*cut, inputs);
+    const auto whole = drawn(std::nullopt);
+    if (!whole)
+        return fail(whole.error());
+    if (const size_t different = different_pixels(tiled, whole->read_back()))
+        return Answer{Verdict::fail,
+                      fmt::format("{} of {} pixels are others in tiles of {}x{}", different,
+                                  tiled.extent.pixels(), k_tile.width, k_tile.height),
+                      situation, image::without_alpha(tiled)};
+    return Answer{Verdict::pass, fmt::format("the same bytes in {} tiles", cut->tiles()->count())};
+}
+
+} // namespace tidemark::lab

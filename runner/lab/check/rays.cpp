@@ -1,0 +1,89 @@
+#include "lab/check/rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tidemark::lab {
+namespace {
+
+bool parts(double here, double there, Extent extent) {
+    if (std::isnan(here) || std::isnan(there))
+        return std::isnan(here) != std::isnan(there);
+    if (here < 0 || there < 0)
+        return (here < 0) != (there < 0);
+    return std::abs(here - there) > std::max(here, there) / extent.height;
+}
+
+} // namespace
+
+std::vector<Situation> usual_views() {
+    std::vector<Situation> views{{.extent = k_ray_extent, .time = 10}};
+    for (const glm::dvec2 at : {glm::dvec2(0.5, 0.5), glm::dvec2(0.75, 0.4), glm::dvec2(0.3, 0.47)})
+        views.push_back({.extent = k_ray_extent,
+                         .time = 10,
+                         .mouse = glm::ivec2(at * glm::dvec2(k_ray_extent.width, k_ray_extent.height))});
+    return views;
+}
+
+Situation typical_view() {
+    return usual_views()[2];
+}
+
+double percent(const Hits& hits, const std::function<bool(size_t)>& counts) {
+    size_t count = 0;
+    for (size_t i = 0; i < hits.size(); ++i)
+        count += counts(i);
+    return 100.0 * double(count) / double(std::max<size_t>(hits.size(), 1));
+}
+
+double flagged(const Hits& hits, glsl::HitFlag flag) {
+    return percent(hits, [&](size_t i) { return (hits.flags[i] & flag) != 0; });
+}
+
+double unanswered(const Hits& hits) {
+    return percent(hits, [&](size_t i) { return std::isnan(hits.distance[i]); });
+}
+
+double mean_evaluations(const Hits& hits) {
+    return std::accumulate(hits.evaluations.begin(), hits.evaluations.end(), 0.0) /
+           double(std::max<size_t>(hits.size(), 1));
+}
+
+image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(size_t)>& marks) {
+    double nearest = 1e30;
+    for (const double distance : hits.distance)
+        if (distance > 0)
+            nearest = std::min(nearest, distance);
+    image::Image map(extent, 3, image::SampleType::f32);
+    for (size_t i = 0; i < hits.size(); ++i) {
+        const double distance = hits.distance[i];
+        const bool marked = std::isnan(distance) || marks(i);
+        const float grey = marked || !(distance > 0) ? 0.0f : float(std::sqrt(nearest / distance));
+        const float shown[] = {marked ? 1.0f : grey, grey, marked ? 1.0f : grey};
+        std::ranges::copy(shown, map.f32().begin() + std::ptrdiff_t(3 * i));
+    }
+    return map;
+}
+
+Answer without_hits() {
+    return {Verdict::not_applicable, "the scene has no mainHit"};
+}
+
+Result<Parting> parting(ProbeBench& bench, const Situation& situation) {
+    auto in_float = bench.hits(situation);
+    if (!in_float)
+        return fail(std::move(in_float.error()));
+    auto in_double = bench.hits(situation, glsl::Precision::promoted);
+    if (!in_double)
+        return fail(std::move(in_double.error()));
+    Parting both{*std::move(in_float), *std::move(in_double), {}, 0, {}};
+    for (size_t i = 0; i < both.in_float.size(); ++i)
+        both.parts.push_back(parts(both.in_float.distance[i], both.in_double.distance[i], situation.extent));
+    const auto marks = [&](size_t i) { return both.parts[i]; };
+    both.parted = percent(both.in_float, marks);
+    both.map = ray_map(both.in_float, situation.extent, marks);
+    return both;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,48 @@
+// What the rays of a scene with mainHit meet in a situation, in parts of all rays, and how much of that
+// floats lose: what probes of hits have in common.
+#pragma once
+
+#include "glsl/hit.hpp"
+#include "lab/check/probe.hpp"
+#include "lab/check/probe_bench.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace tidemark::lab {
+
+inline constexpr Extent k_ray_extent{96, 54};
+
+/// Straight, to the horizon, down and grazing, for scenes that turn with the mouse.
+std::vector<Situation> usual_views();
+/// The one of them that sees most of the surface.
+Situation typical_view();
+
+double percent(const Hits& hits, const std::function<bool(size_t)>& counts);
+double flagged(const Hits& hits, glsl::HitFlag flag);
+/// Distances that are no number.
+double unanswered(const Hits& hits);
+double mean_evaluations(const Hits& hits);
+
+/// The distances in grey, the nearest white; the rays that `marks` names, and those without an answer,
+/// magenta.
+image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(size_t)>& marks);
+
+Answer without_hits();
+
+/// A view in floats and in doubles; parts of all rays, percent.
+struct Parting {
+    Hits in_float;
+    Hits in_double;
+    /// Float meets something else: further off than a pixel is wide there.
+    std::vector<bool> parts;
+    double parted = 0; ///< how many
+    image::Image map;  ///< of them
+};
+/// The error of a scene that cannot be promoted.
+Result<Parting> parting(ProbeBench& bench, const Situation& situation);
+
+/// Of the rays, that may part where float and double show the same: silhouettes hang on the last bit.
+inline constexpr double k_same = 1; // percent
+
+} // namespace tidemark::lab

@@ -1,0 +1,61 @@
+#include "lab/check/situation.hpp"
+
+#include "render/mouse.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+namespace {
+
+std::string quoted(const std::string& word) {
+    return word.find_first_of(" ()'") == word.npos ? word : fmt::format("\"{}\"", word);
+}
+
+} // namespace
+
+render::FrameInputs inputs_of(const Situation& situation, int before) {
+    render::FrameInputs inputs;
+    inputs.time = situation.time - before * inputs.time_delta;
+    inputs.frame = render::frame_at(situation.time, inputs.frame_rate) - before;
+    if (situation.mouse)
+        inputs.mouse = render::Mouse::clicked(situation.mouse->x, situation.mouse->y, situation.down);
+    inputs.camera = situation.camera.value_or(render::OrbitCamera{}).matrix();
+    return inputs;
+}
+
+int run_up_of(const Situation& situation) {
+    constexpr int k_run_up = 8;
+    return std::min(inputs_of(situation).frame, k_run_up);
+}
+
+Result<scene::Scene> in_situation(scene::Scene scene, const Situation& situation) {
+    for (const std::string& channel : situation.channels)
+        if (auto set = scene::override_channel(scene, channel); !set)
+            return fail(std::move(set.error()));
+    auto turned = with(std::move(scene), situation.settings);
+    return turned ? with(*std::move(turned), situation.definitions) : turned;
+}
+
+std::string capture_options(const Situation& situation) {
+    std::string text = fmt::format("--size {}x{} --time {}", situation.extent.width, situation.extent.height,
+                                   situation.time);
+    if (situation.mouse)
+        text += fmt::format(" --mouse {},{}{}", situation.mouse->x, situation.mouse->y,
+                            situation.down ? ",down" : "");
+    if (situation.camera)
+        text += fmt::format(" --camera {},{},{}", situation.camera->azimuth, situation.camera->elevation,
+                            situation.camera->distance);
+    for (const Setting& setting : situation.settings)
+        text += " --set " + quoted(setting.name + "=" + setting.value);
+    for (const Setting& setting : situation.definitions)
+        text += " --define " + quoted(setting.name + "=" + setting.value);
+    for (const std::string& channel : situation.channels)
+        text += " --channel " + quoted(channel);
+    if (!situation.pass.empty())
+        text += " --pass " + quoted(situation.pass);
+    return text;
+}
+
+} // namespace tidemark::lab

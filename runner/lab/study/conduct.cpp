@@ -1,0 +1,285 @@
+#include "lab/study/conduct.hpp"
+
+#include "gl/capabilities.hpp"
+#include "lab/study/outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace tidemark::lab {
+namespace {
+
+class Conductor {
+public:
+    Conductor(const scene::Scene& scene, const Study& study, const Timing& timing, const Watch& watch,
+              const Circumstances& circumstances)
+        : scene_(scene), timing_(timing), watch_(watch) {
+        findings_.set.study = study;
+        findings_.set.circumstances = circumstances;
+        for (Point& point : points_of(study))
+            findings_.set.points.emplace_back().point = std::move(point);
+        specimens_.resize(set().points.size());
+        sights_.resize(set().points.size());
+    }
+
+    Result<Findings> run() {
+        if (auto named = check_settings(); !named)
+            return fail(std::move(named.error()));
+        for (const auto part : {&Conductor::look, &Conductor::find_truth})
+            if (auto done = (this->*part)(); !done)
+                return fail(std::move(done.error()));
+        hold_against_truth();
+        take_sources_away();
+        const bool complete = time_points(
+            timing_, watch_,
+            [this](size_t point, size_t view, bool ask_gpu) {
+                return specimens_[point]->time(study().views[view], ask_gpu);
+            },
+            findings_.set);
+        set().circumstances.complete = complete && !stopped_;
+        judge(set());
+        findings_.evidence.reference = std::move(truth_.pictures);
+        for (Sight& sight : sights_)
+            findings_.evidence.pictures.push_back(std::move(sight.pictures));
+        return std::move(findings_);
+    }
+
+private:
+    WorkPrecisionSet& set() { return findings_.set; }
+    const Study& study() const { return findings_.set.study; }
+
+    void remark(std::string text) {
+        auto& remarks = set().circumstances.remarks;
+        if (std::ranges::find(remarks, text) == remarks.end())
+            remarks.push_back(std::move(text));
+    }
+
+    bool going() {
+        stopped_ = stopped_ || !watch_.keep_going();
+        return !stopped_;
+    }
+
+    /// Names and values that the scene does not have are mistakes of the person who asked, all known at once.
+    Result<void> check_settings() {
+        std::vector<std::vector<Setting>> all{study().reference, study().model};
+        for (const ErrorSource& source : study().sources)
+            all.push_back(source.settings);
+        for (const WorkPrecision& point : set().points)
+            all.push_back(point.point.settings);
+        for (const auto& settings : all)
+            if (auto good = with(scene_, settings); !good)
+                return fail(std::move(good.error()));
+        return {};
+    }
+
+    /// What a recipe shows, drawn once: taking a source away makes many points the same.
+    Result<const Sight*> sight_of(const Recipe& recipe) {
+        std::vector<Setting> key = merged(recipe.settings);
+        std::ranges::sort(key, {}, &Setting::name);
+        const std::string name =
+            to_string(key) + (recipe.precision == glsl::Precision::single ? "" : ", in double");
+        const auto known = known_sights_.find(name);
+        if (known != known_sights_.end())
+            return &known->second;
+        auto specimen = Specimen::create(scene_, recipe, study().extent);
+        auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+        if (!sight)
+            return fail(std::move(sight.error()));
+        return &(known_sights_[name] = *std::move(sight));
+    }
+
+    Result<Sight> sight_of(Specimen& specimen) {
+        Sight sight;
+        for (const View& view : study().views) {
+            sight.pictures.push_back(specimen.picture(view));
+            if (!specimen.has_hits())
+                continue;
+            auto hits = specimen.hits(view);
+            if (!hits)
+                return fail(std::move(hits.error()));
+            sight.hits.push_back(*std::move(hits));
+        }
+        return sight;
+    }
+
+    /// Draws every point on every view.
+    Result<void> look() {
+        watch_.begin("points drawn", set().points.size());
+        for (size_t i = 0; i < set().points.size(); ++i) {
+            WorkPrecision& point = set().points[i];
+            if (!going()) {
+                point.failure = "interrupted";
+                continue;
+            }
+            auto specimen =
+                Specimen::create(scene_, {point.point.settings, study().precision}, study().extent);
+            auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+            if (!sight && i == 0) // the scene as it is
+                return fail(std::move(sight.error()));
+            if (sight) {
+                point.compile_milliseconds = specimen->compile_milliseconds();
+                point.first_draw_milliseconds = specimen->first_draw_milliseconds();
+                sights_[i] = *std::move(sight);
+                specimens_[i] = *std::move(specimen);
+            } else {
+                point.failure = to_string(sight.error());
+            }
+            watch_.advance();
+        }
+        return {};
+    }
+
+    Result<void> find_truth() {
+        watch_.begin("the reference", 1);
+        auto pictures = converged_pictures(scene_, study(), [this] { return going(); });
+        if (!pictures)
+            return fail(std::move(pictures.error()));
+        truth_recipe_ = {pictures->settings, pictures->precision};
+        if (!pictures->not_promoted.empty())
+            remark("the reference is in single precision: " + pictures->not_promoted);
+        set().picture_standard = std::move(pictures->standard);
+        truth_.pictures = std::move(pictures->views);
+        auto certified = certified_hits(scene_, study(), [this] { return going(); });
+        if (!certified)
+            return fail(std::move(certified.error()));
+        if (*certified) {
+            set().hit_standard = std::move((*certified)->standard);
+            truth_.hits = std::move((*certified)->views);
+            truth_.footprints = std::move((*certified)->footprints);
+            truth_.references = std::move((*certified)->references);
+            check_pictures_by_hits(pictures->hits);
+        } else if (!pictures->hits.empty()) {
+            set().hit_standard = std::move(pictures->hit_standard);
+            truth_.hits = std::move(pictures->hits);
+            truth_.footprints.assign(study().views.size(), plain_footprint(study().extent));
+        }
+        if (study().precision != glsl::Precision::single && set().has_hits())
+            allow_for_read_back(set().hit_standard);
+        watch_.advance();
+        return {};
+    }
+
+    /// Distances computed in double come out of mainHit as floats: no error is known better than that.
+    void allow_for_read_back(Standard& standard) const {
+        double squares = 0;
+        size_t count = 0;
+        for (const Hits& hits : truth_.hits)
+            for (const double distance : hits.distance)
+                if (distance >= 0) {
+                    squares += distance * distance;
+                    ++count;
+                }
+        const double rounding = 0x1p-24 * std::sqrt(squares / double(std::max<size_t>(1, count)));
+        if (standard.uncertainty)
+            standard.uncertainty = std::max(*standard.uncertainty, rounding);
+        standard.check += fmt::format("; distances are read back as floats, to {:.2g}", rounding);
+    }
+
+    /// Where a march has a proof, the rays of the pictures' reference are held against it.
+    void check_pictures_by_hits(const std::vector<Hits>& hits) {
+        Hits proved, drawn;
+        std::vector<double> footprints;
+        for (size_t view = 0; view < hits.size(); ++view) {
+            proved.append(truth_.hits[view]);
+            drawn.append(hits[view]);
+            footprints.insert(footprints.end(), truth_.footprints[view].begin(),
+                              truth_.footprints[view].end());
+        }
+        if (hits.empty())
+            return;
+        const HitErrors errors = hit_errors(proved, drawn, footprints);
+        set().picture_standard.check +=
+            fmt::format("; its rays against the certified march: RMS {:.2g}, {:.2g} % wrong", errors.rms,
+                        errors.wrong_tenth);
+    }
+
+    void hold_against_truth() {
+        const size_t views = study().views.size();
+        watch_.begin("points judged", set().points.size());
+        findings_.evidence.causes.resize(set().points.size());
+        for (size_t i = 0; i < set().points.size(); ++i) {
+            WorkPrecision& point = set().points[i];
+            for (size_t view = 0; point.failure.empty() && view < views; ++view) {
+                point.views.push_back(outcome_of(sights_[i], truth_, view));
+                if (point.views.back().hits)
+                    findings_.evidence.causes[i].push_back(
+                        cause_map(causes(truth_.hits[view], sights_[i].hits[view]), study().extent));
+            }
+            if (point.failure.empty())
+                point.all = outcome_of_all(sights_[i], truth_, point.views);
+            watch_.advance();
+        }
+    }
+
+    /// Each source's settings are added to those before; the step from one sight to the next is its share,
+    /// and the algorithm's is what then remains.
+    void take_sources_away() {
+        if (study().sources.empty() && study().model.empty())
+            return;
+        watch_.begin("points taken apart", set().points.size());
+        const Sight true_sight{truth_.pictures, truth_.hits};
+        const std::optional<Share> model = model_share(true_sight);
+        for (size_t i = 0; i < set().points.size() && going(); ++i) {
+            WorkPrecision& point = set().points[i];
+            Recipe recipe{point.point.settings, study().precision};
+            const Sight* before = &sights_[i];
+            for (const ErrorSource& source : study().sources) {
+                if (!point.measured())
+                    break;
+                recipe.settings.insert(recipe.settings.end(), source.settings.begin(), source.settings.end());
+                if (source.doubles && recipe.precision == glsl::Precision::single)
+                    recipe.precision = glsl::Precision::promoted;
+                const auto sight = sight_of(recipe);
+                if (!sight) {
+                    remark(
+                        fmt::format("the share of {} is missing: {}", source.name, to_string(sight.error())));
+                    continue;
+                }
+                point.shares.push_back(share_of(source.name, *before, **sight, truth_));
+                before = *sight;
+            }
+            if (point.measured())
+                point.shares.push_back(share_of("algorithm", *before, true_sight, truth_));
+            if (point.measured() && model)
+                point.shares.push_back(*model);
+            watch_.advance();
+        }
+    }
+
+    /// What the reference itself would change by without the scene's approximations: the same for every
+    /// point.
+    std::optional<Share> model_share(const Sight& true_sight) {
+        if (study().model.empty())
+            return std::nullopt;
+        Recipe recipe = truth_recipe_;
+        recipe.settings.insert(recipe.settings.end(), study().model.begin(), study().model.end());
+        const auto sight = sight_of(recipe);
+        if (sight) // of the picture alone: hits are a matter of the field
+            return Share{"model", 0, pooled_rmse((*sight)->pictures, true_sight.pictures)};
+        remark("the share of the model is missing: " + to_string(sight.error()));
+        return std::nullopt;
+    }
+
+    const scene::Scene& scene_;
+    const Timing& timing_;
+    const Watch& watch_;
+    Findings findings_;
+    std::vector<std::optional<Specimen>> specimens_; ///< by point; nothing for a point that failed
+    std::vector<Sight> sights_;
+    std::map<std::string, Sight> known_sights_;
+    Truth truth_;
+    Recipe truth_recipe_; ///< of the pictures
+    bool stopped_ = false;
+};
+
+} // namespace
+
+Result<Findings> conduct(const scene::Scene& scene, const Study& study, const Timing& timing,
+                         const Watch& watch, const Circumstances& circumstances) {
+    return Conductor(scene, study, timing, watch, circumstances).run();
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,250 @@
+#include "lab/study/report_data.hpp"
+
+#include "lab/study/verdict.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <functional>
+
+namespace tidemark::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+// ---- One list of the numbers of an outcome, for JSON and CSV alike
+// ------------------------------------------
+
+struct Column {
+    const char* group; ///< in JSON
+    const char* name;
+    std::function<double(const Outcome&)> of; ///< NaN: not measured
+};
+
+double missing() {
+    return std::nan("");
+}
+
+Column hit(const char* name, double HitErrors::*field) {
+    return {"hits", name, [field](const Outcome& o) { return o.hits ? (*o.hits).*field : missing(); }};
+}
+
+Column picture(const char* name, std::function<double(const image::PictureMetrics&)> of) {
+    return {"picture", name, [of = std::move(of)](const Outcome& o) { return of(o.picture); }};
+}
+
+Column time(const char* group, const char* name, TimeSummary Outcome::*clock,
+            std::function<double(const TimeSummary&)> of) {
+    return {group, name, [clock, of = std::move(of)](const Outcome& o) {
+                return (o.*clock).runs > 0 ? of(o.*clock) : missing();
+            }};
+}
+
+const std::vector<Column>& columns() {
+    using Metrics = image::PictureMetrics;
+    static const std::vector<Column> k_columns = [] {
+        std::vector<Column> list{
+            hit("rms_t", &HitErrors::rms),
+            hit("rms_right_t", &HitErrors::rms_right),
+            hit("median_t", &HitErrors::median),
+            hit("p95_t", &HitErrors::p95),
+            hit("p99_t", &HitErrors::p99),
+            hit("largest_t", &HitErrors::largest),
+            hit("false_miss_percent", &HitErrors::false_miss),
+            hit("false_hit_percent", &HitErrors::false_hit),
+            hit("wrong_0.01_percent", &HitErrors::wrong_hundredth),
+            hit("wrong_0.1_percent", &HitErrors::wrong_tenth),
+            hit("wrong_footprint_percent", &HitErrors::wrong_footprint),
+            hit("exhausted_percent", &HitErrors::exhausted),
+            hit("negative_sample_percent", &HitErrors::negative),
+            hit("no_answer_percent", &HitErrors::no_answer),
+            hit("evaluations_per_pixel", &HitErrors::evaluations),
+            {"hits", "normal_degrees_median",
+             [](const Outcome& o) { return o.normal_degrees.value_or(missing()); }},
+            picture("rmse", [](const Metrics& m) { return m.samples.rmse; }),
+            picture("psnr_db", [](const Metrics& m) { return m.samples.psnr; }),
+            picture("relative_mse", [](const Metrics& m) { return m.samples.relative_mse; }),
+            picture("largest", [](const Metrics& m) { return m.samples.largest; }),
+            picture("ssim", [](const Metrics& m) { return m.ssim; }),
+            picture("flip", [](const Metrics& m) { return m.flip; }),
+            picture("non_finite_pixels",
+                    [](const Metrics& m) {
+                        return double(m.samples.one_non_finite + m.samples.both_non_finite);
+                    }),
+        };
+        for (const auto& [group, clock] :
+             {std::pair{"wall_ms", &Outcome::wall}, {"cpu_ms", &Outcome::cpu}, {"gpu_ms", &Outcome::gpu}}) {
+            list.push_back(time(group, "median", clock, [](const TimeSummary& t) { return t.median; }));
+            list.push_back(
+                time(group, "ci95_low", clock, [](const TimeSummary& t) { return t.confidence.low; }));
+            list.push_back(
+                time(group, "ci95_high", clock, [](const TimeSummary& t) { return t.confidence.high; }));
+            list.push_back(time(group, "smallest", clock, [](const TimeSummary& t) { return t.smallest; }));
+            list.push_back(time(group, "p25", clock, [](const TimeSummary& t) { return t.first_quartile; }));
+            list.push_back(time(group, "p75", clock, [](const TimeSummary& t) { return t.third_quartile; }));
+            list.push_back(time(group, "runs", clock, [](const TimeSummary& t) { return double(t.runs); }));
+            list.push_back(time(group, "drift", clock, [](const TimeSummary& t) { return t.drift; }));
+        }
+        return list;
+    }();
+    return k_columns;
+}
+
+// ---- JSON -----------------------------------------------------------------------------------------------
+
+Json settings_json(const std::vector<Setting>& settings) {
+    Json json = Json::object();
+    for (const Setting& setting : settings)
+        json[setting.name] = setting.value;
+    return json;
+}
+
+bool measured(const WorkPrecisionSet& set, const Outcome& outcome, std::string_view group) {
+    return group == "hits"      ? set.has_hits()
+           : group == "picture" ? set.has_pictures()
+           : group == "gpu_ms"  ? outcome.gpu.runs > 0
+                                : true;
+}
+
+Json outcome_json(const WorkPrecisionSet& set, const Outcome& outcome) {
+    Json json;
+    for (const Column& column : columns())
+        if (measured(set, outcome, column.group))
+            json[column.group][column.name] = number(column.of(outcome));
+    if (outcome.wall.runs > 0)
+        json["wall_ms"]["drifted"] = outcome.wall.drifted;
+    if (outcome.hits)
+        for (size_t i = 1; i < k_causes; ++i)
+            json["causes"][std::string(to_string(Cause(i)))] = outcome.causes[i];
+    return json;
+}
+
+Json standard_json(const Standard& standard) {
+    return {{"method", standard.method},
+            {"uncertainty", standard.uncertainty ? number(*standard.uncertainty) : Json(nullptr)},
+            {"self_check", standard.check}};
+}
+
+std::string series_name(const WorkPrecisionSet& set, const Point& point) {
+    return point.series < set.study.series.size() ? set.study.series[point.series].name
+                                                  : std::string(k_defaults);
+}
+
+Trust trust_of(const WorkPrecisionSet& set, const Point& point) {
+    return point.series < set.study.series.size() ? set.study.series[point.series].trust : Trust::unknown;
+}
+
+Json point_json(const WorkPrecisionSet& set, const WorkPrecision& point) {
+    Json json = {{"label", point.point.label},
+                 {"series", series_name(set, point.point)},
+                 {"trust", to_string(trust_of(set, point.point))},
+                 {"settings", settings_json(point.point.settings)}};
+    if (!point.measured()) {
+        json["failure"] = point.failure;
+        return json;
+    }
+    json["hollow"] = point.hollow;
+    json["on_front"] = point.on_front;
+    json["compile_ms"] = number(point.compile_milliseconds);
+    json["first_draw_ms"] = number(point.first_draw_milliseconds);
+    json["all"] = outcome_json(set, point.all);
+    json["views"] = Json::object();
+    for (size_t i = 0; i < point.views.size(); ++i)
+        json["views"][set.study.views[i].name] = outcome_json(set, point.views[i]);
+    json["shares"] = Json::array();
+    for (const Share& share : point.shares)
+        json["shares"].push_back(
+            {{"source", share.source}, {"rms_t", number(share.rms)}, {"rmse", number(share.rmse)}});
+    return json;
+}
+
+Json views_json(const Study& study) {
+    Json views = Json::array();
+    for (const View& view : study.views)
+        views.push_back({{"name", view.name}, {"time", view.time}, {"mouse", {view.mouse.x, view.mouse.y}}});
+    return views;
+}
+
+// ---- CSV ------------------------------------------------------------------------------------------------
+
+std::string csv_text(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char c : text)
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + '"';
+}
+
+} // namespace
+
+std::string to_json(const WorkPrecisionSet& set) {
+    const Circumstances& facts = set.circumstances;
+    Json json = {
+        {"schema", k_study_schema},
+        {"complete", facts.complete},
+        {"tidemark", facts.tidemark},
+        {"scene", {{"file", facts.scene}, {"sha256", facts.scene_sha256}}},
+        {"about", set.study.about},
+        {"size", set.has_pictures() ? Json{set.study.extent.width, set.study.extent.height} : Json(nullptr)},
+        {"precision", set.study.precision == glsl::Precision::single ? "single" : "double"},
+        {"views", views_json(set.study)},
+        {"error", error_name(set)},
+        {"promise",
+         {{"wrong_percent", set.study.promise.most_wrong_percent}, {"psnr", set.study.promise.least_psnr}}},
+        {"references", Json::object()},
+        {"machine",
+         {{"renderer", facts.renderer},
+          {"driver", facts.driver},
+          {"cores", facts.cores},
+          {"load_before", facts.load_before},
+          {"load_after", facts.load_after}}},
+        {"timing",
+         {{"started", facts.started},
+          {"clock", facts.clock},
+          {"warm_up_rounds", facts.warm_up_rounds},
+          {"timed_rounds", facts.timed_rounds}}},
+        {"verdict", sentences(set)},
+        {"remarks", facts.remarks},
+        {"points", Json::array()}};
+    if (set.has_pictures())
+        json["references"]["picture"] = standard_json(set.picture_standard);
+    if (set.has_hits())
+        json["references"]["hits"] = standard_json(set.hit_standard);
+    for (const WorkPrecision& point : set.points)
+        json["points"].push_back(point_json(set, point));
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_csv(const WorkPrecisionSet& set) {
+    std::string text = "series,trust,label,view,hollow,on_front,compile_ms,first_draw_ms";
+    for (const Column& column : columns())
+        text += fmt::format(
+            ",{}{}", std::string_view(column.group).ends_with("_ms") ? std::string(column.group) + "_" : "",
+            column.name);
+    text += '\n';
+    for (const WorkPrecision& point : set.points) {
+        if (!point.measured())
+            continue;
+        for (size_t view = 0; view <= point.views.size(); ++view) {
+            const bool all = view == point.views.size();
+            text +=
+                fmt::format("{},{},{},{},{},{},{:.6g},{:.6g}", csv_text(series_name(set, point.point)),
+                            to_string(trust_of(set, point.point)), csv_text(point.point.label),
+                            csv_text(all ? "all" : set.study.views[view].name), int(point.hollow),
+                            int(point.on_front), point.compile_milliseconds, point.first_draw_milliseconds);
+            for (const Column& column : columns()) {
+                const Outcome& outcome = all ? point.all : point.views[view];
+                const double value = measured(set, outcome, column.group) ? column.of(outcome) : missing();
+                text += std::isnan(value) ? "," : fmt::format(",{:.9g}", value);
+            }
+            text += '\n';
+        }
+    }
+    return text;
+}
+
+} // namespace tidemark::lab

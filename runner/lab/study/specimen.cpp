@@ -1,0 +1,100 @@
+#include "lab/study/specimen.hpp"
+
+#include "gl/elapsed_time.hpp"
+#include "glsl/hit.hpp"
+
+#include <GL/glcorearb.h>
+#include <fmt/format.h>
+
+#include <set>
+
+namespace tidemark::lab {
+namespace {
+
+/// Leaves the frame of the view in the renderer's target.
+void draw(render::Renderer& renderer, const View& view) {
+    const render::FrameInputs inputs = inputs_of(view, renderer.extent());
+    if (renderer.plan().feedback) {
+        renderer.reset();
+        for (int frame = 0; frame < inputs.frame; ++frame) {
+            render::FrameInputs before = render::inputs_of_frame(frame, inputs.frame_rate);
+            before.mouse = inputs.mouse;
+            before.camera = inputs.camera;
+            renderer.draw(before);
+        }
+    }
+    renderer.draw(inputs);
+}
+
+} // namespace
+
+Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recipe, Extent extent) {
+    auto set = with(scene, recipe.settings);
+    if (!set)
+        return fail(std::move(set.error()));
+    Specimen specimen;
+    specimen.extent_ = extent;
+    specimen.precision_ = recipe.precision;
+    specimen.hit_scene_ = glsl::hit_scene(*set);
+    const Stopwatch watch;
+    auto renderer = render::Renderer::create(
+        *std::move(set), {.extent = extent,
+                          .samples = image::SampleType::f32,
+                          .precision = recipe.precision,
+                          .specialise = glsl::Specialise::unreachable,
+                          .extras = {.unchanged = true}}); // what drawing costs is the question
+    if (!renderer)
+        return fail(std::move(renderer.error()));
+    specimen.compile_milliseconds_ = watch.elapsed().wall;
+    specimen.renderer_ = *std::move(renderer);
+    return specimen;
+}
+
+image::Image Specimen::picture(const View& view) {
+    const Stopwatch watch;
+    draw(*renderer_, view);
+    glFinish();
+    if (!drawn_)
+        first_draw_milliseconds_ = watch.elapsed().wall;
+    drawn_ = true;
+    return image::without_alpha(renderer_->read_back());
+}
+
+Result<Hits> Specimen::hits(const View& view) {
+    if (!hit_renderer_) {
+        auto renderer = render::Renderer::create(
+            *hit_scene_, {extent_, image::SampleType::f32, "", precision_, glsl::Specialise::unreachable});
+        if (!renderer)
+            return fail(std::move(renderer.error()));
+        hit_renderer_ = *std::move(renderer);
+    }
+    draw(*hit_renderer_, view);
+    return hits_of(hit_renderer_->read_back());
+}
+
+std::vector<std::string> Specimen::kept_hashes() const {
+    std::set<std::string> names;
+    for (const render::PlannedPass& planned : renderer_->plan().passes)
+        for (const glsl::KeptHash& hash : renderer_->kept_hashes(planned.pass))
+            names.insert(hash.function.empty() ? fmt::format("line {}", hash.where.line) : hash.function);
+    return {names.begin(), names.end()};
+}
+
+Cost Specimen::time(const View& view, bool ask_gpu) {
+    const render::FrameInputs inputs = inputs_of(view, extent_);
+    glFinish();
+    const Stopwatch watch;
+    std::optional<gl::ElapsedTime> gpu;
+    if (ask_gpu)
+        gpu.emplace();
+    renderer_->draw(inputs);
+    if (gpu)
+        gpu->stop();
+    glFinish();
+    Cost cost{watch.elapsed(), {}};
+    if (gpu)
+        cost.gpu = gpu->milliseconds();
+    return cost;
+}
+
+} // namespace tidemark::lab

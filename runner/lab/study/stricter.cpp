@@ -1,0 +1,109 @@
+#include "lab/study/stricter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+std::optional<double> number_of(const std::string& text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole_text = error == std::errc{} && end == text.data() + text.size();
+    return whole_text && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+/// GLSL takes `64` for an int and `64.0` for a float: the kind stays.
+bool is_int(const std::string& text) {
+    return text.find_first_of(".eE") == std::string::npos;
+}
+
+std::string float_text(double number) {
+    std::string text = fmt::format("{:.9g}", number);
+    return is_int(text) ? text + ".0" : text;
+}
+
+constexpr double k_largest_int = 1 << 30;
+
+/// A number times a factor, of the kind it is; nothing where a whole number would leave 1 to 2^30.
+std::optional<std::string> scaled(const std::string& text, double factor) {
+    const auto number = number_of(text);
+    if (!number)
+        return std::nullopt;
+    const double value = *number * factor;
+    if (!is_int(text))
+        return float_text(value);
+    if (std::abs(value) < 1 || std::abs(value) > k_largest_int)
+        return std::nullopt;
+    return fmt::format("{}", std::llround(value));
+}
+
+/// From one value of the axis to the next; nothing for texts, a single value, a change of sign.
+std::optional<double> ratio_of(const Axis& axis) {
+    if (axis.values.size() < 2)
+        return std::nullopt;
+    const auto last = number_of(axis.values.back()), before = number_of(axis.values[axis.values.size() - 2]);
+    if (!last || !before || *last * *before <= 0 || *last == *before)
+        return std::nullopt;
+    return *last / *before;
+}
+
+} // namespace
+
+std::optional<std::string> beyond(const Axis& axis, int steps) {
+    if (axis.values.empty())
+        return std::nullopt;
+    if (steps == 0)
+        return axis.values.back();
+    const auto ratio = ratio_of(axis);
+    if (!ratio)
+        return std::nullopt;
+    return scaled(axis.values.back(),
+                  std::pow(*ratio > 1 ? std::max(*ratio, 2.0) : std::min(*ratio, 0.5), steps));
+}
+
+std::vector<Axis> axes_of(const Study& study) {
+    if (study.series.empty())
+        return {};
+    std::vector<Axis> axes;
+    for (const Setting& fixed : study.series.back().settings) {
+        Axis axis{fixed.name, {}};
+        for (const Series& series : study.series)
+            for (const Setting& setting : series.settings)
+                if (setting.name == fixed.name &&
+                    std::ranges::find(axis.values, setting.value) == axis.values.end())
+                    axis.values.push_back(setting.value);
+        axes.push_back(std::move(axis));
+    }
+    const auto& own = study.series.back().axes;
+    axes.insert(axes.end(), own.begin(), own.end());
+    return axes;
+}
+
+std::vector<Setting> strictest(const Study& study, int steps) {
+    std::vector<Setting> settings;
+    if (study.reference.empty()) {
+        for (const Axis& axis : axes_of(study))
+            for (int i = steps; i >= 0; --i)
+                if (auto value = beyond(axis, i)) {
+                    settings.push_back({axis.name, *std::move(value)});
+                    break;
+                }
+        return settings;
+    }
+    for (const Setting& named : study.reference) {
+        settings.push_back(named);
+        // Twice or half, as some series goes.
+        for (const Series& series : study.series)
+            for (const Axis& axis : series.axes)
+                if (const auto ratio = ratio_of(axis); ratio && axis.name == named.name && steps > 0)
+                    settings.back().value =
+                        scaled(named.value, std::pow(*ratio > 1 ? 2.0 : 0.5, steps)).value_or(named.value);
+    }
+    return settings;
+}
+
+} // namespace tidemark::lab

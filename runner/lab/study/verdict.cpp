@@ -1,0 +1,132 @@
+#include "lab/study/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+bool timed(const WorkPrecision& point) {
+    return point.measured() && point.all.time().runs > 0;
+}
+
+bool keeps(const WorkPrecisionSet& set, const WorkPrecision& point) {
+    const Promise& promise = set.study.promise;
+    const auto& hits = point.all.hits;
+    if (set.has_hits() && !(hits && hits->wrong_tenth <= promise.most_wrong_percent))
+        return false;
+    return !set.has_pictures() || point.all.picture.samples.psnr >= promise.least_psnr;
+}
+
+template <class Wanted>
+const WorkPrecision* cheapest(const WorkPrecisionSet& set, Wanted wanted) {
+    const WorkPrecision* best = nullptr;
+    for (const WorkPrecision& point : set.points)
+        if (timed(point) && wanted(point) && (!best || point.all.time().median < best->all.time().median))
+            best = &point;
+    return best;
+}
+
+std::string promise_of(const WorkPrecisionSet& set) {
+    const Promise& promise = set.study.promise;
+    return (set.has_hits() ? fmt::format("wrong <= {:g} % and ", promise.most_wrong_percent) : "") +
+           fmt::format("PSNR >= {:g} dB", promise.least_psnr);
+}
+
+std::string cost_of(const WorkPrecision& point) {
+    const TimeSummary& time = point.all.time();
+    if (std::isnan(time.confidence.low))
+        return fmt::format("{} ms, too few rounds for an interval", figure(time.median));
+    return fmt::format("{} ms [{}, {}]", figure(time.median), figure(time.confidence.low),
+                       figure(time.confidence.high));
+}
+
+std::string quality_of(const WorkPrecisionSet& set, const WorkPrecision& point) {
+    return (set.has_hits() && point.all.hits
+                ? fmt::format("{} % wrong, ", figure(point.all.hits->wrong_tenth))
+                : "") +
+           fmt::format("{:.1f} dB", point.all.picture.samples.psnr);
+}
+
+std::string cheapest_sentence(const WorkPrecisionSet& set) {
+    const WorkPrecision* best = cheapest_good(set);
+    if (!best)
+        return fmt::format("no setting of this study has {}", promise_of(set));
+    return fmt::format("cheapest setting with {}: {} ({}; {})", promise_of(set), best->point.label,
+                       cost_of(*best), quality_of(set, *best));
+}
+
+std::string equal_error_sentence(const WorkPrecisionSet& set) {
+    const WorkPrecision& defaults = set.points.front();
+    const WorkPrecision* best = cheapest_as_exact(set);
+    if (!best || !timed(defaults))
+        return {};
+    const auto gain = speedup(defaults, *best);
+    if (best != &defaults && !gain)
+        return fmt::format("no verdict at equal error: too few rounds of {} and the defaults fit the budget",
+                           best->point.label);
+    if (best == &defaults)
+        return fmt::format("nothing in this study is as exact as {} and cheaper", set.words.defaults);
+    if (!gain->certain())
+        return fmt::format(
+            "at equal error nothing is faster than {} beyond noise (the nearest: {}, {:.2f} x [{:.2f}, "
+            "{:.2f}])",
+            set.words.defaults, best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high);
+    return fmt::format("at equal error {:.2f} x [{:.2f}, {:.2f}] {} than {}: {}", gain->ratio,
+                       gain->confidence.low, gain->confidence.high, gain->ratio > 1 ? "faster" : "slower",
+                       set.words.defaults, best->point.label);
+}
+
+} // namespace
+
+std::string figure(double value) {
+    return fmt::format("{:.3g}", value);
+}
+
+std::optional<Speedup> speedup(const WorkPrecision& slow, const WorkPrecision& fast) {
+    if (!timed(slow) || !timed(fast))
+        return std::nullopt;
+    const std::vector<double> a = mean_of_views(slow.rounds()), b = mean_of_views(fast.rounds());
+    std::vector<double> ratios;
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        if (!std::isnan(a[i] / b[i]))
+            ratios.push_back(a[i] / b[i]);
+    if (ratios.size() < k_fewest_runs)
+        return std::nullopt;
+    return Speedup{median(ratios), bootstrap_median(ratios)};
+}
+
+const WorkPrecision* cheapest_good(const WorkPrecisionSet& set) {
+    return cheapest(set, [&](const WorkPrecision& point) { return keeps(set, point); });
+}
+
+const WorkPrecision* cheapest_as_exact(const WorkPrecisionSet& set) {
+    const double error = error_of(set, set.points.front().all);
+    return cheapest(set, [&](const WorkPrecision& point) { return error_of(set, point.all) <= error; });
+}
+
+std::vector<std::string> sentences(const WorkPrecisionSet& set) {
+    std::vector<std::string> found;
+    if (set.has_pictures()) // a promise is about what is to be seen
+        found.push_back(cheapest_sentence(set));
+    if (std::string sentence = equal_error_sentence(set); !sentence.empty())
+        found.push_back(std::move(sentence));
+    const auto drifted = std::ranges::count_if(
+        set.points, [](const WorkPrecision& point) { return point.measured() && point.all.time().drifted; });
+    if (drifted > 0)
+        found.push_back(
+            fmt::format("times of {} of {} points drifted while they were measured: the machine was busy",
+                        drifted, set.points.size()));
+    const auto hollow = std::ranges::count_if(set.points, &WorkPrecision::hollow);
+    if (hollow > 0)
+        found.push_back(
+            fmt::format("{} too near the reference to be told from its own error (hollow)",
+                        hollow == 1 ? std::string("1 point is") : fmt::format("{} points are", hollow)));
+    if (!set.circumstances.complete)
+        found.push_back("incomplete: the study was interrupted");
+    return found;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,83 @@
+#include "lab/study/view.hpp"
+
+#include "render/mouse.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr double k_last_time = 1e9; ///< half a lifetime; floats are long done with by then
+
+bool take(std::string_view& text, double& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    text.remove_prefix(size_t(end - text.data()));
+    return error == std::errc{};
+}
+
+bool take(std::string_view& text, char wanted) {
+    if (!text.starts_with(wanted))
+        return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+} // namespace
+
+render::FrameInputs inputs_of(const View& view, Extent extent) {
+    render::FrameInputs inputs;
+    inputs.time = view.time;
+    inputs.frame = render::frame_at(view.time, inputs.frame_rate);
+    if (view.mouse != glm::dvec2(0)) // a click that is over
+        inputs.mouse =
+            render::Mouse::clicked(view.mouse.x * extent.width, view.mouse.y * extent.height, false);
+    inputs.camera = view.camera.value_or(render::OrbitCamera{}).matrix();
+    return inputs;
+}
+
+Result<void> check(const View& view) {
+    if (!(view.time >= 0 && view.time <= k_last_time))
+        return fail(ErrorCode::usage,
+                    fmt::format("view '{}': the time {} is out of range; give 0 to {:g} seconds", view.name,
+                                view.time, k_last_time));
+    for (const double part : {view.mouse.x, view.mouse.y})
+        if (!(part >= 0 && part <= 1))
+            return fail(
+                ErrorCode::usage,
+                fmt::format("view '{}': the mouse at {}, {} is outside the picture; give parts of its "
+                            "width and height, 0 to 1",
+                            view.name, view.mouse.x, view.mouse.y));
+    return {};
+}
+
+Result<std::vector<View>> parse_views(std::string_view text) {
+    std::vector<View> views;
+    std::string_view rest = text;
+    do {
+        const std::string_view begin = rest;
+        View view;
+        bool good = take(rest, view.time);
+        if (good && take(rest, '@'))
+            good = take(rest, view.mouse.x) && take(rest, ',') && take(rest, view.mouse.y);
+        view.name = fmt::format("t={}", begin.substr(0, begin.size() - rest.size()));
+        if (!good || (!rest.empty() && rest.front() != ';'))
+            return fail(
+                ErrorCode::usage,
+                fmt::format("--views {}: give times and places of the mouse, as in 0;10@0.75,0.4, or a "
+                            ".json file",
+                            text));
+        if (auto checked = check(view); !checked)
+            return fail(checked.error());
+        views.push_back(std::move(view));
+    } while (take(rest, ';'));
+    return views;
+}
+
+std::vector<View> default_views() {
+    return {{"t=1", 1, {}, {}}, {"t=10", 10, {}, {}}};
+}
+
+} // namespace tidemark::lab

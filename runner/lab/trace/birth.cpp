@@ -1,0 +1,198 @@
+#include "lab/trace/birth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+
+namespace tidemark::lab {
+namespace {
+
+using glsl::k_no_node;
+using glsl::NodeId;
+using glsl::NodeKind;
+using glsl::WatchLayout;
+
+constexpr size_t k_longest_text = 80;
+
+std::string shortened(std::string text) {
+    if (text.size() <= k_longest_text)
+        return text;
+    size_t cut = k_longest_text - 4;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u)
+        --cut;
+    return text.substr(0, cut) + " …";
+}
+
+/// The assignment, the variable's declaration or the return that the value goes into.
+NodeId target_of(const WatchedText& watched, NodeId id) {
+    const glsl::SyntaxTree& tree = watched.text.tree();
+    for (NodeId around = id; around != k_no_node; around = tree[around].parent) {
+        const NodeKind kind = tree[around].kind;
+        if (kind == NodeKind::assign || kind == NodeKind::declarator || kind == NodeKind::give_back)
+            return around;
+        if (!glsl::is_expression(kind))
+            return k_no_node;
+    }
+    return k_no_node;
+}
+
+std::string variable_of(const WatchedText& watched, NodeId target) {
+    const glsl::SyntaxTree& tree = watched.text.tree();
+    if (target == k_no_node || tree[target].kind == NodeKind::give_back)
+        return {};
+    if (tree[target].kind == NodeKind::declarator)
+        return std::string(watched.text.word_of(target));
+    return watched.text.excerpt(tree.child(target, 0));
+}
+
+/// A number that stands in the text.
+std::optional<ShaderValue> literal(std::string_view digits) {
+    float number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error != std::errc{})
+        return std::nullopt;
+    ShaderValue value{{glsl::SlotType::floating, 1, 1}, {}};
+    value.bits[0] = std::bit_cast<uint32_t>(number);
+    return value;
+}
+
+/// "iChannel0 (Buffer A)".
+std::string channel_label(const scene::Scene& scene, const scene::Pass& pass, std::string_view sampler) {
+    if (sampler.size() == 9 && sampler.starts_with("iChannel") && sampler[8] >= '0' && sampler[8] <= '3')
+        if (const auto* output =
+                std::get_if<scene::PassOutput>(&pass.channels[size_t(sampler[8] - '0')].input))
+            return fmt::format("{} ({})", sampler, scene.passes[output->pass].name);
+    return std::string(sampler);
+}
+
+std::string operation_name(const WatchedText& watched, NodeId id) {
+    const glsl::SyntaxTree& tree = watched.text.tree();
+    if (tree[id].kind == NodeKind::call)
+        return std::string(glsl::called_name(watched.text, id));
+    const std::string_view op = watched.text.word_of(id);
+    return std::string(tree[id].kind == NodeKind::assign ? op.substr(0, 1) : op);
+}
+
+std::string origin_of(const WatchedText& watched, NodeId operation, const Explanation& why,
+                      const std::vector<NodeId>& nodes, const scene::Scene& scene, const scene::Pass& pass) {
+    const std::string name = operation_name(watched, operation);
+    if (name.starts_with("tex") && !watched.facts.function(name) && !nodes.empty() &&
+        why.cause != BirthCause::carried)
+        return channel_label(scene, pass, base_name(watched, nodes[0]));
+    if (why.cause != BirthCause::carried || why.operand >= nodes.size())
+        return {};
+    const std::string_view base = base_name(watched, nodes[why.operand]);
+    const auto meanings = watched.facts.names.find(base);
+    if (meanings != watched.facts.names.end() && meanings->second.uniform)
+        return fmt::format("the uniform {}", base);
+    if (meanings != watched.facts.names.end() && meanings->second.constant)
+        return fmt::format("the constant {}", base);
+    return {};
+}
+
+/// `0.5`, `vec3(0.5)`, `-1.0`: its value says no more than its text.
+bool is_spelled_out(const WatchedText& watched, NodeId id) {
+    const glsl::Node& node = watched.text.tree()[id];
+    for (size_t i = node.begin; i < node.end; ++i) {
+        const glsl::Word& word = watched.text.words()[i];
+        if (word.kind == text::TokenKind::identifier && !watched.facts.is_type(word.text))
+            return false;
+    }
+    return true;
+}
+
+void add_way(Birth& birth, const WatchedText& watched, const glsl::Watch& watch,
+             const WatchReading& reading) {
+    const auto& words = reading.words;
+    const glsl::SyntaxTree& tree = watched.text.tree();
+    const size_t depth = std::min<size_t>(words[WatchLayout::k_depth], WatchLayout::k_most_calls);
+    for (size_t i = 0; i < depth; ++i) {
+        const NodeId call = words[WatchLayout::k_path + i];
+        if (call < tree.nodes.size())
+            birth.calls.push_back(
+                {watched.text.used(tree[call].begin), std::string(glsl::called_name(watched.text, call))});
+    }
+    for (size_t i = 0; i < watch.loops.size(); ++i)
+        birth.loops.push_back(
+            {watched.text.used(tree[watch.loops[i]].begin), words[WatchLayout::k_loops + i]});
+    // A loop that was not entered is no loop on the way.
+    std::erase_if(birth.loops, [](const TracedLoop& loop) { return loop.iteration == 0; });
+}
+
+} // namespace
+
+std::string_view base_name(const WatchedText& watched, NodeId id) {
+    const glsl::SyntaxTree& tree = watched.text.tree();
+    while (tree[id].kind == NodeKind::member || tree[id].kind == NodeKind::index ||
+           tree[id].kind == NodeKind::parenthesis)
+        id = tree.child(id, 0);
+    return tree[id].kind == NodeKind::name ? watched.text.word_of(id) : std::string_view{};
+}
+
+std::vector<NodeId> operands(const WatchedText& watched, NodeId operation) {
+    std::vector<NodeId> nodes = watched.text.tree().children(operation);
+    if (watched.text.tree()[operation].kind == NodeKind::call)
+        nodes.erase(nodes.begin());
+    return nodes;
+}
+
+Birth describe(const WatchedText& watched, NodeId operation) {
+    const glsl::SyntaxTree& tree = watched.text.tree();
+    const glsl::Node& node = tree[operation];
+    Birth birth;
+    // The operator says better than its first operand which line is meant, where both are far apart.
+    birth.where = watched.text.spelled(node.begin);
+    const glsl::Word& first = watched.text.words()[node.begin];
+    const glsl::Word& sign = watched.text.words()[node.word];
+    if (sign.from_macro() && !first.from_macro())
+        birth.where = watched.text.spelled(node.word);
+    if (sign.from_macro())
+        birth.used = watched.text.used(node.word);
+    birth.operation = shortened(watched.text.excerpt(operation));
+    const NodeId target = target_of(watched, operation);
+    birth.statement = birth.operation;
+    if (target != k_no_node && watched.text.excerpt(target).size() <= k_longest_text)
+        birth.statement = watched.text.excerpt(target);
+    if (birth.statement.ends_with(';'))
+        birth.statement.pop_back();
+    birth.variable = variable_of(watched, target);
+    const NodeId function = tree.around(operation, NodeKind::function);
+    if (function != k_no_node)
+        birth.function = watched.text.word_of(function);
+    return birth;
+}
+
+void add_reading(Birth& birth, const WatchedText& watched, NodeId operation, const glsl::Watch& watch,
+                 const WatchReading& reading, const scene::Scene& scene, const scene::Pass& pass) {
+    const glsl::SyntaxTree& tree = watched.text.tree();
+    birth.value = read_slot(reading.words, WatchLayout::k_value);
+    const std::vector<NodeId> nodes = operands(watched, operation);
+    std::vector<std::optional<ShaderValue>> values;
+    birth.operands.clear();
+    for (const NodeId node : nodes) {
+        std::optional<ShaderValue> value;
+        const auto slot = std::find(watch.operands.begin(), watch.operands.end(), node);
+        if (tree[node].kind == NodeKind::literal)
+            value = literal(watched.text.word_of(node));
+        else if (slot != watch.operands.end())
+            value = read_slot(reading.words, WatchLayout::k_operands +
+                                                 size_t(slot - watch.operands.begin()) * WatchLayout::k_slot);
+        values.push_back(value);
+        NodeId shown = node;
+        while (tree[shown].kind == NodeKind::parenthesis)
+            shown = tree.child(shown, 0);
+        std::string text = shortened(watched.text.excerpt(shown));
+        const bool told = std::any_of(birth.operands.begin(), birth.operands.end(),
+                                      [&](const TracedOperand& operand) { return operand.text == text; });
+        if (!told && !is_spelled_out(watched, shown))
+            birth.operands.push_back({std::move(text), value});
+    }
+    if (birth.value)
+        birth.why = explain(operation_name(watched, operation), values, *birth.value);
+    birth.origin = origin_of(watched, operation, birth.why, nodes, scene, pass);
+    add_way(birth, watched, watch, reading);
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,342 @@
+#include "lab/trace/nan_trace.hpp"
+
+#include "image/census.hpp"
+#include "lab/trace/birth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+using glsl::k_no_node;
+using glsl::NodeId;
+using glsl::WatchRequest;
+using Reach = WatchRequest::Reach;
+
+/// Mending goes on so long: of 70 shaders all were cured in five steps.
+constexpr size_t k_most_repairs = 6;
+/// Variables that are tried one by one.
+constexpr size_t k_most_suspects = 12;
+
+/// But for rounding, which the driver does in another order where it knows less.
+bool same(const PixelBits& a, const PixelBits& b) {
+    for (size_t i = 0; i < a.size(); ++i) {
+        const float x = std::bit_cast<float>(a[i]);
+        const float y = std::bit_cast<float>(b[i]);
+        if (std::isnan(x) != std::isnan(y) || std::isinf(x) != std::isinf(y) ||
+            std::abs(x - y) > 1e-3f * std::max(1.0f, std::abs(x)))
+            return false;
+    }
+    return true;
+}
+
+std::string to_text(const PixelBits& bits) {
+    ShaderValue value{{glsl::SlotType::floating, 1, 4}, {}};
+    std::copy(bits.begin(), bits.end(), value.bits.begin());
+    return to_string(value);
+}
+
+/// One pixel of one pass at one moment.
+class PixelTracer {
+public:
+    PixelTracer(const Moment& moment, const WatchedText& watched, NanTrace& trace,
+                const TraceRequest& request)
+        : moment_(moment), watched_(watched), trace_(trace), request_(request) {}
+
+    Result<void> run(bool nan_only) {
+        nan_only_ = nan_only;
+        auto reading = locate({});
+        if (!reading)
+            return fail(std::move(reading.error()));
+        compare(*reading);
+        if (reading->hit() == k_no_node) {
+            if (!trace_.washed)
+                test_variables();
+            return {};
+        }
+        return follow(reading->hit());
+    }
+
+private:
+    WatchRequest watch_request(Reach reach) const {
+        WatchRequest request;
+        request.reach = reach;
+        request.repaired = repaired_;
+        request.nan_only = nan_only_;
+        return request;
+    }
+
+    Result<WatchReading> read(const WatchRequest& request) const {
+        return read_pixel(moment_, glsl::watch(watched_.text, watched_.facts, request), trace_.pixel);
+    }
+
+    /// The first statement that is not finite; where none is, the first operation of all.
+    Result<WatchReading> locate(const std::vector<NodeId>& zeroed) {
+        if (!everything_) {
+            WatchRequest statements = watch_request(Reach::statements);
+            statements.zeroed = zeroed;
+            auto reading = read(statements);
+            const bool enough = !reading || reading->hit() != k_no_node ||
+                                (is_finite(reading->colour) && !trace_.washed) || !zeroed.empty();
+            if (enough)
+                return reading;
+        }
+        everything_ = true;
+        WatchRequest all = watch_request(Reach::everything);
+        all.zeroed = zeroed;
+        return read(all);
+    }
+
+    void compare(const WatchReading& reading) {
+        if (!reading.arrived())
+            trace_.notes.push_back("the watched shader did not come to its end in this pixel");
+        const bool half = moment_.renderer.scene().passes[moment_.pass].kind == scene::PassKind::cubemap;
+        if (is_finite(reading.colour) != is_finite(trace_.colour) ||
+            (!half && !same(reading.colour, trace_.colour)))
+            trace_.notes.push_back(fmt::format("watching changes this pixel: {} as drawn, {} watched",
+                                               to_text(trace_.colour), to_text(reading.colour)));
+    }
+
+    /// From a statement to the operation in it.
+    Result<NodeId> narrow(NodeId statement) const {
+        if (everything_)
+            return statement;
+        WatchRequest inside = watch_request(Reach::operations);
+        inside.within = statement;
+        const auto reading = read(inside);
+        if (!reading)
+            return fail(reading.error());
+        return reading->hit() != k_no_node ? reading->hit() : statement;
+    }
+
+    Result<Birth> captured(NodeId statement, NodeId operation) const {
+        Birth birth = describe(watched_, operation);
+        WatchRequest request = watch_request(Reach::operations);
+        request.within = statement;
+        request.capture = operation;
+        const glsl::Watch watch = glsl::watch(watched_.text, watched_.facts, request);
+        auto reading = read_pixel(moment_, watch, trace_.pixel);
+        if (!reading)
+            return fail(std::move(reading.error()));
+        if (reading->hit() == operation)
+            add_reading(birth, watched_, operation, watch, *reading, moment_.renderer.scene(),
+                        moment_.renderer.scene().passes[moment_.pass]);
+        return birth;
+    }
+
+    void tell() const {
+        if (request_.progress)
+            request_.progress(trace_);
+    }
+
+    /// The first birth, then mending until the pixel is finite.
+    Result<void> follow(NodeId statement) {
+        trace_.first = describe(watched_, statement);
+        tell();
+        NodeId operation = k_no_node;
+        for (;;) {
+            const auto narrowed = narrow(statement);
+            if (!narrowed)
+                return fail(narrowed.error());
+            operation = *narrowed;
+            if (repaired_.empty()) {
+                auto birth = captured(everything_ ? operation : statement, operation);
+                if (!birth)
+                    return fail(std::move(birth.error()));
+                trace_.first = *std::move(birth);
+                tell();
+                if (suspects_variables(*trace_.first))
+                    test_variables();
+                if (trace_.washed)
+                    return {};
+            }
+            repaired_.push_back(operation);
+            auto reading = locate({});
+            if (!reading)
+                return fail(std::move(reading.error()));
+            if (is_finite(reading->colour))
+                return cured(statement, operation);
+            if (reading->hit() == k_no_node || repaired_.size() == k_most_repairs)
+                break;
+            statement = reading->hit();
+        }
+        trace_.notes.push_back(
+            fmt::format("mending {} operations does not mend the pixel", repaired_.size()));
+        return {};
+    }
+
+    Result<void> cured(NodeId statement, NodeId operation) {
+        trace_.cure_is_first = repaired_.size() == 1;
+        if (trace_.cure_is_first) {
+            trace_.cure = trace_.first;
+            return {};
+        }
+        repaired_.pop_back();
+        auto birth = captured(everything_ ? operation : statement, operation);
+        if (!birth)
+            return fail(std::move(birth.error()));
+        trace_.cure = *std::move(birth);
+        return {};
+    }
+
+    static bool suspects_variables(const Birth& birth) {
+        return birth.why.cause == BirthCause::undefined ||
+               (birth.why.cause == BirthCause::carried && birth.origin.empty());
+    }
+
+    bool cures(const std::vector<NodeId>& zeroed) {
+        auto reading = locate(zeroed);
+        return reading && is_finite(reading->colour);
+    }
+
+    /// Which variables without a value cure the pixel when they begin at zero.
+    void test_variables() {
+        const std::vector<NodeId> all = glsl::uninitialised(watched_.text, watched_.facts);
+        if (all.empty() || trace_.washed || !cures(all))
+            return;
+        for (size_t i = 0; i < all.size() && i < k_most_suspects; ++i)
+            if (cures({all[i]}))
+                trace_.uninitialised.push_back(name_of(all[i]));
+        if (trace_.uninitialised.empty())
+            for (const NodeId id : all)
+                trace_.uninitialised.push_back(name_of(id));
+        tell();
+    }
+
+    std::string name_of(NodeId variable) const {
+        const auto where = watched_.text.used(watched_.text.tree()[variable].word);
+        return fmt::format("{} ({}:{})", watched_.text.word_of(variable), where.file, where.line);
+    }
+
+    const Moment& moment_;
+    const WatchedText& watched_;
+    NanTrace& trace_;
+    const TraceRequest& request_;
+    std::vector<NodeId> repaired_;
+    bool nan_only_ = false;
+    bool everything_ = false;
+};
+
+/// A pixel that is not finite, and when.
+struct BadPixel {
+    size_t pass = 0;
+    int frame = 0;
+    PixelPlace pixel{};
+};
+
+std::optional<PixelPlace> first_bad(const render::Renderer& renderer, size_t pass) {
+    const bool cube = renderer.scene().passes[pass].kind == scene::PassKind::cubemap;
+    for (int face = 0; face < (cube ? 6 : 1); ++face)
+        if (const auto first = image::census(renderer.read_floats(pass, face)).first_non_finite)
+            return PixelPlace{first->x, first->y, face};
+    return std::nullopt;
+}
+
+class Tracer {
+public:
+    Tracer(render::Renderer& renderer, const TraceRequest& request)
+        : renderer_(renderer), request_(request) {}
+
+    Result<std::optional<NanTrace>> run() {
+        if (request_.pixel)
+            return trace({renderer_.shown_index(), request_.frame, *request_.pixel}, false);
+        if (const auto bad = scan())
+            return trace(*bad, false);
+        if (request_.hidden)
+            return hidden();
+        return std::optional<NanTrace>();
+    }
+
+private:
+    int first_frame() const { return renderer_.plan().feedback ? request_.start : request_.frame; }
+
+    /// The earliest frame and pass with a bad pixel: later ones may only have inherited it.
+    std::optional<BadPixel> scan() {
+        renderer_.reset();
+        for (int frame = first_frame(); frame <= request_.frame; ++frame) {
+            renderer_.draw(request_.inputs(frame));
+            for (const render::PlannedPass& planned : renderer_.plan().passes)
+                if (const auto pixel = first_bad(renderer_, planned.pass))
+                    return BadPixel{planned.pass, frame, *pixel};
+        }
+        return std::nullopt;
+    }
+
+    /// Everything as it was when `pass` was about to be drawn in `frame`.
+    void rewind(size_t pass, int frame) {
+        renderer_.reset();
+        for (int before = first_frame(); before < frame; ++before)
+            renderer_.draw(request_.inputs(before));
+        renderer_.draw_before(pass, request_.inputs(frame));
+    }
+
+    Result<std::optional<NanTrace>> trace(const BadPixel& bad, bool nan_only) {
+        NanTrace trace;
+        trace.pass = renderer_.scene().passes[bad.pass].name;
+        trace.frame = bad.frame;
+        trace.pixel = bad.pixel;
+        rewind(bad.pass, bad.frame);
+        renderer_.draw(request_.inputs(bad.frame));
+        trace.colour = bits_at(renderer_.read_floats(bad.pass, bad.pixel.face), bad.pixel);
+        trace.washed = is_finite(trace.colour);
+        if (request_.progress && !trace.washed)
+            request_.progress(trace);
+        rewind(bad.pass, bad.frame);
+        auto text = read_text(renderer_, bad.pass);
+        if (!text)
+            return fail(std::move(text.error()));
+        const glsl::TreeFacts facts = glsl::find_facts(**text);
+        const WatchedText watched{**text, facts};
+        const render::FrameInputs inputs = request_.inputs(bad.frame);
+        const Moment moment{renderer_, bad.pass, inputs};
+        if (auto done = PixelTracer(moment, watched, trace, request_).run(nan_only); !done)
+            trace.notes.push_back(to_string(done.error()));
+        if (trace.washed && !trace.first)
+            return std::optional<NanTrace>();
+        return std::optional(std::move(trace));
+    }
+
+    /// No pixel is bad: is there a NaN that something swallowed? Infinities alone are often meant.
+    Result<std::optional<NanTrace>> hidden() {
+        for (const render::PlannedPass& planned : renderer_.plan().passes) {
+            if (renderer_.scene().passes[planned.pass].kind == scene::PassKind::cubemap)
+                continue;
+            rewind(planned.pass, request_.frame);
+            auto text = read_text(renderer_, planned.pass);
+            if (!text)
+                return fail(std::move(text.error()));
+            const render::FrameInputs inputs = request_.inputs(request_.frame);
+            const Moment moment{renderer_, planned.pass, inputs};
+            WatchRequest watch_request;
+            watch_request.reach = Reach::everything;
+            watch_request.nan_only = true;
+            watch_request.map_width = extent_of(moment).width;
+            const auto hits =
+                read_map(moment, glsl::watch(**text, glsl::find_facts(**text), watch_request), 0);
+            if (!hits)
+                return fail(hits.error());
+            const auto hit = std::find_if(hits->begin(), hits->end(), [](NodeId id) { return id != 0; });
+            if (hit == hits->end())
+                continue;
+            const int index = int(hit - hits->begin());
+            const int width = watch_request.map_width;
+            return trace({planned.pass, request_.frame, {index % width, index / width, 0}}, true);
+        }
+        return std::optional<NanTrace>();
+    }
+
+    render::Renderer& renderer_;
+    const TraceRequest& request_;
+};
+
+} // namespace
+
+Result<std::optional<NanTrace>> trace_nan(render::Renderer& renderer, const TraceRequest& request) {
+    return Tracer(renderer, request).run();
+}
+
+} // namespace tidemark::lab
