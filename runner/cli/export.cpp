@@ -1,6 +1,7 @@
 #include "base/file.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/options.hpp"
 #include "cli/requests.hpp"
 #include "cli/version.hpp"
 #include "scene/folder_scene.hpp"
@@ -77,11 +78,9 @@ void add_export(CLI::App& app, Action& chosen) {
     command->add_option("-o,--output", options->output, "File; -: standard output")
         ->type_name("FILE")
         ->capture_default_str();
-    command->add_option("--set", options->scene.sets, "Value that a knob (#iUniform) is given as a constant")
-        ->type_name("NAME=VALUE")
-        ->type_size(1)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    repeatable(command->add_option("--set", options->scene.sets,
+                                   "Value that a knob (#iUniform) is given as a constant"))
+        ->type_name("NAME=VALUE");
     command->add_flag("--allow-outside", options->scene.files.allow_outside,
                       "The scene may read files that lie outside its folder");
     command->add_flag("--json", options->json, "One JSON object on standard output");

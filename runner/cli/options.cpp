@@ -8,23 +8,28 @@
 #include <cmath>
 
 namespace tidemark::cli {
+CLI::Option* repeatable(CLI::Option* option) {
+    // CLI11 takes every word behind an option of a vector for one more of its values, unless told otherwise
+    // last.
+    return option->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+}
+
 void add_scene_options(CLI::App& command, SceneRequest& request) {
     command
         .add_option("SCENE", request.path,
                     "A .glsl or .frag file with mainImage, a scene folder, or ShaderToy's .json")
         ->required();
-    // Repeatable, one value each: without this CLI11 would take the scene for a second value.
-    const auto one_each = [](CLI::Option* option) {
-        option->type_size(1)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    };
-    one_each(
+    repeatable(
         command.add_option("--set", request.sets, "Value of a knob (#iUniform)")->type_name("NAME=VALUE"));
-    one_each(command.add_option("--define", request.defines, "Replaces a #define or const of the scene")
-                 ->type_name("NAME=VALUE"));
-    one_each(command
-                 .add_option("--channel", request.channels,
-                             "What iChannelN reads: a file, noise, keyboard or none")
-                 ->type_name("N=FILE|noise|none"));
+    repeatable(command.add_option("--define", request.defines, "Replaces a #define or const of the scene")
+                   ->type_name("NAME=VALUE"));
+    repeatable(command
+                   .add_option("--channel", request.channels,
+                               "What iChannelN reads: a file, noise, keyboard or none")
+                   ->type_name("N=FILE|noise|none"));
     command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
         ->type_name("DIR")
         ->check(CLI::ExistingDirectory);

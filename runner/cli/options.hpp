@@ -8,9 +8,13 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace tidemark::cli {
+
+/// Lets an option be given again, with one value each time: what stands behind the value is not its own.
+CLI::Option* repeatable(CLI::Option* option);
 
 /// SCENE, --set, --define, --channel, --media, --allow-outside.
 void add_scene_options(CLI::App& command, SceneRequest& request);

@@ -192,15 +192,12 @@ void add_study(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("study", "Error against run time");
     add_scene_options(*command, options->scene);
     add_precision_options(*command, options->scene);
-    const auto one_each = [](CLI::Option* option) {
-        option->type_size(1)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    };
     command->add_option("-o,--output", options->output, "Folder for the report [SCENE-study]")
         ->type_name("FOLDER");
     command->add_option("--study", options->file, "What to study [SCENE.study.json]")
         ->type_name("FILE")
         ->check(CLI::ExistingFile);
-    one_each(
+    repeatable(
         command
             ->add_option("--vary", options->vary,
                          "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
@@ -210,11 +207,11 @@ void add_study(CLI::App& app, Action& chosen) {
             "--views", options->views,
             "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4; or a file [1;10]")
         ->type_name("LIST|FILE");
-    one_each(command
-                 ->add_option(
-                     "--reference", options->reference,
-                     "Settings that count as the truth [the strictest, made stricter until nothing moves]")
-                 ->type_name("NAME=V,..."));
+    repeatable(command
+                   ->add_option(
+                       "--reference", options->reference,
+                       "Settings that count as the truth [the strictest, made stricter until nothing moves]")
+                   ->type_name("NAME=V,..."));
     command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
     command
         ->add_option("--budget", options->timing.budget,

@@ -91,6 +91,16 @@ class Unknown(ProgramTest):
                 self.expect_failure([command], 2, f"tidemark: error: {command}: SCENE is required")
         self.expect_failure(["inspect"], 2, "tidemark: error: inspect: give a SCENE, or --devices")
 
+    def test_scene_behind_an_option_that_may_be_given_again(self):
+        (self.folder / "a.glsl").write_text("#define N 1\n#iUniform float k = 1.0 in { 0.0, 2.0 }\n" + SHADER)
+        for words in (["export", "--set", "k=2", "a.glsl", "-o", "-"],
+                      ["inspect", "--device", "none", "--set", "k=2", "--define", "N=2", "a.glsl"],
+                      ["capture", "--set", "k=2", "--channel", "0=none", "a.glsl", "--size", "2x2"],
+                      ["inspect", "--with", "channels,mipmaps", "--budget", "0.1", "--size", "2x2", "a.glsl"],
+                      ["check", "--probe", "hashes", "--probe", "unassigned", "a.glsl"]):
+            with self.subTest(words=words):
+                self.succeed(*words)
+
     def test_value_missing(self):
         for words, wrong in ((["capture", "a.glsl", "--time"], "--time: give a value, T"),
                              (["bake", "noise", "--seed", "x"], "--seed: give a whole number from 0, not 'x'"),

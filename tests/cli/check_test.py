@@ -1,6 +1,5 @@
 """`tidemark check SCENE`: what probes find in scenes with one fault each, and in sound ones."""
 import json
-import shutil
 
 from support.program import ROOT, ProgramTest, main
 
@@ -217,15 +216,18 @@ class Check(ProgramTest):
 
     def test_a_wrong_promise_is_an_error(self):
         scene = self.write("late.glsl", SOUND)
-        file = self.write("late.check.json", '{"time_horizont": 1}')
-        result = self.run_program("check", str(scene))
-        self.assertEqual(result.returncode, 3)
-        self.assertIn(f"{file}: 'time_horizont' is nothing that a scene can promise", result.stderr)
+        for promise, wrong in (('{"time_horizont": 1}', "'time_horizont' is nothing that a scene can promise"),
+                               ('{"time_horizon": "long"}', "'time_horizon' takes a number from 0"),
+                               ('{"ranges": {"k": 1}}', "'ranges' takes {\"knob\": [low, high]}"),
+                               ('{"when": {"N": {}}}', "'when' takes {\"NAME=VALUE\": {promises}}")):
+            with self.subTest(promise):
+                file = self.write("late.check.json", promise)
+                result = self.run_program("check", str(scene))
+                self.assertEqual(result.returncode, 3)
+                self.assertIn(f"{file}: {wrong}", result.stderr)
 
     def test_the_documents_own_marching_has_its_known_faults(self):
-        shutil.copytree(ROOT / "shaders", self.folder / "shaders", ignore=shutil.ignore_patterns("*.check.json"))
-        scene = self.folder / "shaders" / "water_surface.glsl"
-        entries = self.verdicts(scene, "--define", "DOCUMENT=1")
+        entries = self.verdicts(ROOT / "shaders" / "water_surface.glsl", "--define", "DOCUMENT=1")
         for probe in ("jumps", "camera", "witnesses", "horizon", "budget"):
             self.assertEqual(entries[probe]["verdict"], "fail", entries[probe]["found"])
         self.assertIn("62.83 s", entries["jumps"]["found"])

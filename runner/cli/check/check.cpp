@@ -78,11 +78,8 @@ void add_check(CLI::App& app, Action& chosen) {
     ProbesRequest& probes = options->probes;
     add_scene_options(*command, probes.scene);
     add_precision_options(*command, probes.scene);
-    command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]")
-        ->type_name("NAME")
-        ->type_size(1)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    repeatable(command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]"))
+        ->type_name("NAME");
     command->add_option("-o,--output", probes.output, "Folder for a picture of each failure")
         ->type_name("FOLDER");
     command->add_option("--budget", probes.budget, "Seconds after which no other probe is begun")

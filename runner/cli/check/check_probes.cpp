@@ -6,6 +6,7 @@
 #include "cli/forked.hpp"
 #include "cli/progress.hpp"
 #include "cli/version.hpp"
+#include "glsl/overrides.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/headless_context.hpp"
 
@@ -53,15 +54,16 @@ Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::stri
     return chosen;
 }
 
-Result<lab::Promises> promises_of(const fs::path& scene) {
-    const fs::path file = file_beside(scene, "check.json");
+Result<lab::Promises> promises_of(const fs::path& path, const scene::Scene& scene) {
+    const fs::path file = file_beside(path, "check.json");
     std::error_code ignored;
     if (!fs::exists(file, ignored))
         return lab::Promises{};
     const auto text = read_text_file(file);
     if (!text)
         return fail(text.error());
-    return lab::parse_promises(*text, file.string());
+    return lab::parse_promises(*text, file.string(),
+                               [&](const std::string& name) { return glsl::definition_of(scene, name); });
 }
 
 std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
@@ -286,7 +288,7 @@ Result<int> check_probes(const ProbesRequest& request) {
     auto scene = load(request.scene);
     if (!scene)
         return fail(std::move(scene.error()));
-    const auto promises = promises_of(request.scene.path);
+    const auto promises = promises_of(request.scene.path, *scene);
     if (!promises)
         return fail(promises.error());
     auto told = answers(request, *scene, *promises, *probes, start);

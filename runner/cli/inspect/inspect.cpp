@@ -210,6 +210,7 @@ void add_inspect(CLI::App& app, Action& chosen) {
                                  fmt::join(things, ", ")))
         ->type_name("THING[,…]")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(CLI::IsMember(things));
     command->add_option("--size", options->size, "With --with: the picture's size")
         ->type_name("WxH")

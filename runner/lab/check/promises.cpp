@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
+#include <algorithm>
 
 namespace tidemark::lab {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::json;
 
 struct Field {
-    const char* name;
+    std::string_view name;
     double Promises::*value;
 };
 
@@ -27,48 +27,85 @@ std::string names() {
     std::string text;
     for (const Field& field : k_fields)
         text += fmt::format("{}, ", field.name);
-    return text + "ranges, skip";
+    return text + "ranges, skip, when";
 }
 
-/// What is wrong with one entry; empty: it was taken.
-std::string take(Promises& promises, const std::string& name, const Json& value) {
-    if (name == "skip") {
-        for (const auto& [probe, reason] : value.items())
-            if (!value.is_object() || !reason.is_string())
-                return "'skip' takes {\"probe\": \"why\"}";
-            else
-                promises.skip[probe] = reason.get<std::string>();
-        return {};
+std::string take_reasons(Promises& promises, const Json& reasons) {
+    if (!reasons.is_object())
+        return "'skip' takes {\"probe\": \"why\"}";
+    for (const auto& [probe, reason] : reasons.items()) {
+        if (!reason.is_string())
+            return "'skip' takes {\"probe\": \"why\"}";
+        promises.skip[probe] = reason.get<std::string>();
     }
-    if (name == "ranges") {
-        for (const auto& [knob, range] : value.items())
-            if (!value.is_object() || !range.is_array() || range.size() != 2 || !range[0].is_number() ||
-                !range[1].is_number())
-                return "'ranges' takes {\"knob\": [low, high]}";
-            else
-                promises.ranges[knob] = {range[0].get<double>(), range[1].get<double>()};
-        return {};
+    return {};
+}
+
+std::string take_ranges(Promises& promises, const Json& ranges) {
+    constexpr const char* k_form = "'ranges' takes {\"knob\": [low, high]}";
+    if (!ranges.is_object())
+        return k_form;
+    for (const auto& [knob, range] : ranges.items()) {
+        if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number())
+            return k_form;
+        promises.ranges[knob] = {range[0].get<double>(), range[1].get<double>()};
     }
-    for (const Field& field : k_fields)
-        if (name == field.name) {
-            if (!value.is_number() || !(value.get<double>() >= 0))
-                return fmt::format("'{}' takes a number from 0", name);
-            promises.*field.value = value.get<double>();
-            return {};
-        }
-    return fmt::format("'{}' is nothing that a scene can promise; there are {}", name, names());
+    return {};
+}
+
+std::string take(Promises& promises, const Json& entries, const DefinitionOf& definition_of);
+
+/// Promises of the scene as it is defined elsewise.
+std::string take_conditional(Promises& promises, const Json& conditional, const DefinitionOf& definition_of) {
+    constexpr const char* k_form = "'when' takes {\"NAME=VALUE\": {promises}}";
+    if (!conditional.is_object())
+        return k_form;
+    for (const auto& [condition, entries] : conditional.items()) {
+        const size_t equals = condition.find('=');
+        if (equals == condition.npos || !entries.is_object())
+            return k_form;
+        if (definition_of(condition.substr(0, equals)) == condition.substr(equals + 1))
+            if (std::string wrong = take(promises, entries, definition_of); !wrong.empty())
+                return wrong;
+    }
+    return {};
+}
+
+std::string take_number(Promises& promises, const std::string& name, const Json& value) {
+    const auto field = std::ranges::find(k_fields, name, &Field::name);
+    if (field == std::end(k_fields))
+        return fmt::format("'{}' is nothing that a scene can promise; there are {}", name, names());
+    if (!value.is_number() || !(value.get<double>() >= 0))
+        return fmt::format("'{}' takes a number from 0", name);
+    promises.*(field->value) = value.get<double>();
+    return {};
+}
+
+/// What is wrong with the entries; empty: they were taken.
+std::string take(Promises& promises, const Json& entries, const DefinitionOf& definition_of) {
+    for (const auto& [name, value] : entries.items()) {
+        const std::string wrong = name == "skip"     ? take_reasons(promises, value)
+                                  : name == "ranges" ? take_ranges(promises, value)
+                                  : name == "when"   ? std::string()
+                                                     : take_number(promises, name, value);
+        if (!wrong.empty())
+            return wrong;
+    }
+    // Behind the others, whatever their order: a condition says what is otherwise.
+    return entries.contains("when") ? take_conditional(promises, entries["when"], definition_of)
+                                    : std::string();
 }
 
 } // namespace
 
-Result<Promises> parse_promises(std::string_view text, const std::string& file) {
+Result<Promises> parse_promises(std::string_view text, const std::string& file,
+                                const DefinitionOf& definition_of) {
     const Json json = Json::parse(text, nullptr, false, true);
     if (!json.is_object())
         return fail(ErrorCode::load, fmt::format("{}: this is no JSON object", file));
     Promises promises;
-    for (const auto& [name, value] : json.items())
-        if (const std::string wrong = take(promises, name, value); !wrong.empty())
-            return fail(ErrorCode::load, fmt::format("{}: {}", file, wrong));
+    if (const std::string wrong = take(promises, json, definition_of); !wrong.empty())
+        return fail(ErrorCode::load, fmt::format("{}: {}", file, wrong));
     return promises;
 }
 

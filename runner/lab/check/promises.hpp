@@ -4,7 +4,9 @@
 
 #include "base/result.hpp"
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,7 +25,11 @@ struct Promises {
     std::map<std::string, std::string> skip; ///< probe: why it is not asked
 };
 
+/// What the scene's text defines a name as, if it does.
+using DefinitionOf = std::function<std::optional<std::string>(const std::string& name)>;
+
 /// Reads such a file; `file` is named in the errors (ErrorCode::load), with the name of the value.
-Result<Promises> parse_promises(std::string_view text, const std::string& file);
+Result<Promises> parse_promises(std::string_view text, const std::string& file,
+                                const DefinitionOf& definition_of);
 
 } // namespace tidemark::lab
