@@ -9,7 +9,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Constants made of constants made of constants …; one that is made of itself ends here.
+/// Constants made of constants made of constants …
 constexpr int k_most_constants = 30;
 /// Beyond, not every whole number is a float.
 constexpr double k_largest_whole_float = 16777216.0;
@@ -83,6 +83,16 @@ auto ConstantConditions::name(std::string_view name) const -> Known {
         return scene::info(knob->type).components == 1 && has_qualifier(text_, variable.type, "uniform")
                    ? knob_value(*knob, 0)
                    : std::nullopt;
+    const auto [known, fresh] = constants_.try_emplace(name);
+    if (fresh) {
+        const Known value = constant(variable);
+        constants_[name] = value; // by its name: others have come since
+        return value;
+    }
+    return known->second; // nothing of one that is made of itself
+}
+
+auto ConstantConditions::constant(const Variable& variable) const -> Known {
     const bool global = tree_[tree_[variable.type].parent].parent == 0 &&
                         tree_[variable.declared].kind == NodeKind::declarator;
     const NodeId value = tree_.child(variable.declared, 0);

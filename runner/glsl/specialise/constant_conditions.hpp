@@ -7,6 +7,8 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
+#include <unordered_map>
 
 namespace tidemark::glsl {
 
@@ -30,6 +32,7 @@ private:
     Known evaluate(NodeId expression) const;
     Known literal(std::string_view digits) const;
     Known name(std::string_view name) const;
+    Known constant(const Variable& variable) const;
     Known member(NodeId member) const;
     Known prefix(NodeId prefix) const;
     Known binary(NodeId binary) const;
@@ -42,7 +45,8 @@ private:
     const SyntaxTree& tree_;
     const Variables& variables_;
     std::span<const scene::Knob> knobs_;
-    mutable int constants_open_ = 0; ///< whose values are being looked for
+    mutable std::unordered_map<std::string_view, Known> constants_; ///< that were asked for
+    mutable int constants_open_ = 0;                                ///< whose values are being looked for
 };
 
 } // namespace tidemark::glsl

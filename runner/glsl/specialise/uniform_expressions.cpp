@@ -240,7 +240,8 @@ std::optional<PureFunction> UniformExpressions::pure_function(std::string_view n
     return pure;
 }
 
-/// Every name must be a local variable, constant during the frame, or a function that only computes.
+/// Every name must be a local variable, constant during the frame, or a function that only computes. A loop
+/// might not end where the author does not call it.
 std::optional<PureFunction> UniformExpressions::examine(const Global& function) const {
     const NodeId type = tree_.child(function.node, 0);
     const auto result = value_type(type_name(text_, type));
@@ -249,7 +250,7 @@ std::optional<PureFunction> UniformExpressions::examine(const Global& function) 
     PureFunction pure{*result};
     const Variables locals = find_variables(text_, function.first, function.node);
     for (NodeId id = function.first; id <= function.node; ++id) {
-        if (tree_[id].kind == NodeKind::jump && text_.word_of(id) == "discard")
+        if (is_loop(tree_[id].kind) || (tree_[id].kind == NodeKind::jump && text_.word_of(id) == "discard"))
             return std::nullopt;
         if (tree_[id].kind == NodeKind::call && called_name(text_, id).empty())
             return std::nullopt;
@@ -258,9 +259,12 @@ std::optional<PureFunction> UniformExpressions::examine(const Global& function) 
         const std::string_view name = text_.word_of(id);
         if (!is_callee(id)) {
             const auto global = settled_.find(name);
-            if (!locals.contains(name) && name != "true" && name != "false" && global == settled_.end())
+            const bool settled = global != settled_.end();
+            // A name that is a local variable here may be a global one elsewhere in the function.
+            const bool local = locals.contains(name) && !globals_.contains(name);
+            if (!local && !settled && name != "true" && name != "false")
                 return std::nullopt;
-            pure.uniform = pure.uniform || (global != settled_.end() && global->second.uniform);
+            pure.uniform = pure.uniform || (settled && global->second.uniform);
         } else if (functions_.contains(name)) {
             const auto called = pure_function(name);
             if (!called)

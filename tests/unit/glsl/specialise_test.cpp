@@ -242,6 +242,13 @@ TEST(Specialise, hoists_nothing_that_may_change_within_a_frame) {
     EXPECT_EQ(in_loop("float x = f(iTime);", "float f(float x) { return sin(x) + f(x); }\n"), 0);
     EXPECT_EQ(in_loop("float x = f(iTime);", "float f(float x) { if (x > 1.0) discard; return sin(x); }\n"),
               0);
+    constexpr std::string_view k_shadowing =
+        "float g; float f(float x) { float y = g; { float g = 2.0; y += g; } return sin(x * y); }\n";
+    EXPECT_EQ(in_loop("g = float(i); float x = f(iTime);", k_shadowing), 0);
+    // Might not end, and might not be called.
+    constexpr std::string_view k_looping =
+        "float f(float k) { float y; for (float i = 0.0; i < 1.0; i += k) y = cos(k); return y; }\n";
+    EXPECT_EQ(in_loop("if (iTime > 0.0) a += f(iTime);", k_looping), 0);
     EXPECT_EQ(in_loop("float iTime = a; float x = cos(iTime);"), 0); // shadowed
     EXPECT_EQ(in_loop("float x = cos(iTime);", "#define iTime (a + 1.0)\n"), 0);
     EXPECT_EQ(hoisted("void main() { float x = cos(iTime); }"), 0); // no loop
@@ -255,6 +262,14 @@ TEST(Specialise, writes_knobs_as_constants_when_asked_to) {
     EXPECT_NE(text.find("const float foam = float(0.500000000);"), std::string::npos) << text;
     EXPECT_NE(text.find("const int count = int(int(3));"), std::string::npos) << text;
     EXPECT_NE(text.find("const vec2 wind = vec2(1.00000000, -2.00000000);"), std::string::npos) << text;
+}
+
+TEST(Specialise, works_out_a_constant_once) {
+    std::string text = "const int a0 = 1;\n";
+    for (int i = 1; i < 29; ++i) // asked for anew at each place: 3^28 times
+        text += fmt::format("const int a{0} = a{1} + a{1} - a{1};\n", i, i - 1);
+    EXPECT_EQ(branch("a28 == 1", text), "a");
+    EXPECT_EQ(branch("me == 1", "const int me = me + 0;\n"), "both");
 }
 
 TEST(Specialise, follows_chains_of_any_length) {
