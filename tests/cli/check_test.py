@@ -219,6 +219,9 @@ class Check(ProgramTest):
         for promise, wrong in (('{"time_horizont": 1}', "'time_horizont' is nothing that a scene can promise"),
                                ('{"time_horizon": "long"}', "'time_horizon' takes a number from 0"),
                                ('{"ranges": {"k": 1}}', "'ranges' takes {\"knob\": [low, high]}"),
+                               ('{"ranges": {"k": [5, 1]}}', "'ranges' takes {\"knob\": [low, high]}"),
+                               ('{"when": {"N=1": {"time_horizont": 1}}}',
+                                "'time_horizont' is nothing that a scene can promise"),
                                ('{"when": {"N": {}}}', "'when' takes {\"NAME=VALUE\": {promises}}")):
             with self.subTest(promise):
                 file = self.write("late.check.json", promise)

@@ -1,6 +1,7 @@
 #include "cli/check/check_probes.hpp"
 
 #include "base/file.hpp"
+#include "base/shell_word.hpp"
 #include "cli/check/asked.hpp"
 #include "cli/console.hpp"
 #include "cli/forked.hpp"
@@ -70,13 +71,18 @@ std::string reproduction(const ProbesRequest& request, const lab::Situation& sit
     std::string options;
     const auto add = [&options](const char* name, const std::vector<std::string>& values) {
         for (const std::string& value : values)
-            options += fmt::format("{} '{}' ", name, value);
+            options += fmt::format("{} {} ", name, shell_word(value));
     };
     add("--set", request.scene.sets);
     add("--define", request.scene.defines);
     add("--channel", request.scene.channels);
-    return fmt::format("tidemark capture {} {}{} -o {}.exr", request.scene.path.string(), options,
-                       lab::capture_options(situation), request.scene.path.stem().string());
+    if (!request.scene.files.media.empty())
+        add("--media", {request.scene.files.media.string()});
+    if (request.scene.files.allow_outside)
+        options += "--allow-outside ";
+    return fmt::format("tidemark capture {} {}{} -o {}", shell_word(request.scene.path.string()), options,
+                       lab::capture_options(situation),
+                       shell_word(request.scene.path.stem().string() + ".exr"));
 }
 
 Result<void> keep_picture(const fs::path& folder, Asked& asked) {

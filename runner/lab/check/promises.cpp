@@ -46,27 +46,10 @@ std::string take_ranges(Promises& promises, const Json& ranges) {
     if (!ranges.is_object())
         return k_form;
     for (const auto& [knob, range] : ranges.items()) {
-        if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number())
+        if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number() ||
+            range[0].get<double>() > range[1].get<double>())
             return k_form;
         promises.ranges[knob] = {range[0].get<double>(), range[1].get<double>()};
-    }
-    return {};
-}
-
-std::string take(Promises& promises, const Json& entries, const DefinitionOf& definition_of);
-
-/// Promises of the scene as it is defined elsewise.
-std::string take_conditional(Promises& promises, const Json& conditional, const DefinitionOf& definition_of) {
-    constexpr const char* k_form = "'when' takes {\"NAME=VALUE\": {promises}}";
-    if (!conditional.is_object())
-        return k_form;
-    for (const auto& [condition, entries] : conditional.items()) {
-        const size_t equals = condition.find('=');
-        if (equals == condition.npos || !entries.is_object())
-            return k_form;
-        if (definition_of(condition.substr(0, equals)) == condition.substr(equals + 1))
-            if (std::string wrong = take(promises, entries, definition_of); !wrong.empty())
-                return wrong;
     }
     return {};
 }
@@ -81,19 +64,39 @@ std::string take_number(Promises& promises, const std::string& name, const Json&
     return {};
 }
 
-/// What is wrong with the entries; empty: they were taken.
-std::string take(Promises& promises, const Json& entries, const DefinitionOf& definition_of) {
-    for (const auto& [name, value] : entries.items()) {
-        const std::string wrong = name == "skip"     ? take_reasons(promises, value)
-                                  : name == "ranges" ? take_ranges(promises, value)
-                                  : name == "when"   ? std::string()
-                                                     : take_number(promises, name, value);
-        if (!wrong.empty())
-            return wrong;
+/// What is wrong with one entry; empty: it was taken.
+std::string take(Promises& promises, const std::string& name, const Json& value) {
+    return name == "skip"     ? take_reasons(promises, value)
+           : name == "ranges" ? take_ranges(promises, value)
+                              : take_number(promises, name, value);
+}
+
+/// Promises that hold under a definition; the others are read, too, so that a mistake is told at once.
+std::string take_conditional(Promises& promises, const Json& conditional, const DefinitionOf& definition_of) {
+    constexpr const char* k_form = "'when' takes {\"NAME=VALUE\": {promises}}";
+    if (!conditional.is_object())
+        return k_form;
+    for (const auto& [condition, entries] : conditional.items()) {
+        const size_t equals = condition.find('=');
+        if (equals == condition.npos || !entries.is_object())
+            return k_form;
+        const bool holds = definition_of(condition.substr(0, equals)) == condition.substr(equals + 1);
+        Promises unused;
+        for (const auto& [name, value] : entries.items())
+            if (std::string wrong = take(holds ? promises : unused, name, value); !wrong.empty())
+                return wrong;
     }
-    // Behind the others, whatever their order: a condition says what is otherwise.
-    return entries.contains("when") ? take_conditional(promises, entries["when"], definition_of)
-                                    : std::string();
+    return {};
+}
+
+/// What is wrong with them all.
+std::string take_all(Promises& promises, const Json& entries, const DefinitionOf& definition_of) {
+    for (const auto& [name, value] : entries.items())
+        if (name != "when")
+            if (std::string wrong = take(promises, name, value); !wrong.empty())
+                return wrong;
+    // Last: a condition overrides the plain entries, whatever the order in the file.
+    return entries.contains("when") ? take_conditional(promises, entries["when"], definition_of) : "";
 }
 
 } // namespace
@@ -104,7 +107,7 @@ Result<Promises> parse_promises(std::string_view text, const std::string& file,
     if (!json.is_object())
         return fail(ErrorCode::load, fmt::format("{}: this is no JSON object", file));
     Promises promises;
-    if (const std::string wrong = take(promises, json, definition_of); !wrong.empty())
+    if (const std::string wrong = take_all(promises, json, definition_of); !wrong.empty())
         return fail(ErrorCode::load, fmt::format("{}: {}", file, wrong));
     return promises;
 }

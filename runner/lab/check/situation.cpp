@@ -1,5 +1,6 @@
 #include "lab/check/situation.hpp"
 
+#include "base/shell_word.hpp"
 #include "render/mouse.hpp"
 
 #include <fmt/format.h>
@@ -7,13 +8,7 @@
 #include <algorithm>
 
 namespace tidemark::lab {
-namespace {
-
-std::string quoted(const std::string& word) {
-    return word.find_first_of(" ()'") == word.npos ? word : fmt::format("\"{}\"", word);
-}
-
-} // namespace
+namespace {} // namespace
 
 render::FrameInputs inputs_of(const Situation& situation, int before) {
     render::FrameInputs inputs;
@@ -48,13 +43,13 @@ std::string capture_options(const Situation& situation) {
         text += fmt::format(" --camera {},{},{}", situation.camera->azimuth, situation.camera->elevation,
                             situation.camera->distance);
     for (const Setting& setting : situation.settings)
-        text += " --set " + quoted(setting.name + "=" + setting.value);
+        text += " --set " + shell_word(setting.name + "=" + setting.value);
     for (const Setting& setting : situation.definitions)
-        text += " --define " + quoted(setting.name + "=" + setting.value);
+        text += " --define " + shell_word(setting.name + "=" + setting.value);
     for (const std::string& channel : situation.channels)
-        text += " --channel " + quoted(channel);
+        text += " --channel " + shell_word(channel);
     if (!situation.pass.empty())
-        text += " --pass " + quoted(situation.pass);
+        text += " --pass " + shell_word(situation.pass);
     return text;
 }
 

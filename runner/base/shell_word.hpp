@@ -1,0 +1,12 @@
+// Words of a command line that is printed for a person to run again.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tidemark {
+
+/// The word as a POSIX shell takes it for one: as it stands where that is safe, else between apostrophes.
+std::string shell_word(std::string_view word);
+
+} // namespace tidemark
