@@ -1,5 +1,6 @@
 """`tidemark check SCENE`: what probes find in scenes with one fault each, and in sound ones."""
 import json
+import shlex
 
 from support.program import ROOT, ProgramTest, main
 
@@ -63,7 +64,7 @@ class Check(ProgramTest):
         entry = self.verdicts(scene, "--probe", "times", "-o", str(folder))["times"]
         self.assertTrue((folder / "times.png").exists())
         self.assertEqual(entry["picture"], str(folder / "times.png"))
-        command = entry["reproduction"].split()
+        command = shlex.split(entry["reproduction"])
         self.assertEqual(command[:3], ["tidemark", "capture", str(scene)])
         self.succeed(*command[1:-1], str(self.folder / "again.exr"))
 
