@@ -1,6 +1,7 @@
 #include "cli/scene_facts.hpp"
 
 #include "cli/version.hpp"
+#include "glsl/overrides.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,18 @@ bool is_chosen(const scene::Channel& channel) {
                                             std::holds_alternative<scene::Unbound>(channel.input));
 }
 
+/// Blanks and breaks come down to one; what is long is cut.
+std::string in_short(std::string_view text) {
+    constexpr size_t k_longest = 60;
+    std::string line;
+    for (const char c : text)
+        if (c != ' ' && c != '\n' && c != '\t')
+            line += c;
+        else if (!line.ends_with(' '))
+            line += ' ';
+    return line.size() <= k_longest ? line : line.substr(0, k_longest) + "…";
+}
+
 } // namespace
 
 std::string describe(const scene::Scene& scene, const scene::Channel& channel) {
@@ -83,6 +96,21 @@ std::string knob_lines(const scene::Scene& scene) {
     return text;
 }
 
+Json definitions_of(const scene::Scene& scene) {
+    Json definitions = Json::object();
+    for (const glsl::NamedText& definition : glsl::definitions_of(scene))
+        definitions[definition.name] = definition.text;
+    return definitions;
+}
+
+std::string definition_lines(const scene::Scene& scene) {
+    std::string text;
+    for (const glsl::NamedText& definition : glsl::definitions_of(scene))
+        if (!definition.text.empty())
+            text += fmt::format("  define    {} = {}\n", definition.name, in_short(definition.text));
+    return text;
+}
+
 Json what_files_say(const scene::Scene& scene) {
     Json json = {{"tidemark", k_version}, {"scene", scene.file.string()}, {"files", files_of(scene)}};
     json["passes"] = Json::array();
@@ -94,6 +122,7 @@ Json what_files_say(const scene::Scene& scene) {
         json["passes"].push_back({{"name", pass.name}, {"channels", channels}});
     }
     json["knobs"] = knobs_of(scene);
+    json["definitions"] = definitions_of(scene);
     return json;
 }
 
@@ -107,7 +136,7 @@ std::string lines_of_files(const scene::Scene& scene) {
             if (is_chosen(pass.channels[i]))
                 text += fmt::format("  iChannel{} {}\n", i, describe(scene, pass.channels[i]));
     }
-    return text + knob_lines(scene);
+    return text + knob_lines(scene) + definition_lines(scene);
 }
 
 } // namespace tidemark::cli

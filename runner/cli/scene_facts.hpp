@@ -18,7 +18,11 @@ nlohmann::ordered_json knobs_of(const scene::Scene& scene);
 /// Each with its type, value and range.
 std::string knob_lines(const scene::Scene& scene);
 
-/// Files, passes with the channels that somebody chose an input for, knobs.
+/// What --define and --vary can take.
+nlohmann::ordered_json definitions_of(const scene::Scene& scene);
+std::string definition_lines(const scene::Scene& scene);
+
+/// Files, passes with the channels that somebody chose an input for, knobs, definitions.
 nlohmann::ordered_json what_files_say(const scene::Scene& scene);
 std::string lines_of_files(const scene::Scene& scene);
 

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace tidemark::glsl {
 namespace {
@@ -100,35 +101,54 @@ Error no_such_definition(std::string_view name, std::vector<std::string> names) 
     return {ErrorCode::usage, fmt::format("the scene has no #define or const '{}': {}", name, hint), {}};
 }
 
+/// The texts that authors write: Common, which stands in front of the others, first.
+template <class AScene>
+auto texts_of(AScene& scene) {
+    std::vector<decltype(&scene.common)> texts{&scene.common};
+    for (auto& pass : scene.passes)
+        texts.push_back(&pass.text);
+    return texts;
+}
+
 constexpr int k_longest_chain = 32; ///< of names that stand for names, which may go round
 
-std::optional<std::string> value_of(const scene::Scene& scene, std::string_view name) {
-    for (const scene::Pass& pass : scene.passes) {
-        const std::string& text = pass.text.text();
-        const auto tokens = text::tokenize(text);
-        const Preprocessed preprocessed = preprocess(tokens);
-        for (const Definition& definition : find_definitions(tokens))
-            if (definition.name == name && preprocessed.activity[definition.token] != Activity::inactive)
-                return text.substr(definition.begin, definition.end - definition.begin);
-    }
-    return std::nullopt;
+std::optional<std::string> value_of(const std::vector<NamedText>& definitions, std::string_view name) {
+    const auto found = std::ranges::find(definitions, name, &NamedText::name);
+    return found == definitions.end() ? std::nullopt : std::optional(found->text);
 }
 
 } // namespace
 
 std::vector<std::string> definition_names(const scene::Scene& scene) {
     std::vector<std::string> names;
-    for (const scene::Pass& pass : scene.passes)
-        for (const Definition& definition : find_definitions(text::tokenize(pass.text.text())))
+    for (const text::MappedText* mapped : texts_of(scene))
+        for (const Definition& definition : find_definitions(text::tokenize(mapped->text())))
             if (std::find(names.begin(), names.end(), definition.name) == names.end())
                 names.emplace_back(definition.name);
     return names;
 }
 
+std::vector<NamedText> definitions_of(const scene::Scene& scene) {
+    std::vector<NamedText> found;
+    std::unordered_set<std::string_view> names;
+    for (const text::MappedText* mapped : texts_of(scene)) {
+        const std::string& text = mapped->text();
+        const auto tokens = text::tokenize(text);
+        const Preprocessed preprocessed = preprocess(tokens);
+        for (const Definition& definition : find_definitions(tokens))
+            if (preprocessed.activity[definition.token] != Activity::inactive &&
+                names.insert(definition.name).second)
+                found.push_back({std::string(definition.name),
+                                 text.substr(definition.begin, definition.end - definition.begin)});
+    }
+    return found;
+}
+
 std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name) {
-    auto value = value_of(scene, name);
+    const std::vector<NamedText> definitions = definitions_of(scene);
+    auto value = value_of(definitions, name);
     for (int i = 0; value && i < k_longest_chain; ++i) {
-        auto meant = value_of(scene, *value);
+        auto meant = value_of(definitions, *value);
         if (!meant)
             break;
         value = std::move(meant);
@@ -145,8 +165,8 @@ Result<void> override_definition(scene::Scene& scene, std::string_view setting) 
         return fail(ErrorCode::usage, fmt::format("--define {}: the value must be one line", name));
     std::vector<std::string> names;
     bool replaced = false;
-    for (scene::Pass& pass : scene.passes) {
-        const auto tokens = text::tokenize(pass.text.text());
+    for (text::MappedText* mapped : texts_of(scene)) {
+        const auto tokens = text::tokenize(mapped->text());
         std::vector<text::Edit> edits;
         for (const Definition& definition : find_definitions(tokens)) {
             if (definition.name == name)
@@ -156,7 +176,7 @@ Result<void> override_definition(scene::Scene& scene, std::string_view setting) 
                 names.emplace_back(definition.name);
         }
         replaced = replaced || !edits.empty();
-        pass.text.apply(edits);
+        mapped->apply(edits);
     }
     if (!replaced)
         return fail(no_such_definition(name, std::move(names)));

@@ -13,11 +13,18 @@ namespace tidemark::glsl {
 /// The names that can be replaced, each once.
 std::vector<std::string> definition_names(const scene::Scene& scene);
 
-/// What the scene defines NAME as: the text of the first one that no #if takes out. A value that is itself
-/// such a name is followed.
+struct NamedText {
+    std::string name;
+    std::string text;
+};
+
+/// What the scene defines names as: the text of each one's first definition that no #if takes out.
+std::vector<NamedText> definitions_of(const scene::Scene& scene);
+
+/// The same of one name; a value that is itself such a name is followed.
 std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name);
 
-/// Rewrites every definition of NAME in every pass. The error (ErrorCode::usage) names the nearest
+/// Rewrites every definition of NAME in Common and every pass. The error (ErrorCode::usage) names the nearest
 /// definition there is. Macros with parameters and values over several lines are left alone.
 Result<void> override_definition(scene::Scene& scene, std::string_view setting);
 

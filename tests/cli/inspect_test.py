@@ -23,7 +23,7 @@ class Scene(ProgramTest):
         self.assertEqual(done.stderr, "")
         facts = json.loads(done.stdout)
         self.assertEqual(list(facts), ["tidemark", "scene", "driver", "renderer", "files", "uniforms", "passes",
-                                       "knobs", "precision", "left_out"])
+                                       "knobs", "definitions", "precision", "left_out"])
         self.assertEqual(facts["scene"], "sea.glsl")
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(sorted(facts["uniforms"]), ["height", "iChannel1", "iTime"])
@@ -64,7 +64,7 @@ class Scene(ProgramTest):
                             env=environment(LD_DEBUG="files"))
         self.assertNotRegex(done.stderr, "libLLVM|libGLX_mesa|libEGL_mesa|_dri.so|tidemark_pictures")
         facts = json.loads(done.stdout)
-        self.assertEqual(list(facts), ["tidemark", "scene", "files", "passes", "knobs"])
+        self.assertEqual(list(facts), ["tidemark", "scene", "files", "passes", "knobs", "definitions"])
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(facts["passes"], [{"name": "Image", "channels": {"iChannel1": "noise"}}])
         self.assertEqual(facts["knobs"], json.loads(self.succeed("inspect", "sea.glsl", "--json", "--set",
@@ -72,6 +72,15 @@ class Scene(ProgramTest):
         self.assertEqual(self.succeed("inspect", "sea.glsl", "--device", "none").stdout.decode().splitlines(), [
             "sea.glsl", "  file      sea.glsl", "  file      lib.glsl", "  pass      Image", "  iChannel1 noise",
             "  knob      float height = 0.5 in { 0, 2 }", "  knob      color3 tint = vec3(1, 0.5, 0)"])
+
+    def test_names_what_can_be_defined(self):
+        (self.folder / "project").mkdir()
+        self.write("project/common.glsl", "#define PI 3.14\nconst int STEPS = \t 64; // many\n#define SQUARE(x) ((x)*(x))\n")
+        self.write("project/image.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(PI); }\n")
+        facts = json.loads(self.succeed("inspect", "project", "--json", "--define", "PI=3").stdout)
+        self.assertEqual(facts["definitions"], {"PI": "3", "STEPS": "64"})
+        self.assertIn("  define    STEPS = 64", self.succeed("inspect", "project").stdout.decode().splitlines())
+
     def test_code_that_cannot_be_followed_is_kept(self):
         self.write("odd.glsl", "#ifdef GL_ARB_gpu_shader5\n#endif\nfloat unused;\n"
                                "#if GL_ARB_gpu_shader5\nfloat doubtful;\n#endif\n"

@@ -116,6 +116,7 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
                                                                        glsl::Specialise::settled))}});
     }
     json["knobs"] = knobs_of(scene);
+    json["definitions"] = definitions_of(scene);
     add_precision(json, renderer);
     json["left_out"] = facts.left_out;
     return json;
@@ -136,7 +137,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
         text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::settled));
     }
-    text += knob_lines(scene);
+    text += knob_lines(scene) + definition_lines(scene);
     text += precision_lines(renderer);
     for (const std::string& thing : facts.left_out)
         text += fmt::format("  left out  {}\n", thing);

@@ -46,6 +46,14 @@ TEST(OverrideDefine, values_over_lines_move_no_line) {
     EXPECT_EQ(with("A=2", "#define A 1 /* a\n b */ + 3\nc\n"), "#define A 2\n\nc\n");
 }
 
+TEST(OverrideDefine, common_is_looked_at_as_well) {
+    scene::Scene scene = scene_of("float x = PI;\n");
+    scene.common.append("#define PI 3.14\n", "common.glsl", 1);
+    ASSERT_TRUE(override_definition(scene, "PI=3"));
+    EXPECT_EQ(scene.common.text(), "#define PI 3\n");
+    EXPECT_EQ(definition_of(scene, "PI"), "3");
+}
+
 TEST(OverrideDefine, every_definition_is_replaced) {
     EXPECT_EQ(with("A=3", "#ifdef B\n#define A 1\n#else\n#define A 2\n#endif\n"),
               "#ifdef B\n#define A 3\n#else\n#define A 3\n#endif\n");
