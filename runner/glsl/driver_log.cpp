@@ -1,7 +1,9 @@
 #include "glsl/driver_log.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 namespace tidemark::glsl {
 namespace {
@@ -111,10 +113,75 @@ Message read_line(std::string_view line) {
     return {0, Severity::error, line};
 }
 
+/// What Mesa's parser calls its tokens.
+constexpr std::pair<std::string_view, std::string_view> k_tokens[] = {
+    {"BASIC_TYPE_TOK", "a type"},
+    {"TYPE_IDENTIFIER", "a type"},
+    {"NEW_IDENTIFIER", "a name"},
+    {"IDENTIFIER", "a name"},
+    {"FIELD_SELECTION", "a member"},
+    {"INTCONSTANT", "a whole number"},
+    {"FLOATCONSTANT", "a number"},
+    {"UINTCONSTANT", "a whole number"},
+    {"BOOLCONSTANT", "true, false"},
+    {"$end", "the end of the text"},
+    {"INC_OP", "++"},
+    {"DEC_OP", "--"},
+    {"LE_OP", "<="},
+    {"GE_OP", ">="},
+    {"EQ_OP", "=="},
+    {"NE_OP", "!="},
+    {"AND_OP", "&&"},
+    {"OR_OP", "||"},
+    {"XOR_OP", "^^"},
+    {"LEFT_OP", "<<"},
+    {"RIGHT_OP", ">>"},
+    {"MUL_ASSIGN", "*="},
+    {"DIV_ASSIGN", "/="},
+    {"ADD_ASSIGN", "+="},
+    {"SUB_ASSIGN", "-="},
+    {"MOD_ASSIGN", "%="},
+};
+
+/// `syntax error, unexpected NEW_IDENTIFIER, expecting '('`: with words that people know.
+std::string in_words(std::string_view message) {
+    std::string text;
+    while (!message.empty()) {
+        const size_t end = std::min(message.find_first_of(" ,"), message.size());
+        const std::string_view word = message.substr(0, end);
+        const auto known =
+            std::ranges::find(k_tokens, word, &std::pair<std::string_view, std::string_view>::first);
+        text += known == std::end(k_tokens) ? word : known->second;
+        text += message.substr(end, 1);
+        message.remove_prefix(std::min(end + 1, message.size()));
+    }
+    return text;
+}
+
+/// Mesa lists all overloads behind a call that none fits, each as an error of its own.
+class Candidates {
+public:
+    /// Whether `message` is one of them, behind the message before it.
+    bool take(const Message& message) {
+        if (listed_ > 0 && message.text.starts_with("   ")) {
+            ++listed_;
+            return true;
+        }
+        listed_ = message.text.ends_with("candidates are:") ? 1 : 0;
+        return false;
+    }
+    bool wanted() const { return listed_ - 1 <= k_most; }
+
+private:
+    static constexpr int k_most = 3;
+    int listed_ = 0; ///< with the line that announces them
+};
+
 } // namespace
 
 std::vector<Diagnostic> parse_driver_log(std::string_view log, const text::LineMap& lines) {
     std::vector<Diagnostic> diagnostics;
+    Candidates candidates;
     while (!log.empty()) {
         const size_t end = std::min(log.find('\n'), log.size());
         std::string_view line = log.substr(0, end);
@@ -124,7 +191,14 @@ std::vector<Diagnostic> parse_driver_log(std::string_view log, const text::LineM
         if (line.empty())
             continue;
         const Message message = read_line(line);
-        diagnostics.push_back({lines.locate(message.line), message.severity, std::string(message.text)});
+        if (candidates.take(message)) {
+            if (candidates.wanted())
+                diagnostics.push_back(
+                    {lines.locate(message.line), Severity::note,
+                     std::string(message.text.substr(message.text.find_first_not_of(' ')))});
+        } else {
+            diagnostics.push_back({lines.locate(message.line), message.severity, in_words(message.text)});
+        }
     }
     return diagnostics;
 }

@@ -4,6 +4,7 @@
 #include "glsl/overloads.hpp"
 #include "glsl/prologue.hpp"
 #include "glsl/rewrite.hpp"
+#include "scene/project_files.hpp"
 
 #include <fmt/format.h>
 
@@ -109,6 +110,26 @@ Result<Assembly> PassReading::assemble(const Dialect& dialect) const {
     }
     result.source.append(body);
     return result;
+}
+
+std::optional<SourceLocation> PassReading::place_of(std::string_view name) const {
+    const auto found = std::ranges::find_if(tokens_, [&](const text::Token& token) {
+        return token.kind == text::TokenKind::identifier && token.is(name);
+    });
+    if (found == tokens_.end())
+        return std::nullopt;
+    return text_.lines().locate(found->line, found->column);
+}
+
+text::MappedText PassReading::site_source() const {
+    const Dialect site{Version::es_300, MainPlace::last, false, channel_kinds(scene_, pass_)};
+    text::MappedText source;
+    source.append_generated(site_prologue(pass_, facts_, site));
+    source.append_generated(scene::knobs_as_constants(scene_));
+    source.append(scene_.common);
+    source.append(pass_.text);
+    source.append_generated("\n" + wrapper(pass_, facts_, site).main);
+    return source;
 }
 
 std::vector<Diagnostic> PassReading::entry_point_problems() const {

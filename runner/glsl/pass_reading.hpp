@@ -7,6 +7,8 @@
 #include "scene/scene.hpp"
 #include "text/mapped_text.hpp"
 
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::glsl {
@@ -30,6 +32,11 @@ public:
     /// Fails (ErrorCode::load) where something has no double form; never in single precision.
     Result<Assembly> assemble(const Dialect& dialect) const;
     std::vector<Diagnostic> entry_point_problems() const;
+    /// Where a name of the text stands first.
+    std::optional<SourceLocation> place_of(std::string_view name) const;
+    /// What the site would compile of it: GLSL ES 3.00, and nothing of the text changed. Knobs are the
+    /// constants that `export` makes of them.
+    text::MappedText site_source() const;
 
 private:
     const scene::Scene& scene_;

@@ -187,6 +187,9 @@ private:
     }
 
     void word(const Token& token) {
+        if (token.is(scene::k_camera_uniform) && reported_.insert(token.text).second)
+            say(token,
+                fmt::format("{}: the site has no such uniform, and it is all zeros there", token.text));
         if (is_one_of(token.text, k_double_types))
             say(token, fmt::format("{}: GLSL ES has no double precision; write {}", token.text,
                                    token.is("double") ? "float" : token.text.substr(1)));

@@ -127,39 +127,53 @@ int channel_count(const Survey& survey) {
     return scene::k_site_channel_count;
 }
 
-std::string uniforms(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
-                     const Dialect& dialect) {
+std::string declare(const Survey& survey, std::string_view type, std::string_view name, int length = 0) {
+    if (survey.keeps_uniform(name))
+        return {};
+    return length > 0 ? fmt::format("uniform {} {}[{}];\n", type, name, length)
+                      : fmt::format("uniform {} {};\n", type, name);
+}
+
+/// What the site has; its arrays may be longer than there.
+std::string site_uniforms(const scene::Pass& pass, const Survey& survey, const Dialect& dialect,
+                          int channels) {
     std::string text;
-    const auto declare = [&](std::string_view type, std::string_view name, int length = 0) {
-        if (!survey.keeps_uniform(name))
-            text += length > 0 ? fmt::format("uniform {} {}[{}];\n", type, name, length)
-                               : fmt::format("uniform {} {};\n", type, name);
-    };
     const bool sound = pass.kind == scene::PassKind::sound;
-    const int channels = channel_count(survey);
     for (const SiteUniform& uniform : k_site_uniforms)
         if (sound ? uniform.sound : uniform.image)
-            declare(uniform.type, uniform.name, uniform.length > 0 ? channels : 0);
-    for (size_t i = 0; i < k_channel_names.size(); ++i) {
+            text += declare(survey, uniform.type, uniform.name, uniform.length > 0 ? channels : 0);
+    for (size_t i = 0; i < k_channel_structs.size(); ++i) {
         const std::string_view type = sampler_type(dialect.channels[i]);
-        const bool site = i < size_t(scene::k_site_channel_count);
-        if (site || survey.wants(k_channel_names[i]))
-            declare(type, k_channel_names[i]);
-        if (site && survey.wants(k_channel_structs[i]))
+        text += declare(survey, type, k_channel_names[i]);
+        if (survey.wants(k_channel_structs[i]))
             text += fmt::format("uniform struct {{ {} sampler; vec3 size; float time; int loaded; }} {};\n",
                                 type, k_channel_structs[i]);
     }
     if (survey.wants("iChannel"))
         text += "uniform struct { vec3 resolution; float time; } iChannel[4];\n";
+    return text;
+}
+
+/// The extension's, and knobs.
+std::string more_uniforms(const scene::Scene& scene, const Survey& survey, const Dialect& dialect) {
+    std::string text;
+    for (size_t i = k_channel_structs.size(); i < k_channel_names.size(); ++i)
+        if (survey.wants(k_channel_names[i]))
+            text += declare(survey, sampler_type(dialect.channels[i]), k_channel_names[i]);
     if (survey.wants(scene::k_mouse_button_uniform))
-        declare("vec4", scene::k_mouse_button_uniform);
+        text += declare(survey, "vec4", scene::k_mouse_button_uniform);
     if (survey.wants(scene::k_view_uniform))
         text += scene.moves_view ? fmt::format("uniform mat4 {};\n", scene::k_view_uniform)
                                  : fmt::format("const mat4 {} = mat4(1.0);\n", scene::k_view_uniform);
     for (const scene::Knob& knob : scene.knobs)
         if (survey.uses(knob.name))
-            declare(scene::info(knob.type).glsl_name, knob.name);
+            text += declare(survey, scene::info(knob.type).glsl_name, knob.name);
     return text;
+}
+
+std::string output(const Survey& survey, const Dialect& dialect) {
+    const bool own = dialect.main == MainPlace::author && !survey.own_output.empty();
+    return own ? std::string() : fmt::format("layout(location = 0) out vec4 {};\n", k_output);
 }
 
 } // namespace
@@ -182,15 +196,22 @@ std::string version_lines(const Dialect& dialect, std::span<const std::string> e
 std::string prologue(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
                      const Dialect& dialect) {
     std::string text = macros(survey, dialect);
-    text += uniforms(scene, pass, survey, dialect);
-    if (dialect.main != MainPlace::author || survey.own_output.empty())
-        text += fmt::format("layout(location = 0) out vec4 {};\n", k_output);
+    text += site_uniforms(pass, survey, dialect, channel_count(survey));
+    text += more_uniforms(scene, survey, dialect);
+    text += output(survey, dialect);
     if (pass.keyboard_helpers)
         text += keyboard_helpers();
     const bool picture = pass.kind == scene::PassKind::image || pass.kind == scene::PassKind::hit;
     if (picture && survey.wants("st_assert"))
         text += k_assertions;
     return text;
+}
+
+std::string site_prologue(const scene::Pass& pass, const Survey& survey, const Dialect& dialect) {
+    std::string text = version_lines(dialect, {});
+    text += "#define HW_PERFORMANCE 1\n";
+    text += site_uniforms(pass, survey, dialect, scene::k_site_channel_count);
+    return text + output(survey, dialect);
 }
 
 Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& dialect) {

@@ -18,6 +18,9 @@ std::string version_lines(const Dialect& dialect, std::span<const std::string> e
 std::string prologue(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
                      const Dialect& dialect);
 
+/// All that the site puts in front of a text. It has no old names and no knobs.
+std::string site_prologue(const scene::Pass& pass, const Survey& survey, const Dialect& dialect);
+
 struct Wrapper {
     std::string prototype; ///< so that `main` can stand first
     std::string main;

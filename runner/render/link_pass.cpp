@@ -19,6 +19,15 @@ struct Refusal {
     std::string log;
 };
 
+/// The name that a message quotes, as in 'main' or `sdf(vec3)'; empty: none.
+std::string_view named_in(std::string_view message) {
+    const size_t quote = message.find_first_of("`'");
+    if (quote == message.npos)
+        return {};
+    message.remove_prefix(quote + 1);
+    return message.substr(0, std::min(message.find_first_of("'("), message.size()));
+}
+
 class Linker {
 public:
     Linker(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options)
@@ -53,9 +62,12 @@ private:
         error.diagnostics = reading_.entry_point_problems();
         if (error.diagnostics.empty())
             error.diagnostics = glsl::parse_driver_log(first_->log, first_->source.lines());
-        for (Diagnostic& diagnostic : error.diagnostics)
+        for (Diagnostic& diagnostic : error.diagnostics) {
+            if (diagnostic.where.file.empty())
+                diagnostic.where = reading_.place_of(named_in(diagnostic.message)).value_or(SourceLocation());
             if (diagnostic.where.file.empty())
                 diagnostic.message = fmt::format("{}: {}", pass_.name, diagnostic.message);
+        }
         return error;
     }
 

@@ -1,3 +1,4 @@
+#include "scene/host_uniforms.hpp"
 #include "scene/json_text.hpp"
 #include "scene/pass_names.hpp"
 #include "scene/project_files.hpp"
@@ -51,7 +52,7 @@ public:
         for (const Pass& pass : scene_.passes)
             if (pass.kind == PassKind::image)
                 passes.push_back(pass_of(pass, "image", "Image", 37));
-        const std::string common = constants() + scene_.common.text();
+        const std::string common = knobs_as_constants(scene_) + scene_.common.text();
         if (!common.empty())
             passes.push_back({{"inputs", Json::array()},
                               {"outputs", Json::array()},
@@ -101,21 +102,14 @@ private:
                              Severity::warning, std::move(message)});
     }
 
-    /// ShaderToy has no uniforms of one's own.
-    std::string constants() const {
-        std::string text;
-        for (const Knob& knob : scene_.knobs) {
-            std::string value = to_string(knob);
-            if (knob.type == KnobType::float1 && value.find_first_of(".e") == std::string::npos)
-                value += ".0";
-            text += fmt::format("const {} {} = {};\n", info(knob.type).glsl_name, knob.name, value);
-        }
-        return text;
-    }
-
     Json pass_of(const Pass& pass, const char* type, const std::string& name, int output) {
         if (pass.keyboard_helpers)
             warn({}, fmt::format("'{}' says #iKeyboard: ShaderToy has no isKeyDown and the like", pass.name));
+        const std::string camera(k_camera_uniform);
+        if (pass.text.text().find(camera) != std::string::npos ||
+            scene_.common.text().find(camera) != std::string::npos)
+            warn({}, fmt::format("'{}' says {}: ShaderToy has no such uniform, and it is all zeros there",
+                                 pass.name, camera));
         Json inputs = Json::array();
         for (size_t i = 0; i < pass.channels.size(); ++i) {
             const std::string channel = fmt::format("iChannel{}", i);
@@ -199,6 +193,17 @@ private:
 };
 
 } // namespace
+
+std::string knobs_as_constants(const Scene& scene) {
+    std::string text;
+    for (const Knob& knob : scene.knobs) {
+        std::string value = to_string(knob);
+        if (knob.type == KnobType::float1 && value.find_first_of(".e") == std::string::npos)
+            value += ".0";
+        text += fmt::format("const {} {} = {};\n", info(knob.type).glsl_name, knob.name, value);
+    }
+    return text;
+}
 
 Result<std::string> make_project(const Scene& scene, std::vector<Diagnostic>& warnings) {
     auto json = ProjectWriter(scene, warnings).write();

@@ -25,6 +25,9 @@ Result<std::vector<ProjectFile>> split_project(std::string_view json, const std:
 /// The JSON that `split_project` took apart, from the folder's `scene.json`.
 Result<std::string> join_project(const std::filesystem::path& folder, const Bounds& bounds);
 
+/// Knobs with their present values, as GLSL: ShaderToy has no uniforms of one's own.
+std::string knobs_as_constants(const Scene& scene);
+
 /// A scene that never was a project, as one in the form of the API: includes pasted, knobs as constants of
 /// their present values, the channels that the passes mention. What ShaderToy cannot have is added to
 /// `warnings`; more buffers than it has are an error.

@@ -1,14 +1,11 @@
+#include "cli/check/check_portable.hpp"
 #include "cli/check/check_probes.hpp"
 #include "cli/check/check_trace.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "cli/version.hpp"
-#include "glsl/portability.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -22,31 +19,6 @@ struct CheckOptions {
     bool traced = false;
     bool list = false;
 };
-
-nlohmann::ordered_json to_json(const Diagnostic& diagnostic) {
-    return {
-        {"file", diagnostic.where.file}, {"line", diagnostic.where.line}, {"message", diagnostic.message}};
-}
-
-/// One line for each place that ShaderToy's compiler will refuse; exit 1 when there is one.
-Result<int> check_portable(const CheckOptions& options) {
-    const auto scene = load(options.probes.scene);
-    if (!scene)
-        return fail(scene.error());
-    const std::vector<Diagnostic> found = glsl::portability_lint(*scene);
-    std::string text;
-    nlohmann::ordered_json json = {{"tidemark", k_version},
-                                   {"scene", scene->file.string()},
-                                   {"portable", found.empty()},
-                                   {"findings", {}}};
-    json["findings"] = nlohmann::ordered_json::array();
-    for (const Diagnostic& diagnostic : found) {
-        text += to_string(diagnostic) + '\n';
-        json["findings"].push_back(to_json(diagnostic));
-    }
-    const int code = found.empty() ? 0 : exit_code(ErrorCode::check_failed);
-    return put(options.probes.json ? json.dump(2) + "\n" : text).map([code] { return code; });
-}
 
 void add_trace_options(CLI::App& command, TraceOptions& options) {
     add_picture_options(command, options.frames);
@@ -107,10 +79,11 @@ void add_check(CLI::App& app, Action& chosen) {
                 return fail(ErrorCode::usage,
                             "check looks for what floats get wrong, and draws in double "
                             "itself what it holds them against: leave --precision double out");
-            return options->list       ? list_probes()
-                   : options->portable ? check_portable(*options)
-                   : options->traced   ? trace(*options)
-                                       : check_probes(options->probes);
+            return options->list ? list_probes()
+                   : options->portable
+                       ? check_portable(options->probes.scene, options->probes.device, options->probes.json)
+                   : options->traced ? trace(*options)
+                                     : check_probes(options->probes);
         };
     });
 }

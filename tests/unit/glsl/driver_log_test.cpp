@@ -41,6 +41,31 @@ TEST(DriverLog, mesa_link) {
               "warning: `color' is never written\n");
 }
 
+TEST(DriverLog, of_mesas_candidates_three_are_kept) {
+    EXPECT_EQ(read("0:14(5): error: no matching function for call to `f(int)'; candidates are:\n"
+                   "0:14(5): error:    float f(float)\n"
+                   "0:14(5): error:    vec2 f(vec2)\n"
+                   "0:14(5): error:    vec3 f(vec3)\n"
+                   "0:14(5): error:    vec4 f(vec4)\n"
+                   "0:15(5): error: type mismatch\n"
+                   "0:16(5): error:    float f(float)\n"),
+              "a.glsl:1: error: no matching function for call to `f(int)'; candidates are:\n"
+              "a.glsl:1: note: float f(float)\n"
+              "a.glsl:1: note: vec2 f(vec2)\n"
+              "a.glsl:1: note: vec3 f(vec3)\n"
+              "a.glsl:2: error: type mismatch\n"
+              "a.glsl:3: error:    float f(float)\n");
+}
+
+TEST(DriverLog, mesas_tokens_in_words) {
+    EXPECT_EQ(read("0:14(5): error: syntax error, unexpected BASIC_TYPE_TOK, expecting '(' or IDENTIFIER\n"
+                   "0:14(5): error: syntax error, unexpected $end\n"
+                   "0:14(5): error: `IDENTIFIERS' undeclared\n"),
+              "a.glsl:1: error: syntax error, unexpected a type, expecting '(' or a name\n"
+              "a.glsl:1: error: syntax error, unexpected the end of the text\n"
+              "a.glsl:1: error: `IDENTIFIERS' undeclared\n");
+}
+
 TEST(DriverLog, nvidia) {
     EXPECT_EQ(read("0(14) : error C1503: undefined variable \"x\"\n"
                    "0(11) : warning C7050: \"y\" might be used before being initialized\n"

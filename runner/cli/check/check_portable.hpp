@@ -1,0 +1,13 @@
+// `tidemark check --portable`: what will not compile on ShaderToy's own site.
+#pragma once
+
+#include "cli/requests.hpp"
+
+#include <string>
+
+namespace tidemark::cli {
+
+/// Prints one line for each place that the site's compiler will refuse; exit 1 when there is one.
+Result<int> check_portable(const SceneRequest& request, const std::string& device, bool as_json);
+
+} // namespace tidemark::cli
