@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <thread>
 #include <vector>
 
 namespace tidemark::cli {
@@ -40,14 +42,22 @@ double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs) {
     return milliseconds_on(watch);
 }
 
+/// Then leaves the device to others for as long: a software driver draws for one context at a time, and
+/// whoever comes back at once is served first.
+double politely_timed(Renderer& renderer, const render::FrameInputs& inputs) {
+    const double milliseconds = milliseconds_of(renderer, inputs);
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds));
+    return milliseconds;
+}
+
 /// What a frame takes of another program's time. Median of pairs: what else keeps the machine busy does so
 /// for both of a pair.
 double share_of(Renderer& renderer, Renderer& other, const TrialPlan& plan) {
     std::vector<double> shares;
     const lab::Stopwatch watch;
     while (shares.size() < k_fewest_pairs || watch.elapsed().wall < plan.timing) {
-        const double others = milliseconds_of(other, plan.last);
-        shares.push_back(milliseconds_of(renderer, plan.last) / others);
+        const double others = politely_timed(other, plan.last);
+        shares.push_back(politely_timed(renderer, plan.last) / others);
     }
     return lab::median(std::move(shares));
 }
