@@ -1,6 +1,6 @@
 // Specialised programs draw the bytes of the plain ones, in our scenes with their features on and off, and in
 // each kind of pass.
-#include "cli/capture/trial.hpp"
+#include "cli/trial.hpp"
 #include "gl_test.hpp"
 #include "glsl/hit.hpp"
 #include "glsl/overrides.hpp"

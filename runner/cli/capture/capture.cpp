@@ -1,7 +1,7 @@
 #include "base/file.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
-#include "cli/capture/trial.hpp"
+#include "cli/trial.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"

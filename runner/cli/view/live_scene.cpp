@@ -62,17 +62,22 @@ std::vector<std::filesystem::path> LiveScene::changed() {
     return files;
 }
 
-Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view) {
+Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view, bool settle) {
     auto context = window.create_context();
     if (!context)
         return fail(std::move(context.error()));
     building_since_ = now_seconds();
-    builder_.start({*std::move(context), std::move(scene), view.options, view.inputs});
+    settling_ = settle;
+    builder_.start({*std::move(context), std::move(scene), view.options, view.inputs, settle});
     return {};
 }
 
+void LiveScene::settle(const scene::Scene& scene, platform::Window& window, const View& view) {
+    (void)build(scene, window, view, true); // where it fails, what shows the scene now goes on doing so
+}
+
 std::optional<double> LiveScene::building_since() const {
-    return builder_.building() ? std::optional(building_since_) : std::nullopt;
+    return builder_.building() && !settling_ ? std::optional(building_since_) : std::nullopt;
 }
 
 Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const View& view, double now) {
@@ -91,6 +96,8 @@ Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const V
     auto built = builder_.take();
     if (!built)
         return std::nullopt;
+    if (settling_)
+        return *built ? std::optional(**std::move(built)) : std::nullopt;
     if (!*built && !saved_)
         return fail(std::move(built->error()));
     if (!*built) {

@@ -40,13 +40,17 @@ public:
     /// it was created with cannot be built.
     Result<std::optional<Stage>> follow(platform::Window& window, const View& view, double now);
 
+    /// Begins to look for a quicker program for the scene on show, which `follow` gives if there is one. A
+    /// reload goes first. Nothing else may be under way.
+    void settle(const scene::Scene& scene, platform::Window& window, const View& view);
+
     /// The build under way is not wanted any more.
     void give_up();
 
     const std::string& name() const { return name_; }
     /// What is wrong with the files as they are. Not while it may be the middle of a save.
     const Error* failure() const { return failure_ && !report_at_ ? &*failure_ : nullptr; }
-    /// Since when there is something being built.
+    /// Since when there is something being built that people wait for.
     std::optional<double> building_since() const;
     /// When `follow` wants to be called at the latest.
     std::optional<double> wake_at() const { return report_at_; }
@@ -58,7 +62,7 @@ public:
 private:
     LiveScene(SceneRequest request, platform::FileWatcher watcher, const scene::Scene& scene);
 
-    Result<void> build(scene::Scene scene, platform::Window& window, const View& view);
+    Result<void> build(scene::Scene scene, platform::Window& window, const View& view, bool settle = false);
     void reload(platform::Window& window, const View& view, double now);
     Result<scene::Scene> load_again();
     Result<void> watch(std::vector<std::filesystem::path> files);
@@ -77,7 +81,8 @@ private:
     std::optional<ReloadTimes> times_; ///< of the build under way
     std::optional<ReloadTimes> times_of_stage_;
     double building_since_ = 0;
-    bool saved_ = false; ///< a file was, since the start
+    bool saved_ = false;    ///< a file was, since the start
+    bool settling_ = false; ///< what is being built, if anything, is a settled Stage
     StageBuilder builder_;
 };
 

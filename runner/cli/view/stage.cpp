@@ -1,17 +1,65 @@
 #include "cli/view/stage.hpp"
 
+#include "cli/trial.hpp"
+#include "cli/view/wall_clock.hpp"
+
+#include <algorithm>
+#include <limits>
+
 namespace tidemark::cli {
+namespace {
+
+constexpr auto k_settled = glsl::Specialise::settled;
+
+/// Whoever is at work on a scene saves and drags more often.
+constexpr double k_shortest_rest_seconds = 2;
+/// A trial compiles the scene twice more: that may take a tenth of the time before it.
+constexpr double k_rest_per_second_of_compiling = 20;
+/// The window draws meanwhile, and is in the way of both programs.
+constexpr double k_timing_ms = 500;
+/// What gains less than the clock can tell is not worth a change.
+constexpr double k_largest_share = 0.97;
+
+} // namespace
 
 Result<Stage> Stage::create(platform::WindowContext context, scene::Scene scene,
                             const render::RenderOptions& options, const render::FrameInputs& first) {
     if (auto current = context.make_current(); !current)
         return fail(std::move(current.error()));
+    const double start = now_seconds();
     auto renderer = render::Renderer::create(std::move(scene), options);
     if (!renderer)
         return fail(std::move(renderer.error()));
     renderer->warm_up(first);
+    const double compiling = now_seconds() - start;
+    const bool worth_settling = worth_trying(*renderer, k_settled);
     context.leave();
-    return Stage(std::move(context), std::make_unique<render::Renderer>(*std::move(renderer)));
+    Stage stage(std::move(context), std::make_unique<render::Renderer>(*std::move(renderer)));
+    if (worth_settling)
+        stage.seconds_to_settle_ =
+            std::max(k_shortest_rest_seconds, k_rest_per_second_of_compiling * compiling);
+    return stage;
+}
+
+Result<Stage> Stage::settle(platform::WindowContext context, const scene::Scene& scene,
+                            const render::RenderOptions& options, const render::FrameInputs& shown) {
+    if (auto current = context.make_current(); !current)
+        return fail(std::move(current.error()));
+    render::RenderOptions settled = options;
+    settled.specialise = k_settled;
+    TrialPlan plan{shown, shown, std::numeric_limits<size_t>::max()};
+    plan.first.frame = 0; // buffers begin there
+    plan.first.time = 0;
+    plan.timing = k_timing_ms;
+    auto trial = choose_program(scene, settled, plan);
+    if (!trial)
+        return fail(std::move(trial.error()));
+    if (!trial->share || *trial->share > k_largest_share)
+        return fail(ErrorCode::check_failed, "the specialised program is no better");
+    context.leave();
+    Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(trial->renderer)));
+    stage.share_ = trial->share;
+    return stage;
 }
 
 Stage::~Stage() {

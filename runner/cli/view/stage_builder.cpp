@@ -9,6 +9,12 @@ namespace {
 /// Compiling keeps a core busy, and the picture on show wants one too.
 constexpr size_t k_most_at_once = 3;
 
+Result<Stage> build(StageBuilder::Order order) {
+    if (order.settle)
+        return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
+    return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
+}
+
 } // namespace
 
 struct StageBuilder::Job {
@@ -37,8 +43,7 @@ void StageBuilder::launch(Order order) {
     newest_ = std::make_shared<Job>();
     std::thread thread([job = newest_, wake = wake_, order = std::move(order)]() mutable {
         {
-            auto built =
-                Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
+            auto built = build(std::move(order));
             const std::lock_guard lock(job->mutex);
             if (!job->abandoned)
                 job->outcome.emplace(std::move(built));

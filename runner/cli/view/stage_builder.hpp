@@ -20,6 +20,7 @@ public:
         scene::Scene scene;
         render::RenderOptions options;
         render::FrameInputs first; ///< inputs of its first frame
+        bool settle = false;       ///< Stage::settle instead of Stage::create
     };
 
     /// `wake` is called on another thread when there is something to `take`.

@@ -22,6 +22,7 @@ struct ViewOptions {
     SceneRequest scene;
     FrameOptions frames;
     std::string record;
+    bool plain = false;
 };
 
 Result<int> view(const ViewOptions& options) {
@@ -34,6 +35,7 @@ Result<int> view(const ViewOptions& options) {
     Viewer::Settings settings{options.scene, *std::move(frames)};
     settings.pass = options.frames.pass;
     settings.record = options.record;
+    settings.plain = options.plain;
     if (options.frames.date)
         settings.date = settings.frames.date;
     if (!options.record.empty())
@@ -64,6 +66,8 @@ void add_view(CLI::App& app, Action& chosen) {
     add_picture_options(*command, options->frames);
     command->add_option("--record", options->record, "Writes what mouse and keyboard do, for --input")
         ->type_name("FILE");
+    command->add_flag("--plain", options->plain,
+                      "Stays with the scene's text as it is when nobody touches it for a while");
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 

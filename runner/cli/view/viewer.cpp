@@ -75,6 +75,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         const double now = now_seconds();
         if (auto followed = follow_scene(now); !followed)
             return fail(std::move(followed.error()));
+        settle_after_rest(now);
         if (wants_frame(now))
             draw(now);
         show_title(now);
@@ -176,6 +177,7 @@ void Viewer::let_the_scene_know(const platform::InputEvent& event) {
                      std::holds_alternative<platform::KeyReleased>(event);
     if (!controls_.handle(event, window_.framebuffer_extent().height))
         return;
+    touched_at_ = now_seconds();
     stale_ = stale_ || !key || scene_reads_keyboard();
     if (!settings_.record.empty())
         record(recorded_, clock_.next_frame_number(), event);
@@ -241,6 +243,7 @@ void Viewer::handle(const platform::FramebufferResized& event) {
     if (stage_)
         if (auto resized = stage_->renderer().resize(event.extent); !resized)
             say(to_string(resized.error())); // the old picture is stretched
+    touched_at_ = now_seconds();
     stale_ = true;
 }
 
@@ -274,11 +277,27 @@ Result<void> Viewer::follow_scene(double now) {
     return *fresh ? show(**std::move(fresh), now) : Result<void>();
 }
 
-/// From now on. What was on show before goes, its buffers' content stays: as on the site, a text that is
-/// changed goes on from where it was.
+/// From now on. One that has settled draws what was drawn before: nothing else changes.
 Result<void> Viewer::show(Stage fresh, double now) {
     if (!stage_)
         clock_ = render::LiveClock(now);
+    if (auto swapped = swap_in(std::move(fresh)); !swapped)
+        return swapped;
+    if (stage_->share()) {
+        say(fmt::format("specialised: a frame takes {:.2f} of its time", *stage_->share()));
+        return {};
+    }
+    play_sound();
+    reloaded_ = scene_.take_times();
+    settled_ = false;
+    stale_ = true;
+    touched_at_ = now;
+    return {};
+}
+
+/// What was on show before goes, its buffers' content stays: as on the site, a text that is changed goes on
+/// from where it was.
+Result<void> Viewer::swap_in(Stage fresh) {
     if (stage_)
         glFinish(); // what it drew is there to be taken over
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
@@ -287,10 +306,20 @@ Result<void> Viewer::show(Stage fresh, double now) {
         return entered;
     if (before)
         stage_->renderer().continue_from(before->renderer());
-    play_sound();
-    reloaded_ = scene_.take_times();
-    handle(platform::FramebufferResized{window_.framebuffer_extent()}); // it may have changed meanwhile
+    if (const Extent extent = window_.framebuffer_extent(); extent != stage_->renderer().extent())
+        handle(platform::FramebufferResized{extent}); // it has changed meanwhile
     return {};
+}
+
+/// Only what moves: a picture that stands still is not drawn anyway.
+void Viewer::settle_after_rest(double now) {
+    if (settings_.plain || settled_ || !moving() || scene_.building_since() || scene_.failure())
+        return;
+    const auto rest = stage_->seconds_to_settle();
+    if (!rest || now - touched_at_ < *rest)
+        return;
+    settled_ = true;
+    scene_.settle(stage_->renderer().scene(), window_, view());
 }
 
 void Viewer::play_sound() {

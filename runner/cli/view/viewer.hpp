@@ -28,6 +28,7 @@ public:
         std::string pass = {};                 ///< the pass to show; empty: Image
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
         std::filesystem::path record = {};     ///< where what people do is written; empty: nowhere
+        bool plain = false;                    ///< never settles
     };
 
     /// Opens the window and begins to compile. Fails like `load` and Window do.
@@ -62,6 +63,8 @@ private:
     LiveScene::View view() const;
     Result<void> follow_scene(double now);
     Result<void> show(Stage fresh, double now);
+    Result<void> swap_in(Stage fresh);
+    void settle_after_rest(double now);
     void play_sound();
     void report_reload();
     bool compiles_for_long(double now) const;
@@ -87,9 +90,11 @@ private:
     std::string title_;
     render::FrameInputs shown_; ///< inputs of the frame on show
     double next_draw_ = 0;
+    double touched_at_ = 0; ///< when somebody last changed what is drawn, or its size
     bool control_down_ = false;
     bool stale_ = true;    ///< the window does not show what it should
     bool at_rest_ = false; ///< the next frame is this one, until somebody does something
+    bool settled_ = false; ///< the scene on show was, or it was tried
     bool closing_ = false;
 };
 

@@ -1,6 +1,6 @@
 // Which program draws a sequence: the one that was specialised in ways that a driver may round differently,
 // or the one that the driver surely rounds alike. Both are tried on frames of the sequence, and the bytes
-// decide.
+// decide. A window that moves is a sequence without an end.
 #pragma once
 
 #include "base/result.hpp"
@@ -18,12 +18,21 @@ struct TrialPlan {
     size_t frames = 1; ///< of the sequence: a trial may cost a twentieth of it
     /// The largest difference of a sample (0..1 in a picture) that is consented to, whatever the trial costs.
     std::optional<double> allowed{};
+    /// For so many milliseconds the last frame is timed over and over, where something else draws meanwhile;
+    /// 0: once.
+    double timing = 0;
 };
 
 struct Trial {
     render::Renderer renderer; ///< its buffers are zero
     std::string said{}; ///< for people: a difference that was allowed or that decided against it; else empty
+    /// What a frame takes of the plain program's time, where the other one was taken.
+    std::optional<double> share{};
 };
+
+/// Whether specialising as far as `how` does anything to the scene that is not surely drawn alike: else there
+/// is no other program to try.
+bool worth_trying(const render::Renderer& renderer, glsl::Specialise how);
 
 /// `options.specialise` says how far it may go.
 Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOptions& options,

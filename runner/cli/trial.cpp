@@ -1,15 +1,18 @@
-#include "cli/capture/trial.hpp"
+#include "cli/trial.hpp"
 
 #include "cli/omissions.hpp"
+#include "lab/statistics.hpp"
 #include "lab/stopwatch.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <thread>
 #include <vector>
 
 namespace tidemark::cli {
@@ -21,6 +24,8 @@ using render::Renderer;
 constexpr double k_share_of_sequence = 1.0 / 20;
 /// And draws about so many frames more than the sequence has.
 constexpr double k_frames_of_trial = 3;
+/// However long they take.
+constexpr size_t k_fewest_pairs = 3;
 
 /// Of all that was drawn.
 double milliseconds_on(const lab::Stopwatch& watch) {
@@ -37,11 +42,24 @@ double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs) {
     return milliseconds_on(watch);
 }
 
-/// Whether the texts have anything that is not surely drawn alike.
-bool worth_trying(const Renderer& renderer, glsl::Specialise how) {
-    return std::ranges::any_of(renderer.plan().passes, [&](const render::PlannedPass& planned) {
-        return left_out_of(renderer, planned.pass, how).in_doubt();
-    });
+/// Then leaves the device to others for as long: a software driver draws for one context at a time, and
+/// whoever comes back at once is served first.
+double politely_timed(Renderer& renderer, const render::FrameInputs& inputs) {
+    const double milliseconds = milliseconds_of(renderer, inputs);
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds));
+    return milliseconds;
+}
+
+/// What a frame takes of another program's time. Median of pairs: what else keeps the machine busy does so
+/// for both of a pair.
+double share_of(Renderer& renderer, Renderer& other, const TrialPlan& plan) {
+    std::vector<double> shares;
+    const lab::Stopwatch watch;
+    while (shares.size() < k_fewest_pairs || watch.elapsed().wall < plan.timing) {
+        const double others = politely_timed(other, plan.last);
+        shares.push_back(politely_timed(renderer, plan.last) / others);
+    }
+    return lab::median(std::move(shares));
 }
 
 /// 0: the same bytes; infinite where one is a number and the other is none.
@@ -86,6 +104,12 @@ double difference_of(const Pictures& a, const Pictures& b) {
     return largest;
 }
 
+/// Buffers at zero.
+Trial blank(Renderer renderer) {
+    renderer.reset();
+    return {std::move(renderer)};
+}
+
 std::string verdict(double difference, std::optional<double> allowed, bool taken) {
     if (taken && difference > 0)
         return fmt::format(
@@ -98,6 +122,12 @@ std::string verdict(double difference, std::optional<double> allowed, bool taken
 }
 
 } // namespace
+
+bool worth_trying(const Renderer& renderer, glsl::Specialise how) {
+    return std::ranges::any_of(renderer.plan().passes, [&](const render::PlannedPass& planned) {
+        return left_out_of(renderer, planned.pass, how).in_doubt();
+    });
+}
 
 Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOptions& options,
                              const TrialPlan& plan) {
@@ -114,20 +144,25 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
     const Pictures first = pictures_of(*plain);
     const double plain_time = milliseconds_of(*plain, plan.last);
     const Pictures last = pictures_of(*plain);
-    plain->reset();
     const double cost = plain_start + k_frames_of_trial * plain_time;
     if (!plan.allowed && cost > k_share_of_sequence * double(plan.frames) * plain_time)
-        return Trial{*std::move(plain)};
+        return blank(*std::move(plain));
     auto special = Renderer::create(scene, options);
     if (!special)
-        return Trial{*std::move(plain)};
+        return blank(*std::move(plain));
     special->draw(plan.first);
     double difference = difference_of(pictures_of(*special), first);
-    const double special_time = milliseconds_of(*special, plan.last);
+    double share = milliseconds_of(*special, plan.last) / plain_time;
     difference = std::max(difference, difference_of(pictures_of(*special), last));
-    special->reset();
-    const bool taken = difference <= plan.allowed.value_or(0) && special_time < plain_time;
-    return Trial{taken ? *std::move(special) : *std::move(plain), verdict(difference, plan.allowed, taken)};
+    const bool close = difference <= plan.allowed.value_or(0);
+    if (close && plan.timing > 0)
+        share = share_of(*special, *plain, plan);
+    const bool taken = close && share < 1;
+    Trial trial = blank(taken ? *std::move(special) : *std::move(plain));
+    trial.said = verdict(difference, plan.allowed, taken);
+    if (taken)
+        trial.share = share;
+    return trial;
 }
 
 } // namespace tidemark::cli
