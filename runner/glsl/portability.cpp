@@ -177,6 +177,23 @@ private:
             number(token);
         else if (token.kind == TokenKind::identifier)
             word(token);
+        else
+            character(token);
+    }
+
+    /// Of a character of several bytes each is a token: the first one speaks for it.
+    void character(const Token& token) {
+        const auto is_in = [](char c, unsigned char mask, unsigned char wanted) {
+            return (static_cast<unsigned char>(c) & mask) == wanted;
+        };
+        if (!is_in(token.text[0], 0xC0, 0xC0))
+            return;
+        const std::string_view text = text_.text();
+        size_t end = token.end();
+        while (end < text.size() && is_in(text[end], 0xC0, 0x80))
+            ++end;
+        say(token, fmt::format("'{}' is no character of GLSL: it is taken for a blank",
+                               text.substr(token.begin, end - token.begin)));
     }
 
     void number(const Token& token) {

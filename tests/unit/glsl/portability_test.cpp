@@ -34,6 +34,12 @@ TEST(Portability, sound_texts_are_left_in_peace) {
         EXPECT_EQ(lint(text), "") << text;
 }
 
+TEST(Portability, characters_that_are_none_of_glsls) {
+    EXPECT_EQ(lint("float f = 1.0; // é is at home here\nvec4 g = vec4(\u201c1\u201d);\n"),
+              "a.glsl:2:15: warning: '\u201c' is no character of GLSL: it is taken for a blank\n"
+              "a.glsl:2:19: warning: '\u201d' is no character of GLSL: it is taken for a blank\n");
+}
+
 TEST(Portability, words_that_the_site_reserves) {
     EXPECT_EQ(lint("float f(vec2 input) {\n  float filter = input.x; return filter; }\n"),
               "a.glsl:1:14: warning: input: a reserved word in GLSL ES 3.00; choose another name\n"
