@@ -135,6 +135,10 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
         return report(missing(app, error));
     } catch (const CLI::ArgumentMismatch& error) {
         return report(without_value(app, error));
+    } catch (const CLI::ConversionError& error) { // "Could not convert: --option = value"
+        const std::string_view words = error.what();
+        return report(
+            {ErrorCode::usage, fmt::format("{}: this is no number", words.substr(words.find("--"))), {}});
     } catch (const CLI::ParseError& error) {
         return report({ErrorCode::usage, error.what(), {}});
     }

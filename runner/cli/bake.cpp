@@ -1,7 +1,7 @@
 #include "cli/bake_island.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
-#include "cli/number_check.hpp"
+#include "cli/value_check.hpp"
 #include "image/files/picture_file.hpp"
 #include "image/made/noise.hpp"
 #include "image/made/ramps.hpp"

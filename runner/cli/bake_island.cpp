@@ -2,6 +2,7 @@
 
 #include "cli/bake_island_study.hpp"
 #include "cli/console.hpp"
+#include "cli/value_check.hpp"
 #include "image/files/picture_file.hpp"
 #include "terrain/island.hpp"
 #include "terrain/wave_map.hpp"
@@ -86,14 +87,19 @@ void add_bake_island(CLI::App& bake_command, Action& chosen) {
         ->add_option("-o,--output", options->output,
                      "File, .exr or (with --depth float) .tif [island.exr]; of --study the report's folder")
         ->type_name("FILE");
-    const std::map<std::string, image::SampleDepth> depths{{"half", image::SampleDepth::half},
-                                                           {"float", image::SampleDepth::f32}};
-    island->add_option("--depth", options->depth, "Bits of a sample: half or float")
-        ->transform(CLI::CheckedTransformer(depths))
-        ->type_name("half|float")
-        ->default_str("half");
+    island
+        ->add_option_function<std::string>(
+            "--depth",
+            [options](const std::string& depth) {
+                options->depth = depth == "half" ? image::SampleDepth::half : image::SampleDepth::f32;
+            },
+            "Bits of a sample [half]")
+        ->check(one_of({"half", "float"}))
+        ->type_name("half|float");
     CLI::Option* side = island->add_option("--size", options->side, "Texels a side of the generated island")
-                            ->check(CLI::Range(terrain::k_least_side, terrain::k_largest_side))
+                            ->check(number<int>(fmt::format("a whole number from {} to {}",
+                                                            terrain::k_least_side, terrain::k_largest_side),
+                                                terrain::k_least_side, terrain::k_largest_side))
                             ->type_name("N")
                             ->capture_default_str();
     CLI::Option* seed =
@@ -106,17 +112,18 @@ void add_bake_island(CLI::App& bake_command, Action& chosen) {
             ->excludes(seed);
     island->add_option("--extent", options->extent, "Metres along a side of that map")
         ->needs(heights)
-        ->check(CLI::Range(1.0, terrain::k_largest_metres))
+        ->check(number(fmt::format("metres from 1 to {:g}", terrain::k_largest_metres), 1.0,
+                       terrain::k_largest_metres))
         ->type_name("M")
         ->capture_default_str();
     island->add_option("--sea", options->sea, "Its value at the sea's level")
         ->needs(heights)
-        ->check(CLI::Range(-1e6, 1e6))
+        ->check(number("a number from -1e6 to 1e6", -1e6, 1e6))
         ->type_name("V")
         ->capture_default_str();
     island->add_option("--metres", options->metres, "Metres of height a value of 1")
         ->needs(heights)
-        ->check(CLI::Range(1e-6, 1e6))
+        ->check(number("metres from 1e-6 to 1e6", 1e-6, 1e6))
         ->type_name("M")
         ->capture_default_str();
     CLI::Option* study = island->add_flag(
@@ -124,7 +131,7 @@ void add_bake_island(CLI::App& bake_command, Action& chosen) {
         "Print error against run time on maps with known answers; with -o FOLDER a report of it, too");
     island->add_option("--budget", options->march_study.budget, "Seconds for the timing of that report")
         ->needs(study)
-        ->check(CLI::Range(0.01, 1e6))
+        ->check(number("seconds from 0.01 to 1e6", 0.01, 1e6))
         ->type_name("S")
         ->capture_default_str();
     island->callback([options, &chosen] {

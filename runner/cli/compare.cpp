@@ -2,6 +2,7 @@
 #include "cli/console.hpp"
 #include "cli/output_name.hpp"
 #include "cli/sequence.hpp"
+#include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/flip.hpp"
@@ -100,9 +101,6 @@ Result<void> check(const CompareOptions& options) {
         return fail(ErrorCode::usage, "--tolerance: give a number from 0 up, in parts of the peak");
     if (options.gain && !(*options.gain > 0.0))
         return fail(ErrorCode::usage, "--gain: give a number above 0");
-    for (size_t i = 0; i < k_metric_count; ++i)
-        if (options.limits[i] && std::isnan(*options.limits[i]))
-            return fail(ErrorCode::usage, fmt::format("{}: give a number", k_metrics[i].option));
     return {};
 }
 
@@ -214,7 +212,8 @@ Result<int> compare(const CompareOptions& options) {
 
 void add_compare(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<CompareOptions>();
-    CLI::App* command = app.add_subcommand("compare", "How far two pictures or two sequences are apart");
+    CLI::App* command =
+        app.add_subcommand("compare", "Tells how far two pictures or two sequences are apart");
     command->add_option("A", options->reference, "The reference: a picture, or a sequence with %04d or ####")
         ->required();
     command->add_option("B", options->test, "What is compared with it")->required();
@@ -223,7 +222,8 @@ void add_compare(CLI::App& app, Action& chosen) {
                      "Picture of the difference: .png .jpg .tif .exr .hdr, %04d or #### for a sequence")
         ->type_name("OUT");
     command->add_option("--map", options->map, "What that picture shows: |A - B|, or FLIP in false colours")
-        ->check(CLI::IsMember({"difference", "flip"}))
+        ->type_name("difference|flip")
+        ->check(one_of({"difference", "flip"}))
         ->capture_default_str();
     command
         ->add_option("--gain", options->gain,
@@ -239,7 +239,8 @@ void add_compare(CLI::App& app, Action& chosen) {
             ->add_option(k_metrics[i].option, options->limits[i],
                          fmt::format("Exit 1 where {} is {} this", k_metrics[i].label,
                                      k_metrics[i].more_is_better ? "below" : "above"))
-            ->type_name("X");
+            ->type_name("X")
+            ->check(number<double>("a number"));
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }

@@ -1,6 +1,6 @@
 #include "cli/options.hpp"
 
-#include "cli/number_check.hpp"
+#include "cli/value_check.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -28,11 +28,12 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
                    ->type_name("NAME=VALUE"));
     repeatable(command
                    .add_option("--channel", request.channels,
-                               "What iChannelN reads: a file, noise, keyboard or none")
+                               "What iChannelN reads: a file, noise, keyboard or none; to test with: black, "
+                               "white, nan, texel")
                    ->type_name("N=FILE|noise|none"));
     command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
         ->type_name("DIR")
-        ->check(CLI::ExistingDirectory);
+        ->check(unnamed(CLI::ExistingDirectory));
     command.add_flag("--allow-outside", request.files.allow_outside,
                      "The scene may read files that lie outside its folder");
 }
@@ -44,7 +45,7 @@ void add_precision_options(CLI::App& command, SceneRequest& request) {
                 "--precision", [&request](const std::string& text) { request.doubles = text == "double"; },
                 "double: the scene promoted to 64-bit floats [single]")
             ->type_name("single|double")
-            ->check(CLI::IsMember({"single", "double"}));
+            ->check(one_of({"single", "double"}));
     command
         .add_flag("--double-hashes", request.double_hashes,
                   "Promotes hashes too: other random numbers, another scene")

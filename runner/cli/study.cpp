@@ -5,6 +5,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/study_support.hpp"
+#include "cli/value_check.hpp"
 #include "gl/capabilities.hpp"
 #include "lab/study/baseline.hpp"
 #include "lab/study/conduct.hpp"
@@ -189,14 +190,15 @@ Result<int> study(const StudyOptions& options) {
 
 void add_study(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<StudyOptions>();
-    CLI::App* command = app.add_subcommand("study", "Error against run time");
+    CLI::App* command =
+        app.add_subcommand("study", "Measures error against run time over settings, and writes a report");
     add_scene_options(*command, options->scene);
     add_precision_options(*command, options->scene);
     command->add_option("-o,--output", options->output, "Folder for the report [SCENE-study]")
         ->type_name("FOLDER");
     command->add_option("--study", options->file, "What to study [SCENE.study.json]")
         ->type_name("FILE")
-        ->check(CLI::ExistingFile);
+        ->check(unnamed(CLI::ExistingFile));
     repeatable(
         command
             ->add_option("--vary", options->vary,

@@ -155,7 +155,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
         self.expect_failure(["bake", "island", "-o", "island.png"], 2,
                             "tidemark: error: 'island.png' cannot hold half samples: .png holds 8-bit, 16-bit")
         self.expect_failure(["bake", "island", "--size", "20"], 2,
-                            "tidemark: error: --size: Value 20 not in range 64 to 4096")
+                            "tidemark: error: --size: give a whole number from 64 to 4096, not '20'")
         self.expect_failure(["bake", "island", "--heights", "a.png", "--size", "64"], 2,
                             "tidemark: error: --size excludes --heights")
         self.expect_failure(["bake", "island", "--sea", "1"], 2, "tidemark: error: --sea requires --heights")

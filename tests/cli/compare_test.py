@@ -89,7 +89,7 @@ class Pictures(Compare):
         self.refuse("a.png a.png -o -", 2, "-o: the picture of the difference needs a file")
         self.refuse("a.png a.png --gain 0", 2, "--gain: give a number above 0")
         self.refuse("a.png a.png --tolerance -1", 2, "--tolerance: give a number from 0 up, in parts of the peak")
-        self.refuse("a.png a.png --max-rmse nan", 2, "--max-rmse: give a number")
+        self.refuse("a.png a.png --max-rmse nan", 2, "--max-rmse: give a number, not 'nan'")
 
 
 class Sequences(Compare):

@@ -1,12 +1,12 @@
 #include "base/file.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
-#include "cli/trial.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/number_check.hpp"
 #include "cli/options.hpp"
+#include "cli/trial.hpp"
+#include "cli/value_check.hpp"
 #include "gl/capabilities.hpp"
 #include "image/files/video_writer.hpp"
 #include "platform/headless_context.hpp"
@@ -255,7 +255,8 @@ Result<int> capture(const CaptureOptions& options) {
 
 void add_capture(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<CaptureOptions>();
-    CLI::App* command = app.add_subcommand("capture", "Makes frames with no display");
+    CLI::App* command =
+        app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene, with no display");
     add_scene_options(*command, options->scene);
     add_precision_options(*command, options->scene);
     add_picture_options(*command, options->frames);

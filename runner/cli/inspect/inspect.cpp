@@ -5,6 +5,7 @@
 #include "cli/options.hpp"
 #include "cli/precision_report.hpp"
 #include "cli/scene_facts.hpp"
+#include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
 #include "glsl/pass_reading.hpp"
@@ -212,13 +213,13 @@ void add_inspect(CLI::App& app, Action& chosen) {
         ->type_name("THING[,…]")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::IsMember(things));
+        ->check(one_of(things));
     command->add_option("--size", options->size, "With --with: the picture's size")
         ->type_name("WxH")
         ->capture_default_str();
     command->add_option("--budget", options->budget, "With --with: seconds to measure for")
         ->type_name("S")
-        ->check(CLI::PositiveNumber)
+        ->check(number<double>("a number of seconds above 0", 1e-3))
         ->capture_default_str();
     command
         ->add_flag(
