@@ -32,6 +32,9 @@ private:
     std::vector<Change> changes_;
 };
 
+/// The words of a node as they are, to be said once more.
+std::string words_of(const ParsedText& text, NodeId id);
+
 /// A prefix that no name of the text has.
 std::string fresh_prefix(const ParsedText& text);
 

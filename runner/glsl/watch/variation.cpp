@@ -71,13 +71,6 @@ std::string other_overloads(std::string_view function, std::string_view prefix) 
     return text;
 }
 
-std::string words_of(const ParsedText& text, NodeId id) {
-    std::string words;
-    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
-        words += fmt::format("{} ", text.word(i));
-    return words;
-}
-
 } // namespace
 
 Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {

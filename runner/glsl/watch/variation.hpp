@@ -37,6 +37,15 @@ Variation vary_inputs(const ParsedText& text, const TreeFacts& facts);
 /// contracts a product and a sum, or adds in another order, makes no larger difference to one operation.
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts);
 
+/// Mode 1: where an operand of + or -, or the value of += or -=, is a product of floats, its sum is rounded
+/// only once, to 0.5 + 2^-30 units in the last place (the product is exact in double, the sum in double nearly
+/// so); `dot` is a chain of such sums. As GPUs do with one instruction. Needs doubles, which GLSL ES has not.
+/// Products that come in variables, and those of matrices, are as they were.
+Variation vary_contraction(const ParsedText& text, const TreeFacts& facts);
+
+/// Sums of three and more, `a + b + c`, added up from their other end. It has no modes.
+Variation vary_order(const ParsedText& text, const TreeFacts& facts);
+
 /// Mode 1: every result of + - * / in ten bits behind the first and up to 65504, as phones compute `mediump`.
 /// 0 places where the text asks for no such thing.
 Variation vary_halves(const ParsedText& text, const TreeFacts& facts);

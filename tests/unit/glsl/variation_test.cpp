@@ -52,6 +52,40 @@ TEST(Variation, WholeNumbersAndConstantsAreLeftAlone) {
         0u);
 }
 
+TEST(Variation, AProductGoesIntoItsSumWhole) {
+    const auto contracted = [](const std::string& expression) {
+        const std::string text =
+            varied(vary_contraction, "float f(float a, float b, float c) { return " + expression + "; }\n").text;
+        const size_t begin = text.find("return ", text.find("float f (")) + 7;
+        return text.substr(begin, text.find(" ;", begin) - begin);
+    };
+    EXPECT_EQ(contracted("a * b + c"), "tmw0_sum(tmw0_product(a , b) , c)");
+    EXPECT_EQ(contracted("c - a * b"), "tmw0_sum(c , -(tmw0_product(a , b)))");
+    EXPECT_EQ(contracted("a * b - c / a"), "tmw0_sum(tmw0_product(a , b) , -(c / a))");
+    EXPECT_EQ(contracted("c + (a * b)"), "tmw0_sum(c , ( tmw0_product(a , b) ))");
+    EXPECT_EQ(contracted("a * b + b * c"), "tmw0_sum(tmw0_product(a , b) , b * c)") << "one of two";
+    EXPECT_EQ(contracted("a += b * c"), "a =tmw0_sum(a , (tmw0_product(b , c)))");
+    EXPECT_EQ(contracted("a -= b * c"), "a =tmw0_sum(a , -(tmw0_product(b , c)))");
+    EXPECT_EQ(contracted("dot(a, b)"), "tmw0_dot ( a , b )");
+    EXPECT_EQ(contracted("a + b - c / a"), "a + b - c / a");
+    EXPECT_EQ(contracted("float(2 * 3 + int(a))"), "float ( 2 * 3 + int ( a ) )");
+}
+
+TEST(Variation, ASumIsAddedUpFromItsOtherEnd) {
+    const auto reversed = [](const std::string& expression) {
+        const Variation found =
+            varied(vary_order, "float f(float a, float b, float c, float d) { return " + expression + "; }\n");
+        const size_t begin = found.text.find("return ") + 7;
+        return found.places == 0 ? "" : found.text.substr(begin, found.text.find(" ;") - begin);
+    };
+    EXPECT_EQ(reversed("a + b + c"), "a + (b + c)");
+    EXPECT_EQ(reversed("a - b + c"), "a - (b - c)");
+    EXPECT_EQ(reversed("a - b - c + d"), "a - (b + (c - d))");
+    EXPECT_EQ(reversed("a + b - (b + c + d) * a"), "a + (b - ( b + (c + d) ) * a)");
+    EXPECT_EQ(reversed("a + (b + c)"), "") << "parentheses are the author's order";
+    EXPECT_EQ(reversed("float(1 + 2 + 3)"), "");
+}
+
 TEST(Variation, HalvesAreThoseThatTheTextAsksFor) {
     EXPECT_EQ(varied(vary_halves, "float f(float x) { return x * x; }\n").places, 0u);
     const Variation found =
