@@ -156,12 +156,28 @@ class Check(ProgramTest):
         self.assertEqual(self.verdicts(smooth, "--probe", "sine")["sine"]["verdict"], "pass")
 
     def test_what_hangs_on_the_last_bit_is_told(self):
-        for text, manner in (("fract(p.x * 15625.3)", "sums and products a unit off"),
+        for text, manner in (("fract(p.x * 15625.3 + 0.37)", "products that go into sums unrounded"),
+                             ("fract(0.3 * p.x + (1e6 + iTime) - (1e6 - iTime))", "sums added up from the other end"),
+                             ("fract(1e6 * sqrt(p.x))", "quotients, roots, powers and logarithms a unit off"),
                              ("fract(iTime * 1e5 + p.x)", "iTime, iResolution and iMouse a unit in the last place")):
-            scene = self.write("bits.glsl", f"void mainImage(out vec4 c, in vec2 p) {{ c = vec4({text}); }}\n")
-            entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
-            self.assertEqual(entry["verdict"], "warn", entry["found"])
-            self.assertIn(manner, entry["found"])
+            with self.subTest(manner):
+                scene = self.write("bits.glsl", f"void mainImage(out vec4 c, in vec2 p) {{ c = vec4({text}); }}\n")
+                entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
+                self.assertEqual(entry["verdict"], "warn", entry["found"])
+                self.assertRegex(entry["found"], "^another picture with " + manner)
+                self.assertRegex(entry["found"], manner + r"[^,]*: \d+\.\d dB, 1 % of the pixels by 0\.\d+ or more")
+
+    def test_a_product_and_a_sum_of_two_are_the_same_everywhere(self):
+        scene = self.write("bits.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    float x = fract(p.x * 15625.3);\n    c = vec4(fract(x + 1e6));\n}\n")
+        entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
+        self.assertEqual(entry["verdict"], "pass", entry["found"])
+
+    def test_pixels_without_a_number_are_counted_beside_the_rest(self):
+        scene = self.write("edge.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    float a = 1.1 + 0.01 * p.x;\n    c = vec4(sqrt(a * a - a * a) / 2.0);\n}\n")
+        found = self.verdicts(scene, "--probe", "rounding")["rounding"]["found"]
+        self.assertRegex(found, r"unrounded: 0 pixels without a number become \d+, \d+\.\d dB over the rest")
 
     def test_a_variable_without_a_value_is_named(self):
         scene = self.write("sum.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float sum;\n"

@@ -17,7 +17,7 @@ public:
     /// `before` and `after` right around the node. Of several nodes an inner one is to be wrapped first:
     /// ascending numbers, for children come before their parents.
     void wrap(NodeId node, std::string_view before, std::string_view after);
-    void replace(size_t word, std::string_view with) { changes_[word].replacement = with; }
+    void replace(size_t word, std::string_view with) { changes_[word].replacement = std::string(with); }
 
     /// The words as they then are, a line for a statement.
     std::string text() const;

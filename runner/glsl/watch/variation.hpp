@@ -33,8 +33,8 @@ Variation vary_sines(const ParsedText& text, const TreeFacts& facts);
 /// Mode 1: iTime, iResolution and iMouse a unit in the last place larger.
 Variation vary_inputs(const ParsedText& text, const TreeFacts& facts);
 
-/// Mode 1: every second result of + - * /, by lot, a unit in the last place up or down. Whether a driver
-/// contracts a product and a sum, or adds in another order, makes no larger difference to one operation.
+/// Mode 1: every second quotient, root, power, exponential and logarithm, by lot, a unit in the last place up
+/// or down. GLSL lets those be off by two units and more, and rounds + - * correctly (4.50, 4.7.1).
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts);
 
 /// Mode 1: where an operand of + or -, or the value of += or -=, is a product of floats, its sum is rounded

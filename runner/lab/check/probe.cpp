@@ -91,8 +91,9 @@ std::span<const Probe> all_probes() {
          "as NVIDIA's: apart by more than 1/255 in 1 % of the pixels",
          ask_sine},
         {"rounding",
-         "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, and with "
-         "every second + - * / a unit off, as contracting and reordering do: apart by as much",
+         "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, with "
+         "products that go into sums unrounded, with sums added up from the other end, and with quotients, "
+         "roots, powers and logarithms a unit off: apart by as much",
          ask_rounding},
         {"halves",
          "the picture with every + - * / in half floats, where the text says `mediump` or `lowp`: apart by "

@@ -100,10 +100,9 @@ private:
 
     void note(size_t pass, const Mode& mode, const image::Image& plain, const image::Image& other) {
         const double gap = p99_difference(plain, other);
-        const auto difference = image::compare(plain, other);
-        if (difference->equal())
+        if (image::compare(plain, other)->equal())
             return;
-        std::string said = fmt::format("{}: {:.1f} dB", mode.name, difference->psnr);
+        std::string said = fmt::format("{}: {}", mode.name, alikeness(plain, other));
         if (gap > k_visible_gap)
             said += fmt::format(", 1 % of the pixels by {:.2g} or more", gap);
         seen_.push_back({std::move(said), gap});
@@ -150,7 +149,7 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
         {glsl::vary_precision, {{0, "everything `precise`"}}},
         {glsl::vary_contraction, {{1, "products that go into sums unrounded"}}},
         {glsl::vary_order, {{0, "sums added up from the other end"}}},
-        {glsl::vary_rounding, {{1, "sums and products a unit off"}}},
+        {glsl::vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}},
     };
     std::vector<std::string> left_out;
     std::string why;

@@ -38,16 +38,17 @@ TEST(Variation, SinesAreTheBuiltInOnes) {
         0u);
 }
 
-TEST(Variation, EveryResultOfASumIsLedThroughUs) {
-    const Variation found = varied(vary_rounding, "float f(float x) { x *= 2.0; return x * x + 1.0; }\n");
+TEST(Variation, WhatGlslLetsBeOffIsLedThroughUs) {
+    const Variation found =
+        varied(vary_rounding, "float f(float x) { x /= 3.0; return sqrt(x / 7.0) + x * x; }\n");
     EXPECT_EQ(found.places, 3u);
-    EXPECT_EQ(count(found.text, "(x *= 2.0,x =tmw0_off(x ))"), 1);
-    EXPECT_EQ(count(found.text, "return tmw0_off(tmw0_off(x * x) + 1.0)"), 1);
+    EXPECT_EQ(count(found.text, "(x /= 3.0,x =tmw0_off(x ))"), 1);
+    EXPECT_EQ(count(found.text, "return tmw0_off(sqrt ( tmw0_off(x / 7.0) )) + x * x"), 1);
 }
 
 TEST(Variation, WholeNumbersAndConstantsAreLeftAlone) {
     EXPECT_EQ(
-        varied(vary_rounding, "const float c = 1.0 + 2.0;\nint f(int i) { float a[1 + 1]; return i + 1; }\n")
+        varied(vary_rounding, "const float c = 1.0 / 2.0;\nint f(int i) { float a[2 / 1]; return i / 2; }\n")
             .places,
         0u);
 }
