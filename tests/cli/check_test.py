@@ -193,6 +193,15 @@ class Check(ProgramTest):
         self.assertEqual(entry["verdict"], "warn")
         self.assertIn(f"fwidth ({scene}:4, parted at {scene}:3)", entry["found"])
 
+    def test_a_derivative_behind_an_early_return_is_named(self):
+        scene = self.write("edge.glsl", "float soft(float x) { return fwidth(x); }\n"
+                                        "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
+                                        "    if (p.x > p.y)\n        return;\n    c += fwidth(p.x) + soft(p.y);\n}\n")
+        entry = self.verdicts(scene, "--probe", "divergence")["divergence"]
+        self.assertEqual(entry["verdict"], "warn")
+        self.assertIn(f"fwidth ({scene}:1, called behind the return at {scene}:5), "
+                      f"fwidth ({scene}:6, behind the return at {scene}:5)", entry["found"])
+
     def test_halves_are_drawn_where_the_text_asks_for_them(self):
         text = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract((p.x + 2048.0) * 0.5)); }\n"
         entry = self.verdicts(self.write("high.glsl", text), "--probe", "halves")["halves"]
