@@ -132,10 +132,20 @@ class Check(ProgramTest):
                       entry["found"])
         self.assertNotIn("sqrt", entry["found"])  # its value is thrown away
 
+    def test_zero_by_zero_is_named_where_it_shows(self):
+        scene = self.write("glow.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    float side = floor(2.0 * p.x / iResolution.x);\n"
+                                        "    vec2 even = vec2(side), far = 1.0 / even;\n"
+                                        "    even.y /= side;\n    c = vec4(max(even, 0.0), min(far.x, 1.0), 1.0);\n}\n")
+        entry = self.verdicts(scene, "--probe", "undefined")["undefined"]
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertEqual(entry["found"].count("quotient"), 1, "1 / 0 is an infinity, which is defined")
+        self.assertIn(f"quotient of 0 and 0 (0, first at pixel 0,0) at {scene}:4: 50 % of the pixels", entry["found"])
+
     def test_each_function_has_its_domain(self):
         for call in ("pow(x, 2.5)", "sqrt(x)", "inversesqrt(x)", "log(x)", "log2(x)", "asin(3.0 + x)", "acos(x - 3.0)",
                      "acosh(x)", "atanh(3.0 + x)", "atan(floor(0.1 * x), floor(0.1 * x))", "mod(1.0, floor(0.1 * x) + 1.0)",
-                     "normalize(vec2(floor(0.1 * x) + 1.0)).x", "smoothstep(x, x, 0.5)",
+                     "normalize(vec2(floor(0.1 * x) + 1.0)).x", "(x + iTime) / (vec2(x, 1.0) + iTime).x", "smoothstep(x, x, 0.5)",
                      "pow(vec3(x), vec3(0.45)).y", "mod(vec2(1.0), floor(0.1 * x) + 1.0).y"):
             with self.subTest(call):
                 x = "-iTime" if "floor" not in call or "mod" in call or "norm" in call else "0.01 * iTime"
@@ -143,7 +153,7 @@ class Check(ProgramTest):
                                                 f"    float x = {x};\n    c = vec4({call});\n}}\n")
                 entry = self.verdicts(scene, "--probe", "undefined")["undefined"]
                 self.assertEqual(entry["verdict"], "warn", entry["found"])
-                self.assertIn(call.split("(")[0] + " ", entry["found"])
+                self.assertIn((call.split("(")[0] or "quotient") + " ", entry["found"])
                 self.assertIn(f"{scene}:3", entry["found"])
 
     def test_a_hash_of_sines_is_another_picture_on_another_gpu(self):

@@ -33,7 +33,9 @@ constexpr Domain k_domains[] = {
     {"atan", "float x,float y", "x==0.0&&y==0.0", "x", "of 0 and 0"},
     {"mod", "float x,float y", "y==0.0", "y", "by 0"},
     {"smoothstep", "float x,float y,float z", "x==y", "x", "with equal edges"},
+    {"quotient", "float x,float y", "x==0.0&&y==0.0", "x", "of 0 and 0"}, // 4.7.1 tells of x / 0 only
 };
+constexpr std::string_view k_quotient = "quotient"; ///< of the operator
 constexpr std::string_view k_normalize = "normalize";
 constexpr std::string_view k_normalize_fault = "of a vector without length";
 
@@ -43,6 +45,8 @@ std::vector<unsigned> shapes(const Domain& domain) {
         return {0b11, 0b01};
     if (domain.name == "smoothstep")
         return {0b111, 0b100};
+    if (domain.name == k_quotient)
+        return {0b11, 0b01, 0b10};
     return {domain.arguments.size() > 8 ? 0b11u : 0b1u};
 }
 
@@ -67,9 +71,10 @@ std::string overloads(const Domain& domain, std::string_view prefix) {
     for (size_t i = 0; i < count; ++i)
         passed += fmt::format("{}{}", i > 0 ? "," : "", k_names[i]);
     std::string text =
-        fmt::format("float {0}{1}({2},int i){{float r={1}({3});if({4})r={0}undefined(i,{5},r);"
-                    "return r;}}\n",
-                    prefix, domain.name, domain.arguments, passed, domain.undefined, domain.told);
+        fmt::format("float {0}{1}({2},int i){{float r={3};if({4})r={0}undefined(i,{5},r);return r;}}\n",
+                    prefix, domain.name, domain.arguments,
+                    domain.name == k_quotient ? "x/y" : fmt::format("{}({})", domain.name, passed),
+                    domain.undefined, domain.told);
     for (const unsigned shape : shapes(domain))
         for (size_t size = 2; size <= 4; ++size) {
             std::string declared, parts;
@@ -85,6 +90,31 @@ std::string overloads(const Domain& domain, std::string_view prefix) {
             }
             text += fmt::format("vec{0} {1}{2}({3}int i){{return vec{0}({4});}}\n", size, prefix, domain.name,
                                 declared, parts);
+        }
+    return text;
+}
+
+/// Quotients that are not watched: of whole numbers, and those with matrices.
+std::string other_quotients(std::string_view prefix) {
+    std::string text;
+    const auto add = [&](const std::string& left, const std::string& right, const std::string& result) {
+        text += fmt::format("{0} {1}quotient({2} x,{3} y,int i){{return x/y;}}\n", result, prefix, left, right);
+    };
+    for (const std::string number : {"int", "uint"}) {
+        add(number, number, number);
+        for (int size = 2; size <= 4; ++size) {
+            const std::string vector = fmt::format("{}vec{}", number[0], size);
+            add(vector, vector, vector);
+            add(vector, number, vector);
+            add(number, vector, vector);
+        }
+    }
+    for (int columns = 2; columns <= 4; ++columns)
+        for (int rows = 2; rows <= 4; ++rows) {
+            const std::string matrix = fmt::format("mat{}x{}", columns, rows);
+            add(matrix, matrix, matrix);
+            add(matrix, "float", matrix);
+            add("float", matrix, matrix);
         }
     return text;
 }
@@ -132,8 +162,9 @@ std::optional<std::vector<double>> numbers_of(const ParsedText& text, NodeId id)
 /// Whether the text itself says that the call is inside of its domain.
 bool surely_defined(const ParsedText& text, NodeId call, std::string_view name) {
     const SyntaxTree& tree = text.tree();
-    const NodeId first = tree.child(call, 1);
-    const NodeId second = tree.child(call, 2);
+    const size_t before = tree[call].kind == NodeKind::call; // its name is a child
+    const NodeId first = tree.child(call, before);
+    const NodeId second = tree.child(call, before + 1);
     const auto all = [&](NodeId id, auto&& holds) {
         const auto numbers = id == k_no_node ? std::nullopt : numbers_of(text, id);
         return numbers && std::ranges::all_of(*numbers, holds);
@@ -144,7 +175,7 @@ bool surely_defined(const ParsedText& text, NodeId call, std::string_view name) 
     }
     if (name == "mod")
         return all(second, [](double v) { return v != 0; });
-    if (name == "atan")
+    if (name == "atan" || name == k_quotient)
         return all(first, [](double v) { return v != 0; }) || all(second, [](double v) { return v != 0; });
     if (name == "normalize")
         return all(first, [](double v) { return v != 0; });
@@ -153,7 +184,45 @@ bool surely_defined(const ParsedText& text, NodeId call, std::string_view name) 
     return all(first, [](double v) { return v > 0; });
 }
 
+/// Leads the call or the quotient through ours, as number `number`.
+void lead(const ParsedText& text, NodeId id, std::string_view prefix, size_t number, Respelling& edits) {
+    const SyntaxTree& tree = text.tree();
+    const std::string function = fmt::format("{}{}", prefix, domain_name(text, id));
+    const std::string last = fmt::format(",{})", number);
+    switch (tree[id].kind) {
+    case NodeKind::call:
+        edits.replace(tree[tree.child(id, 0)].word, function);
+        edits.replace(tree[id].end - 1, last);
+        return;
+    case NodeKind::binary:
+        edits.replace(tree[id].word, ",");
+        edits.wrap(id, function + "(", last);
+        return;
+    default: // x /= y
+        edits.replace(tree[id].word, fmt::format("={}({},", function, words_of(text, tree.child(id, 0))));
+        edits.wrap(tree.child(id, 1), "(", ")" + last);
+    }
+}
+
+/// Whether `id` has a domain, as GLSL's own functions and the quotient have.
+bool is_watched(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const std::string_view name = domain_name(text, id);
+    if (text.tree()[id].kind != NodeKind::call)
+        return name == k_quotient && is_watched_operation(text, facts, id);
+    return (name == k_normalize || domain_of(name)) && name != k_quotient && !facts.function(name) &&
+           (name != "atan" || text.tree().child_count(id) == 3);
+}
+
 } // namespace
+
+std::string_view domain_name(const ParsedText& text, NodeId id) {
+    switch (text.tree()[id].kind) {
+    case NodeKind::call: return called_name(text, id);
+    case NodeKind::binary:
+    case NodeKind::assign: return text.word_of(id).starts_with('/') ? k_quotient : std::string_view{};
+    default: return {};
+    }
+}
 
 DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, int width) {
     const SyntaxTree& tree = text.tree();
@@ -162,15 +231,10 @@ DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, int wi
     Respelling edits(text);
     std::vector<std::string_view> used;
     for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        if (tree[id].kind != NodeKind::call)
+        const std::string_view name = domain_name(text, id);
+        if (!is_watched(text, facts, id) || must_stay_constant(text, id) || surely_defined(text, id, name))
             continue;
-        const std::string_view name = called_name(text, id);
-        const bool known = name == k_normalize || domain_of(name);
-        if (!known || facts.function(name) || must_stay_constant(text, id) ||
-            surely_defined(text, id, name) || (name == "atan" && tree.child_count(id) != 3))
-            continue;
-        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
-        edits.replace(tree[id].end - 1, fmt::format(",{})", result.calls.size()));
+        lead(text, id, prefix, result.calls.size(), edits);
         result.calls.push_back(id);
         used.push_back(name);
     }
@@ -179,6 +243,8 @@ DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, int wi
     for (const Domain& domain : k_domains)
         if (std::ranges::find(used, domain.name) != used.end())
             prelude += overloads(domain, prefix);
+    if (std::ranges::find(used, k_quotient) != used.end())
+        prelude += other_quotients(prefix);
     if (std::ranges::find(used, k_normalize) != used.end())
         for (const std::string_view type : {"float", "vec2", "vec3", "vec4"})
             prelude += spell(k_normalize_overload, prefix, type);

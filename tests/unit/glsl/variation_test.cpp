@@ -122,6 +122,17 @@ TEST(Domains, CallsThatTheTextItselfSettlesAreNotWatched) {
     EXPECT_EQ(count(watch.text, "tmw0_pow ( x , - 2.0 ,0)"), 1);
 }
 
+TEST(Domains, QuotientsAreWatchedWhereBothMayBeZero) {
+    const Read of = read("float f(float x, int n, vec2 v) {\nx /= x; v.y /= v.x + 1.0; x /= 2.0;\n"
+                         "return x / v.x + 1.0 / x + x / 3.0 + float(n / n); }\n");
+    const DomainWatch watch = watch_domains(*of.text, of.facts, 64);
+    EXPECT_EQ(watch.calls.size(), 3u);
+    EXPECT_EQ(count(watch.text, "x =tmw0_quotient(x , (x),0)"), 1);
+    EXPECT_EQ(count(watch.text, "v . y =tmw0_quotient(v . y , (v . x + 1.0),1)"), 1);
+    EXPECT_EQ(count(watch.text, "return tmw0_quotient(x , v . x,2) + 1.0 / x + x / 3.0"), 1);
+    EXPECT_EQ(domain_name(*of.text, watch.calls[0]), "quotient");
+}
+
 TEST(Domains, AFunctionOfTheAuthorsIsItsOwnAffair) {
     const Read of = read("float sqrt(float x) { return x; }\nfloat f(float x) { return sqrt(x); }\n");
     EXPECT_TRUE(watch_domains(*of.text, of.facts, 64).calls.empty());
