@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 namespace tidemark::glsl {
 namespace {
@@ -33,11 +34,12 @@ constexpr Domain k_domains[] = {
     {"atan", "float x,float y", "x==0.0&&y==0.0", "x", "of 0 and 0"},
     {"mod", "float x,float y", "y==0.0", "y", "by 0"},
     {"smoothstep", "float x,float y,float z", "x==y", "x", "with equal edges"},
-    {"quotient", "float x,float y", "x==0.0&&y==0.0", "x", "of 0 and 0"}, // 4.7.1 tells of x / 0 only
 };
-constexpr std::string_view k_quotient = "quotient"; ///< of the operator
 constexpr std::string_view k_normalize = "normalize";
 constexpr std::string_view k_normalize_fault = "of a vector without length";
+/// Of the operator. Of x / 0 chapter 4.7.1 tells what it is, of 0 / 0 it does not.
+constexpr std::string_view k_quotient = "quotient";
+constexpr std::string_view k_quotient_fault = "of 0 and 0";
 
 /// Overloads that mix a float with vectors: bit i is set where argument i is a vector.
 std::vector<unsigned> shapes(const Domain& domain) {
@@ -45,8 +47,6 @@ std::vector<unsigned> shapes(const Domain& domain) {
         return {0b11, 0b01};
     if (domain.name == "smoothstep")
         return {0b111, 0b100};
-    if (domain.name == k_quotient)
-        return {0b11, 0b01, 0b10};
     return {domain.arguments.size() > 8 ? 0b11u : 0b1u};
 }
 
@@ -71,10 +71,9 @@ std::string overloads(const Domain& domain, std::string_view prefix) {
     for (size_t i = 0; i < count; ++i)
         passed += fmt::format("{}{}", i > 0 ? "," : "", k_names[i]);
     std::string text =
-        fmt::format("float {0}{1}({2},int i){{float r={3};if({4})r={0}undefined(i,{5},r);return r;}}\n",
-                    prefix, domain.name, domain.arguments,
-                    domain.name == k_quotient ? "x/y" : fmt::format("{}({})", domain.name, passed),
-                    domain.undefined, domain.told);
+        fmt::format("float {0}{1}({2},int i){{float r={1}({3});if({4})r={0}undefined(i,{5},r);"
+                    "return r;}}\n",
+                    prefix, domain.name, domain.arguments, passed, domain.undefined, domain.told);
     for (const unsigned shape : shapes(domain))
         for (size_t size = 2; size <= 4; ++size) {
             std::string declared, parts;
@@ -94,7 +93,22 @@ std::string overloads(const Domain& domain, std::string_view prefix) {
     return text;
 }
 
-/// Quotients that are not watched: of whole numbers, and those with matrices.
+/// One branch for a vector, for there are many quotients, many of them in loops.
+std::string float_quotients(std::string_view prefix) {
+    std::string text = fmt::format("float {0}quotient(float x,float y,int i){{float r=x/y;"
+                                   "if(abs(x)+abs(y)==0.0)r={0}undefined(i,0.0,r);return r;}}\n",
+                                   prefix);
+    for (const std::string_view vector : {"vec2", "vec3", "vec4"})
+        for (const auto& [left, right] : {std::pair(vector, vector), {vector, "float"}, {"float", vector}})
+            text += fmt::format("{1} {0}quotient({2} x,{3} y,int i){{{1} r=x/y;"
+                                "b{1} none=equal({1}(abs(x)+abs(y)),{1}(0.0));if(any(none)){{"
+                                "float other={0}undefined(i,0.0,0.0);"
+                                "if({0}number>=0)r=mix(r,{1}(other),none);}}return r;}}\n",
+                                prefix, vector, left, right);
+    return text;
+}
+
+/// Those that are not watched: of whole numbers, and those with matrices.
 std::string other_quotients(std::string_view prefix) {
     std::string text;
     const auto add = [&](const std::string& left, const std::string& right, const std::string& result) {
@@ -159,6 +173,26 @@ std::optional<std::vector<double>> numbers_of(const ParsedText& text, NodeId id)
     return all;
 }
 
+/// `iResolution.xy`: the host draws nothing without a size.
+bool is_the_size(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    while (tree[id].kind == NodeKind::member || tree[id].kind == NodeKind::parenthesis)
+        id = tree.child(id, 0);
+    return tree[id].kind == NodeKind::name && text.word_of(id) == "iResolution";
+}
+
+/// `max(x, 0.01)`.
+bool is_guarded(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[id].kind != NodeKind::call || called_name(text, id) != "max")
+        return false;
+    const auto is_positive = [&](NodeId part) {
+        const auto numbers = numbers_of(text, part);
+        return numbers && std::ranges::all_of(*numbers, [](double v) { return v > 0; });
+    };
+    return is_positive(tree.child(id, 1)) || is_positive(tree.child(id, 2));
+}
+
 /// Whether the text itself says that the call is inside of its domain.
 bool surely_defined(const ParsedText& text, NodeId call, std::string_view name) {
     const SyntaxTree& tree = text.tree();
@@ -169,16 +203,19 @@ bool surely_defined(const ParsedText& text, NodeId call, std::string_view name) 
         const auto numbers = id == k_no_node ? std::nullopt : numbers_of(text, id);
         return numbers && std::ranges::all_of(*numbers, holds);
     };
+    const auto not_zero = [](double v) { return v != 0; };
     if (name == "smoothstep") {
         const auto low = number_of(text, first);
         return low && all(second, [&](double edge) { return edge != *low; });
     }
     if (name == "mod")
-        return all(second, [](double v) { return v != 0; });
-    if (name == "atan" || name == k_quotient)
-        return all(first, [](double v) { return v != 0; }) || all(second, [](double v) { return v != 0; });
+        return all(second, not_zero);
+    if (name == k_quotient && (is_the_size(text, second) || is_guarded(text, second)))
+        return true;
+    if (name == k_quotient || name == "atan")
+        return all(first, not_zero) || all(second, not_zero);
     if (name == "normalize")
-        return all(first, [](double v) { return v != 0; });
+        return all(first, not_zero);
     if (name == "asin" || name == "acos" || name == "atanh" || name == "acosh")
         return false;
     return all(first, [](double v) { return v > 0; });
@@ -209,7 +246,7 @@ bool is_watched(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     const std::string_view name = domain_name(text, id);
     if (text.tree()[id].kind != NodeKind::call)
         return name == k_quotient && is_watched_operation(text, facts, id);
-    return (name == k_normalize || domain_of(name)) && name != k_quotient && !facts.function(name) &&
+    return (name == k_normalize || domain_of(name)) && !facts.function(name) &&
            (name != "atan" || text.tree().child_count(id) == 3);
 }
 
@@ -244,7 +281,7 @@ DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, int wi
         if (std::ranges::find(used, domain.name) != used.end())
             prelude += overloads(domain, prefix);
     if (std::ranges::find(used, k_quotient) != used.end())
-        prelude += other_quotients(prefix);
+        prelude += float_quotients(prefix) + other_quotients(prefix);
     if (std::ranges::find(used, k_normalize) != used.end())
         for (const std::string_view type : {"float", "vec2", "vec3", "vec4"})
             prelude += spell(k_normalize_overload, prefix, type);
@@ -253,8 +290,9 @@ DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, int wi
 }
 
 std::string_view domain_fault(std::string_view name) {
-    const Domain* domain = domain_of(name);
-    return domain ? domain->fault : k_normalize_fault;
+    if (const Domain* domain = domain_of(name))
+        return domain->fault;
+    return name == k_quotient ? k_quotient_fault : k_normalize_fault;
 }
 
 } // namespace tidemark::glsl

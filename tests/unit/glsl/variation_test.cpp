@@ -124,7 +124,8 @@ TEST(Domains, CallsThatTheTextItselfSettlesAreNotWatched) {
 
 TEST(Domains, QuotientsAreWatchedWhereBothMayBeZero) {
     const Read of = read("float f(float x, int n, vec2 v) {\nx /= x; v.y /= v.x + 1.0; x /= 2.0;\n"
-                         "return x / v.x + 1.0 / x + x / 3.0 + float(n / n); }\n");
+                         "return x / v.x + 1.0 / x + x / 3.0 + float(n / n) + x / max(x, 0.1) +\n"
+                         "x / iResolution.x; }\n");
     const DomainWatch watch = watch_domains(*of.text, of.facts, 64);
     EXPECT_EQ(watch.calls.size(), 3u);
     EXPECT_EQ(count(watch.text, "x =tmw0_quotient(x , (x),0)"), 1);
