@@ -34,16 +34,22 @@ protected:
 };
 
 /// Numbers that no compiler knows: made of iFrame, which is 0.
-constexpr const char* k_numbers = 
-                                  "#define A (1.1 + float(iFrame))\n#define B (1.3 + float(iFrame))\n"
+constexpr const char* k_numbers = "#define A (1.1 + float(iFrame))\n#define B (1.3 + float(iFrame))\n"
                                   "#define C (-1.43 - float(iFrame))\n";
 
 TEST_F(VariationTest, AProductLosesNothingOnItsWayIntoASum) {
     const float a = 1.1f, b = 1.3f, c = -1.43f, ab = a * b;
     const std::vector<std::string> expressions = {
-        "A * B + C",          "C + A * B",          "A * A - A * A", "C - A * B", "A * B - C",
-        "(vec2(A) * B + C).y", "(C - vec3(A) * B).z", "(vec4(C) + B * vec4(A)).w",
-        "(mat2(A) * vec2(B) + C).x", "float(3 * iFrame + 2) * A + C",
+        "A * B + C",
+        "C + A * B",
+        "A * A - A * A",
+        "C - A * B",
+        "A * B - C",
+        "(vec2(A) * B + C).y",
+        "(C - vec3(A) * B).z",
+        "(vec4(C) + B * vec4(A)).w",
+        "(mat2(A) * vec2(B) + C).x",
+        "float(3 * iFrame + 2) * A + C",
     };
     const std::vector<float> rounded = varied(glsl::vary_contraction, 0, expressions, k_numbers);
     const std::vector<float> whole = varied(glsl::vary_contraction, 1, expressions, k_numbers);

@@ -127,9 +127,9 @@ private:
 
     /// What nobody sees outside of its function.
     void declare(NodeId id) {
-        const bool handed_out = tree_[id].kind == NodeKind::parameter &&
-                                (has_qualifier(text_, tree_.child(id, 0), "out") ||
-                                 has_qualifier(text_, tree_.child(id, 0), "inout"));
+        const bool handed_out =
+            tree_[id].kind == NodeKind::parameter && (has_qualifier(text_, tree_.child(id, 0), "out") ||
+                                                      has_qualifier(text_, tree_.child(id, 0), "inout"));
         if ((tree_[id].kind == NodeKind::declarator || tree_[id].kind == NodeKind::parameter) && !handed_out)
             locals_[tree_.around(id, NodeKind::function)].insert(text_.word_of(id));
     }

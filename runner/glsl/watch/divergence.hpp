@@ -13,9 +13,10 @@ namespace tidemark::glsl {
 
 /// What divides the pixels that come to a place from their neighbours.
 struct Parting {
-    NodeId at = k_no_node; ///< a condition; with `exit` a return, discard or continue, or a call that discards
-    bool exit = false;     ///< the place is behind it, and some pixels left there
-    bool called = false;   ///< it divides them before the function is called that the place is in
+    NodeId at =
+        k_no_node;       ///< a condition; with `exit` a return, discard or continue, or a call that discards
+    bool exit = false;   ///< the place is behind it, and some pixels left there
+    bool called = false; ///< it divides them before the function is called that the place is in
 };
 
 struct Divergent {

@@ -112,7 +112,8 @@ std::string float_quotients(std::string_view prefix) {
 std::string other_quotients(std::string_view prefix) {
     std::string text;
     const auto add = [&](const std::string& left, const std::string& right, const std::string& result) {
-        text += fmt::format("{0} {1}quotient({2} x,{3} y,int i){{return x/y;}}\n", result, prefix, left, right);
+        text +=
+            fmt::format("{0} {1}quotient({2} x,{3} y,int i){{return x/y;}}\n", result, prefix, left, right);
     };
     for (const std::string number : {"int", "uint"}) {
         add(number, number, number);

@@ -1,7 +1,7 @@
 // A shader that watches where its built-in functions are undefined: `pow` of a negative number, `sqrt`,
 // `log`, `acos` and their kind outside of their domain, `normalize` of nothing, `smoothstep` with equal
-// edges, `mod` by zero; and the quotient of two zeros. Text in, text out. It counts such calls in a buffer of words, and can be told to take
-// another value for what such a call gives, as another GPU may.
+// edges, `mod` by zero; and the quotient of two zeros. Text in, text out. It counts such calls in a buffer of
+// words, and can be told to take another value for what such a call gives, as another GPU may.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"

@@ -38,9 +38,9 @@ Variation vary_inputs(const ParsedText& text, const TreeFacts& facts);
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts);
 
 /// Mode 1: where an operand of + or -, or the value of += or -=, is a product of floats, its sum is rounded
-/// only once, to 0.5 + 2^-30 units in the last place (the product is exact in double, the sum in double nearly
-/// so); `dot` is a chain of such sums. As GPUs do with one instruction. Needs doubles, which GLSL ES has not.
-/// Products that come in variables, and those of matrices, are as they were.
+/// only once, to 0.5 + 2^-30 units in the last place (the product is exact in double, the sum in double
+/// nearly so); `dot` is a chain of such sums. As GPUs do with one instruction. Needs doubles, which GLSL ES
+/// has not. Products that come in variables, and those of matrices, are as they were.
 Variation vary_contraction(const ParsedText& text, const TreeFacts& facts);
 
 /// Sums of three and more, `a + b + c`, added up from their other end. It has no modes.

@@ -23,7 +23,8 @@ std::string shape(std::string_view number, std::string_view vector, int size) {
 }
 
 /// `make(left, right, result)` of the sizes that an operator takes.
-template <class Make> std::string for_sizes(Make make) {
+template <class Make>
+std::string for_sizes(Make make) {
     std::string text;
     for (int left = 1; left <= 4; ++left)
         for (int right = 1; right <= 4; ++right)
@@ -54,7 +55,9 @@ std::string whole_overloads() {
     std::string text;
     for (const std::string_view number : {"int", "uint"})
         text += for_sizes([&](int left, int right, int result) {
-            const auto whole = [&](int size) { return shape(number, number == "int" ? "ivec" : "uvec", size); };
+            const auto whole = [&](int size) {
+                return shape(number, number == "int" ? "ivec" : "uvec", size);
+            };
             return plain("product", whole(left), '*', whole(right), whole(result)) +
                    plain("sum", whole(left), '+', whole(right), whole(result));
         });
@@ -94,8 +97,7 @@ std::string dot_overloads() {
 }
 
 std::string contraction_prelude(const ParsedText& text) {
-    std::string prelude =
-        "uniform int $mode;\n" + float_overloads() + whole_overloads() + dot_overloads();
+    std::string prelude = "uniform int $mode;\n" + float_overloads() + whole_overloads() + dot_overloads();
     if (std::ranges::any_of(text.words(), [](const Word& word) { return word.text.starts_with("mat"); }))
         prelude += matrix_overloads();
     return prelude;
@@ -192,8 +194,7 @@ private:
 };
 
 bool adds(const ParsedText& text, NodeId id) {
-    return text.tree()[id].kind == NodeKind::binary &&
-           (text.word_of(id) == "+" || text.word_of(id) == "-");
+    return text.tree()[id].kind == NodeKind::binary && (text.word_of(id) == "+" || text.word_of(id) == "-");
 }
 
 /// `a - b + c` becomes `a - (b - c)`: the mirror image of ((c - b) + a), and the same to the bit. What is

@@ -36,7 +36,8 @@ std::span<const Probe> all_probes() {
          ask_divergence},
         {"undefined",
          "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
-         "nothing, smoothstep with equal edges, mod by 0, 0 / 0: where the picture hangs on what a GPU makes of "
+         "nothing, smoothstep with equal edges, mod by 0, 0 / 0: where the picture hangs on what a GPU makes "
+         "of "
          "it",
          ask_undefined},
         {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",

@@ -6,12 +6,13 @@
 namespace tidemark::glsl {
 namespace {
 
-/// `call@line<line of the condition` or `call@line|line of the exit`, each found one, with ` called` where that
-/// stands before a call of its function; iChannel0 has mipmaps.
+/// `call@line<line of the condition` or `call@line|line of the exit`, each found one, with ` called` where
+/// that stands before a call of its function; iChannel0 has mipmaps.
 std::string found_in(const std::string& text) {
     text::MappedText source;
-    source.append("#version 330 core\nuniform float iTime;\nuniform int iFrame;\nuniform sampler2D iChannel0, iChannel1;\n", "",
-                  0);
+    source.append("#version 330 core\nuniform float iTime;\nuniform int iFrame;\nuniform sampler2D "
+                  "iChannel0, iChannel1;\n",
+                  "", 0);
     source.append(text, "a.glsl", 1);
     source.append("void main() { vec4 c; mainImage(c, gl_FragCoord.xy); }\n", "", 0);
     const auto parsed = ParsedText::read(std::move(source), {});
@@ -126,15 +127,17 @@ TEST(Divergence, AnExitIsOneOfItsFunction) {
     EXPECT_EQ(found_in("void cut(float x) { if (x > 9.0) discard; }\n"
                        "void mainImage(out vec4 c, in vec2 p) {\ncut(p.x);\nc = vec4(dFdx(p.x)); }\n"),
               "dFdx@4|3");
-    EXPECT_EQ(found_in("void cut() { discard; }\n"
-                       "void mainImage(out vec4 c, in vec2 p) {\nif (p.x > 9.0) cut();\nc = vec4(dFdx(p.x)); }\n"),
-              "dFdx@4|3");
+    EXPECT_EQ(
+        found_in("void cut() { discard; }\n"
+                 "void mainImage(out vec4 c, in vec2 p) {\nif (p.x > 9.0) cut();\nc = vec4(dFdx(p.x)); }\n"),
+        "dFdx@4|3");
     EXPECT_EQ(found_in("vec4 look(vec2 q) { return texture(iChannel0, q); }\n"
                        "void mainImage(out vec4 c, in vec2 p) {\nif (p.x > 9.0) return;\nc = look(p); }\n"),
               "texture@1|3 called");
-    EXPECT_EQ(found_in("int n = 0;\nvoid count(float x) { if (x > 9.0) return; n = 1; }\n"
-                       "void mainImage(out vec4 c, in vec2 p) {\ncount(p.x);\nif (n > 0) c = vec4(dFdx(p.x)); }\n"),
-              "dFdx@5<5")
+    EXPECT_EQ(
+        found_in("int n = 0;\nvoid count(float x) { if (x > 9.0) return; n = 1; }\n"
+                 "void mainImage(out vec4 c, in vec2 p) {\ncount(p.x);\nif (n > 0) c = vec4(dFdx(p.x)); }\n"),
+        "dFdx@5<5")
         << "a global is seen by all";
 }
 

@@ -56,7 +56,8 @@ TEST(Variation, WholeNumbersAndConstantsAreLeftAlone) {
 TEST(Variation, AProductGoesIntoItsSumWhole) {
     const auto contracted = [](const std::string& expression) {
         const std::string text =
-            varied(vary_contraction, "float f(float a, float b, float c) { return " + expression + "; }\n").text;
+            varied(vary_contraction, "float f(float a, float b, float c) { return " + expression + "; }\n")
+                .text;
         const size_t begin = text.find("return ", text.find("float f (")) + 7;
         return text.substr(begin, text.find(" ;", begin) - begin);
     };
@@ -74,8 +75,8 @@ TEST(Variation, AProductGoesIntoItsSumWhole) {
 
 TEST(Variation, ASumIsAddedUpFromItsOtherEnd) {
     const auto reversed = [](const std::string& expression) {
-        const Variation found =
-            varied(vary_order, "float f(float a, float b, float c, float d) { return " + expression + "; }\n");
+        const Variation found = varied(vary_order, "float f(float a, float b, float c, float d) { return " +
+                                                       expression + "; }\n");
         const size_t begin = found.text.find("return ") + 7;
         return found.places == 0 ? "" : found.text.substr(begin, found.text.find(" ;") - begin);
     };
