@@ -132,10 +132,20 @@ class Check(ProgramTest):
                       entry["found"])
         self.assertNotIn("sqrt", entry["found"])  # its value is thrown away
 
+    def test_zero_by_zero_is_named_where_it_shows(self):
+        scene = self.write("glow.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    float side = floor(2.0 * p.x / iResolution.x);\n"
+                                        "    vec2 even = vec2(side), far = 1.0 / even;\n"
+                                        "    even.y /= side;\n    c = vec4(max(even, 0.0), min(far.x, 1.0), 1.0);\n}\n")
+        entry = self.verdicts(scene, "--probe", "undefined")["undefined"]
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertEqual(entry["found"].count("quotient"), 1, "1 / 0 is an infinity, which is defined")
+        self.assertIn(f"quotient of 0 and 0 (0, first at pixel 0,0) at {scene}:4: 50 % of the pixels", entry["found"])
+
     def test_each_function_has_its_domain(self):
         for call in ("pow(x, 2.5)", "sqrt(x)", "inversesqrt(x)", "log(x)", "log2(x)", "asin(3.0 + x)", "acos(x - 3.0)",
                      "acosh(x)", "atanh(3.0 + x)", "atan(floor(0.1 * x), floor(0.1 * x))", "mod(1.0, floor(0.1 * x) + 1.0)",
-                     "normalize(vec2(floor(0.1 * x) + 1.0)).x", "smoothstep(x, x, 0.5)",
+                     "normalize(vec2(floor(0.1 * x) + 1.0)).x", "(x + iTime) / (vec2(x, 1.0) + iTime).x", "smoothstep(x, x, 0.5)",
                      "pow(vec3(x), vec3(0.45)).y", "mod(vec2(1.0), floor(0.1 * x) + 1.0).y"):
             with self.subTest(call):
                 x = "-iTime" if "floor" not in call or "mod" in call or "norm" in call else "0.01 * iTime"
@@ -143,7 +153,7 @@ class Check(ProgramTest):
                                                 f"    float x = {x};\n    c = vec4({call});\n}}\n")
                 entry = self.verdicts(scene, "--probe", "undefined")["undefined"]
                 self.assertEqual(entry["verdict"], "warn", entry["found"])
-                self.assertIn(call.split("(")[0] + " ", entry["found"])
+                self.assertIn((call.split("(")[0] or "quotient") + " ", entry["found"])
                 self.assertIn(f"{scene}:3", entry["found"])
 
     def test_a_hash_of_sines_is_another_picture_on_another_gpu(self):
@@ -156,12 +166,28 @@ class Check(ProgramTest):
         self.assertEqual(self.verdicts(smooth, "--probe", "sine")["sine"]["verdict"], "pass")
 
     def test_what_hangs_on_the_last_bit_is_told(self):
-        for text, manner in (("fract(p.x * 15625.3)", "sums and products a unit off"),
+        for text, manner in (("fract(p.x * 15625.3 + 0.37)", "products that go into sums unrounded"),
+                             ("fract(0.3 * p.x + (1e6 + iTime) - (1e6 - iTime))", "sums added up from the other end"),
+                             ("fract(1e6 * sqrt(p.x))", "quotients, roots, powers and logarithms a unit off"),
                              ("fract(iTime * 1e5 + p.x)", "iTime, iResolution and iMouse a unit in the last place")):
-            scene = self.write("bits.glsl", f"void mainImage(out vec4 c, in vec2 p) {{ c = vec4({text}); }}\n")
-            entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
-            self.assertEqual(entry["verdict"], "warn", entry["found"])
-            self.assertIn(manner, entry["found"])
+            with self.subTest(manner):
+                scene = self.write("bits.glsl", f"void mainImage(out vec4 c, in vec2 p) {{ c = vec4({text}); }}\n")
+                entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
+                self.assertEqual(entry["verdict"], "warn", entry["found"])
+                self.assertRegex(entry["found"], "^another picture with " + manner)
+                self.assertRegex(entry["found"], manner + r"[^,]*: \d+\.\d dB, 1 % of the pixels by 0\.\d+ or more")
+
+    def test_a_product_and_a_sum_of_two_are_the_same_everywhere(self):
+        scene = self.write("bits.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    float x = fract(p.x * 15625.3);\n    c = vec4(fract(x + 1e6));\n}\n")
+        entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
+        self.assertEqual(entry["verdict"], "pass", entry["found"])
+
+    def test_pixels_without_a_number_are_counted_beside_the_rest(self):
+        scene = self.write("edge.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    float a = 1.1 + 0.01 * p.x;\n    c = vec4(sqrt(a * a - a * a) / 2.0);\n}\n")
+        found = self.verdicts(scene, "--probe", "rounding")["rounding"]["found"]
+        self.assertRegex(found, r"unrounded: 0 pixels without a number become \d+, \d+\.\d dB over the rest")
 
     def test_a_variable_without_a_value_is_named(self):
         scene = self.write("sum.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float sum;\n"
@@ -176,6 +202,15 @@ class Check(ProgramTest):
         entry = self.verdicts(scene, "--probe", "divergence")["divergence"]
         self.assertEqual(entry["verdict"], "warn")
         self.assertIn(f"fwidth ({scene}:4, parted at {scene}:3)", entry["found"])
+
+    def test_a_derivative_behind_an_early_return_is_named(self):
+        scene = self.write("edge.glsl", "float soft(float x) { return fwidth(x); }\n"
+                                        "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
+                                        "    if (p.x > p.y)\n        return;\n    c += fwidth(p.x) + soft(p.y);\n}\n")
+        entry = self.verdicts(scene, "--probe", "divergence")["divergence"]
+        self.assertEqual(entry["verdict"], "warn")
+        self.assertIn(f"fwidth ({scene}:1, called behind the return at {scene}:5), "
+                      f"fwidth ({scene}:6, behind the return at {scene}:5)", entry["found"])
 
     def test_halves_are_drawn_where_the_text_asks_for_them(self):
         text = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract((p.x + 2048.0) * 0.5)); }\n"

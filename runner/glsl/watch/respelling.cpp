@@ -28,6 +28,13 @@ std::string Respelling::text() const {
     return result;
 }
 
+std::string words_of(const ParsedText& text, NodeId id) {
+    std::string words;
+    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
+        words += fmt::format("{} ", text.word(i));
+    return words;
+}
+
 std::string fresh_prefix(const ParsedText& text) {
     for (int n = 0;; ++n) {
         const std::string prefix = fmt::format("tmw{}_", n);

@@ -17,7 +17,7 @@ public:
     /// `before` and `after` right around the node. Of several nodes an inner one is to be wrapped first:
     /// ascending numbers, for children come before their parents.
     void wrap(NodeId node, std::string_view before, std::string_view after);
-    void replace(size_t word, std::string_view with) { changes_[word].replacement = with; }
+    void replace(size_t word, std::string_view with) { changes_[word].replacement = std::string(with); }
 
     /// The words as they then are, a line for a statement.
     std::string text() const;
@@ -31,6 +31,9 @@ private:
     const ParsedText& text_;
     std::vector<Change> changes_;
 };
+
+/// The words of a node as they are, to be said once more.
+std::string words_of(const ParsedText& text, NodeId id);
 
 /// A prefix that no name of the text has.
 std::string fresh_prefix(const ParsedText& text);

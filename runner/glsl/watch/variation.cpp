@@ -71,13 +71,6 @@ std::string other_overloads(std::string_view function, std::string_view prefix) 
     return text;
 }
 
-std::string words_of(const ParsedText& text, NodeId id) {
-    std::string words;
-    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
-        words += fmt::format("{} ", text.word(i));
-    return words;
-}
-
 } // namespace
 
 Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
@@ -123,18 +116,17 @@ Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
 
 namespace {
 
-/// Every result of + - * / led through `$off`.
-Variation vary_operations(const ParsedText& text, const TreeFacts& facts, std::string_view off) {
+/// Every result of an operation, an assignment or a call led through `$off` where `is_meant` says so.
+template <class IsMeant>
+Variation vary_results(const ParsedText& text, std::string_view off, IsMeant is_meant) {
     const SyntaxTree& tree = text.tree();
     const std::string prefix = fresh_prefix(text);
     Variation result{{}, prefix + "mode"};
     Respelling edits(text);
     for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        const NodeKind kind = tree[id].kind;
-        if ((kind != NodeKind::binary && kind != NodeKind::assign) ||
-            !is_watched_operation(text, facts, id) || must_stay_constant(text, id))
+        if (!is_meant(id) || must_stay_constant(text, id))
             continue;
-        if (kind == NodeKind::binary) {
+        if (tree[id].kind != NodeKind::assign) {
             edits.wrap(id, prefix + "off(", ")");
         } else {
             const std::string target = words_of(text, tree.child(id, 0));
@@ -147,16 +139,31 @@ Variation vary_operations(const ParsedText& text, const TreeFacts& facts, std::s
     return result;
 }
 
+/// Arithmetic by an operator.
+bool is_operation(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    return text.tree()[id].kind != NodeKind::call && is_watched_operation(text, facts, id);
+}
+
+constexpr std::string_view k_inexact[] = {"sqrt", "inversesqrt", "pow", "exp", "exp2", "log", "log2"};
+
 } // namespace
 
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
-    return vary_operations(text, facts, k_lot);
+    return vary_results(text, k_lot, [&](NodeId id) {
+        if (is_operation(text, facts, id))
+            return text.word_of(id).front() == '/';
+        const std::string_view name =
+            text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        return !facts.function(name) && std::ranges::find(k_inexact, name) != std::end(k_inexact);
+    });
 }
 
 Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
     const bool asked = std::ranges::any_of(
         text.words(), [](const Word& word) { return word.text == "mediump" || word.text == "lowp"; });
-    return asked ? vary_operations(text, facts, k_half) : Variation{};
+    if (!asked)
+        return {};
+    return vary_results(text, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
 }
 
 Variation vary_precision(const ParsedText& text, const TreeFacts&) {

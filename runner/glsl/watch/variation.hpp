@@ -33,9 +33,18 @@ Variation vary_sines(const ParsedText& text, const TreeFacts& facts);
 /// Mode 1: iTime, iResolution and iMouse a unit in the last place larger.
 Variation vary_inputs(const ParsedText& text, const TreeFacts& facts);
 
-/// Mode 1: every second result of + - * /, by lot, a unit in the last place up or down. Whether a driver
-/// contracts a product and a sum, or adds in another order, makes no larger difference to one operation.
+/// Mode 1: every second quotient, root, power, exponential and logarithm, by lot, a unit in the last place up
+/// or down. GLSL lets those be off by two units and more, and rounds + - * correctly (4.50, 4.7.1).
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts);
+
+/// Mode 1: where an operand of + or -, or the value of += or -=, is a product of floats, its sum is rounded
+/// only once, to 0.5 + 2^-30 units in the last place (the product is exact in double, the sum in double
+/// nearly so); `dot` is a chain of such sums. As GPUs do with one instruction. Needs doubles, which GLSL ES
+/// has not. Products that come in variables, and those of matrices, are as they were.
+Variation vary_contraction(const ParsedText& text, const TreeFacts& facts);
+
+/// Sums of three and more, `a + b + c`, added up from their other end. It has no modes.
+Variation vary_order(const ParsedText& text, const TreeFacts& facts);
 
 /// Mode 1: every result of + - * / in ten bits behind the first and up to 65504, as phones compute `mediump`.
 /// 0 places where the text asks for no such thing.

@@ -1,5 +1,9 @@
 #include "lab/check/picture_gap.hpp"
 
+#include "image/compare/metrics.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -20,6 +24,41 @@ double p99_difference(const image::Image& left, const image::Image& right) {
     const auto at = largest.begin() + std::ptrdiff_t(double(largest.size() - 1) * 0.99);
     std::ranges::nth_element(largest, at);
     return double(*at);
+}
+
+namespace {
+
+bool is_number(const image::Image& image, size_t pixel) {
+    const auto samples = image.f32().subspan(pixel * size_t(image.channels), size_t(image.channels));
+    return std::ranges::all_of(samples, [](float sample) { return std::isfinite(sample); });
+}
+
+std::string decibels(double mean_square) {
+    return mean_square == 0 ? "the same" : fmt::format("{:.1f} dB", -10 * std::log10(mean_square));
+}
+
+} // namespace
+
+std::string alikeness(const image::Image& before, const image::Image& after) {
+    if (const auto difference = image::compare(before, after); difference && !std::isnan(difference->psnr))
+        return decibels(difference->rmse * difference->rmse);
+    const auto channels = size_t(before.channels);
+    size_t none_before = 0, none_after = 0, numbers = 0;
+    double squares = 0;
+    for (size_t pixel = 0; pixel < before.extent.pixels(); ++pixel) {
+        const bool first = is_number(before, pixel), second = is_number(after, pixel);
+        none_before += !first;
+        none_after += !second;
+        if (!first || !second)
+            continue;
+        ++numbers;
+        for (size_t i = pixel * channels; i < (pixel + 1) * channels; ++i)
+            squares += std::pow(double(before.f32()[i]) - double(after.f32()[i]), 2);
+    }
+    const std::string counted = fmt::format("{} pixels without a number become {}", none_before, none_after);
+    return numbers == 0
+               ? counted + ", and no pixel has one in both"
+               : fmt::format("{}, {} over the rest", counted, decibels(squares / double(numbers * channels)));
 }
 
 } // namespace tidemark::lab

@@ -36,7 +36,9 @@ std::span<const Probe> all_probes() {
          ask_divergence},
         {"undefined",
          "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
-         "nothing, smoothstep with equal edges, mod by 0: where the picture hangs on what a GPU makes of it",
+         "nothing, smoothstep with equal edges, mod by 0, 0 / 0: where the picture hangs on what a GPU makes "
+         "of "
+         "it",
          ask_undefined},
         {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
          ask_repeats},
@@ -91,8 +93,9 @@ std::span<const Probe> all_probes() {
          "as NVIDIA's: apart by more than 1/255 in 1 % of the pixels",
          ask_sine},
         {"rounding",
-         "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, and with "
-         "every second + - * / a unit off, as contracting and reordering do: apart by as much",
+         "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, with "
+         "products that go into sums unrounded, with sums added up from the other end, and with quotients, "
+         "roots, powers and logarithms a unit off: apart by as much",
          ask_rounding},
         {"halves",
          "the picture with every + - * / in half floats, where the text says `mediump` or `lowp`: apart by "

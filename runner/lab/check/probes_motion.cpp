@@ -1,6 +1,7 @@
 // The same again, and the next pixel of the mouse.
 #include "image/census.hpp"
 #include "image/compare/metrics.hpp"
+#include "lab/check/picture_gap.hpp"
 #include "lab/check/probes.hpp"
 
 #include <fmt/format.h>
@@ -163,13 +164,11 @@ Result<Answer> ask_clicks(ProbeBench& bench) {
     const auto corner = bench.picture({.mouse = glm::ivec2(1, 1)});
     if (!untouched || !corner)
         return fail(!untouched ? untouched.error() : corner.error());
-    const double psnr = image::compare(*untouched, *corner)->psnr;
-    return Answer{std::isinf(psnr) ? Verdict::not_applicable : Verdict::pass,
-                  std::isinf(psnr)
-                      ? std::string("a click changes nothing")
-                      : fmt::format("clicks at the edges are clicks; the first one in the corner changes "
-                                    "the picture to {:.1f} dB",
-                                    psnr)};
+    if (image::compare(*untouched, *corner)->equal())
+        return Answer{Verdict::not_applicable, "a click changes nothing"};
+    return Answer{Verdict::pass, "clicks at the edges are clicks; the first one in the corner changes the "
+                                 "picture: " +
+                                     alikeness(*untouched, *corner)};
 }
 
 } // namespace tidemark::lab

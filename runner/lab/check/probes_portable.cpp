@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <span>
 
 namespace tidemark::lab {
@@ -47,10 +49,15 @@ public:
 
     bool asked() const { return asked_; }
 
+    /// The one that moved most comes first.
     Answer answer(const std::string& sound) {
-        if (visible_.empty())
-            return {Verdict::pass, sound + ": " + (said_.empty() ? "the same picture" : listed(said_))};
-        Answer answer{Verdict::warn, "another picture with " + listed(visible_), k_situation,
+        std::ranges::stable_sort(seen_, std::greater(), &Seen::gap);
+        std::vector<std::string> visible, hardly;
+        for (const Seen& seen : seen_)
+            (seen.gap > k_visible_gap ? visible : hardly).push_back(seen.sentence);
+        if (visible.empty())
+            return {Verdict::pass, sound + ": " + (hardly.empty() ? "the same picture" : listed(hardly))};
+        Answer answer{Verdict::warn, "another picture with " + listed(visible), k_situation,
                       std::move(picture_)};
         answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
         return answer;
@@ -93,17 +100,13 @@ private:
 
     void note(size_t pass, const Mode& mode, const image::Image& plain, const image::Image& other) {
         const double gap = p99_difference(plain, other);
-        const auto difference = image::compare(plain, other);
-        const std::string said = difference->equal()
-                                     ? fmt::format("{}: the same bytes", mode.name)
-                                     : fmt::format("{}: {:.1f} dB", mode.name, difference->psnr);
-        if (gap <= k_visible_gap) {
-            if (!difference->equal())
-                said_.push_back(said);
+        if (image::compare(plain, other)->equal())
             return;
-        }
-        visible_.push_back(fmt::format("{}, 1 % of the pixels by {:.2g} or more", said, gap));
-        if (gap <= worst_)
+        std::string said = fmt::format("{}: {}", mode.name, alikeness(plain, other));
+        if (gap > k_visible_gap)
+            said += fmt::format(", 1 % of the pixels by {:.2g} or more", gap);
+        seen_.push_back({std::move(said), gap});
+        if (gap <= std::max(worst_, k_visible_gap))
             return;
         worst_ = gap;
         pass_ = pass;
@@ -112,8 +115,12 @@ private:
 
     ProbeBench& bench_;
     bool asked_ = false;
-    std::vector<std::string> said_;    ///< what differs, and does not show
-    std::vector<std::string> visible_; ///< what shows
+    /// A mode that made other bytes.
+    struct Seen {
+        std::string sentence;
+        double gap;
+    };
+    std::vector<Seen> seen_;
     double worst_ = 0;
     size_t pass_ = 0;
     std::optional<image::Image> picture_;
@@ -140,12 +147,23 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
     const Manner manners[] = {
         {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger"}}},
         {glsl::vary_precision, {{0, "everything `precise`"}}},
-        {glsl::vary_rounding, {{1, "sums and products a unit off"}}},
+        {glsl::vary_contraction, {{1, "products that go into sums unrounded"}}},
+        {glsl::vary_order, {{0, "sums added up from the other end"}}},
+        {glsl::vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}},
     };
+    std::vector<std::string> left_out;
+    std::string why;
     for (const Manner& manner : manners)
-        if (auto done = probe.add(manner); !done)
-            return Answer{Verdict::not_applicable, to_string(done.error())};
-    return probe.answer("rounded otherwise");
+        if (auto done = probe.add(manner); !done) {
+            left_out.emplace_back(manner.modes[0].name);
+            why = to_string(done.error());
+        }
+    if (!probe.asked())
+        return Answer{Verdict::not_applicable, left_out.empty() ? "nothing is computed" : why};
+    Answer answer = probe.answer("rounded otherwise");
+    if (!left_out.empty())
+        answer.sentence += "; not to be had: " + listed(left_out);
+    return answer;
 }
 
 Result<Answer> ask_halves(ProbeBench& bench) {

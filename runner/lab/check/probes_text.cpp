@@ -10,6 +10,21 @@
 #include <algorithm>
 
 namespace tidemark::lab {
+namespace {
+
+/// `parted at a.glsl:3`, `called behind the return at a.glsl:4`.
+std::string told(const glsl::ParsedText& text, const glsl::Parting& parting) {
+    const glsl::Node& at = text.tree()[parting.at];
+    const std::string place = place_of(text, at.begin);
+    const std::string_view called = parting.called ? "called " : "";
+    if (!parting.exit)
+        return fmt::format("{}{} {}", called, parting.called ? "where pixels parted at" : "parted at", place);
+    const bool by_call = at.kind == glsl::NodeKind::call;
+    return fmt::format("{}behind the {} at {}", called, by_call ? "discard in a call" : text.word(at.word),
+                       place);
+}
+
+} // namespace
 
 Result<Answer> ask_unassigned(ProbeBench& bench) {
     const auto texts = read_texts(bench, true);
@@ -50,12 +65,9 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
         const glsl::ParsedText& text = *pass.text;
         for (const glsl::Divergent& each : glsl::find_divergent(text, pass.facts, has_mipmaps)) {
             const std::string place = place_of(text, text.tree()[each.call].begin);
-            const std::string way = each.condition == glsl::k_no_node
-                                        ? std::string("where its function is called")
-                                        : place_of(text, text.tree()[each.condition].begin);
             if (!place.empty())
-                found.push_back(
-                    fmt::format("{} ({}, parted at {})", glsl::called_name(text, each.call), place, way));
+                found.push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
+                                            told(text, each.parting)));
         }
     }
     if (found.empty())

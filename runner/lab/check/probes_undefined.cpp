@@ -1,4 +1,4 @@
-// Built-in functions outside of their domain: what they give there is another thing on every GPU.
+// Built-in functions outside of their domain, and 0 / 0: what they give there is another thing on every GPU.
 #include "glsl/watch/domains.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/metrics.hpp"
@@ -72,7 +72,9 @@ private:
         const image::Image zero = with(moment, watch_.calls.size(), 0);
         for (size_t call = 0; call < watch_.calls.size(); ++call) {
             const uint32_t* of_call = &words[call * glsl::k_domain_words];
-            const std::string place = place_of(*pass_.text, pass_.text->tree()[watch_.calls[call]].begin);
+            const glsl::Node& node = pass_.text->tree()[watch_.calls[call]];
+            const std::string place =
+                place_of(*pass_.text, node.kind == glsl::NodeKind::call ? node.begin : node.word);
             if (of_call[0] == 0 || place.empty() || seen_.size() >= k_most_calls ||
                 !seen_.insert(call).second)
                 continue;
@@ -85,7 +87,7 @@ private:
                     worst = image::difference_picture(zero, other, 1);
                 }
             }
-            const std::string_view name = glsl::called_name(*pass_.text, watch_.calls[call]);
+            const std::string_view name = glsl::domain_name(*pass_.text, watch_.calls[call]);
             const uint32_t pixel = ~of_call[1];
             const auto width = uint32_t(Situation().extent.width);
             found.push_back(

@@ -38,18 +38,54 @@ TEST(Variation, SinesAreTheBuiltInOnes) {
         0u);
 }
 
-TEST(Variation, EveryResultOfASumIsLedThroughUs) {
-    const Variation found = varied(vary_rounding, "float f(float x) { x *= 2.0; return x * x + 1.0; }\n");
+TEST(Variation, WhatGlslLetsBeOffIsLedThroughUs) {
+    const Variation found =
+        varied(vary_rounding, "float f(float x) { x /= 3.0; return sqrt(x / 7.0) + x * x; }\n");
     EXPECT_EQ(found.places, 3u);
-    EXPECT_EQ(count(found.text, "(x *= 2.0,x =tmw0_off(x ))"), 1);
-    EXPECT_EQ(count(found.text, "return tmw0_off(tmw0_off(x * x) + 1.0)"), 1);
+    EXPECT_EQ(count(found.text, "(x /= 3.0,x =tmw0_off(x ))"), 1);
+    EXPECT_EQ(count(found.text, "return tmw0_off(sqrt ( tmw0_off(x / 7.0) )) + x * x"), 1);
 }
 
 TEST(Variation, WholeNumbersAndConstantsAreLeftAlone) {
     EXPECT_EQ(
-        varied(vary_rounding, "const float c = 1.0 + 2.0;\nint f(int i) { float a[1 + 1]; return i + 1; }\n")
+        varied(vary_rounding, "const float c = 1.0 / 2.0;\nint f(int i) { float a[2 / 1]; return i / 2; }\n")
             .places,
         0u);
+}
+
+TEST(Variation, AProductGoesIntoItsSumWhole) {
+    const auto contracted = [](const std::string& expression) {
+        const std::string text =
+            varied(vary_contraction, "float f(float a, float b, float c) { return " + expression + "; }\n")
+                .text;
+        const size_t begin = text.find("return ", text.find("float f (")) + 7;
+        return text.substr(begin, text.find(" ;", begin) - begin);
+    };
+    EXPECT_EQ(contracted("a * b + c"), "tmw0_sum(tmw0_product(a , b) , c)");
+    EXPECT_EQ(contracted("c - a * b"), "tmw0_sum(c , -(tmw0_product(a , b)))");
+    EXPECT_EQ(contracted("a * b - c / a"), "tmw0_sum(tmw0_product(a , b) , -(c / a))");
+    EXPECT_EQ(contracted("c + (a * b)"), "tmw0_sum(c , ( tmw0_product(a , b) ))");
+    EXPECT_EQ(contracted("a * b + b * c"), "tmw0_sum(tmw0_product(a , b) , b * c)") << "one of two";
+    EXPECT_EQ(contracted("a += b * c"), "a =tmw0_sum(a , (tmw0_product(b , c)))");
+    EXPECT_EQ(contracted("a -= b * c"), "a =tmw0_sum(a , -(tmw0_product(b , c)))");
+    EXPECT_EQ(contracted("dot(a, b)"), "tmw0_dot ( a , b )");
+    EXPECT_EQ(contracted("a + b - c / a"), "a + b - c / a");
+    EXPECT_EQ(contracted("float(2 * 3 + int(a))"), "float ( 2 * 3 + int ( a ) )");
+}
+
+TEST(Variation, ASumIsAddedUpFromItsOtherEnd) {
+    const auto reversed = [](const std::string& expression) {
+        const Variation found = varied(vary_order, "float f(float a, float b, float c, float d) { return " +
+                                                       expression + "; }\n");
+        const size_t begin = found.text.find("return ") + 7;
+        return found.places == 0 ? "" : found.text.substr(begin, found.text.find(" ;") - begin);
+    };
+    EXPECT_EQ(reversed("a + b + c"), "a + (b + c)");
+    EXPECT_EQ(reversed("a - b + c"), "a - (b - c)");
+    EXPECT_EQ(reversed("a - b - c + d"), "a - (b + (c - d))");
+    EXPECT_EQ(reversed("a + b - (b + c + d) * a"), "a + (b - ( b + (c + d) ) * a)");
+    EXPECT_EQ(reversed("a + (b + c)"), "") << "parentheses are the author's order";
+    EXPECT_EQ(reversed("float(1 + 2 + 3)"), "");
 }
 
 TEST(Variation, HalvesAreThoseThatTheTextAsksFor) {
@@ -85,6 +121,18 @@ TEST(Domains, CallsThatTheTextItselfSettlesAreNotWatched) {
         names += std::string(called_name(*of.text, call)) + " ";
     EXPECT_EQ(names, "pow mod smoothstep log ");
     EXPECT_EQ(count(watch.text, "tmw0_pow ( x , - 2.0 ,0)"), 1);
+}
+
+TEST(Domains, QuotientsAreWatchedWhereBothMayBeZero) {
+    const Read of = read("float f(float x, int n, vec2 v) {\nx /= x; v.y /= v.x + 1.0; x /= 2.0;\n"
+                         "return x / v.x + 1.0 / x + x / 3.0 + float(n / n) + x / max(x, 0.1) +\n"
+                         "x / iResolution.x; }\n");
+    const DomainWatch watch = watch_domains(*of.text, of.facts, 64);
+    EXPECT_EQ(watch.calls.size(), 3u);
+    EXPECT_EQ(count(watch.text, "x =tmw0_quotient(x , (x),0)"), 1);
+    EXPECT_EQ(count(watch.text, "v . y =tmw0_quotient(v . y , (v . x + 1.0),1)"), 1);
+    EXPECT_EQ(count(watch.text, "return tmw0_quotient(x , v . x,2) + 1.0 / x + x / 3.0"), 1);
+    EXPECT_EQ(domain_name(*of.text, watch.calls[0]), "quotient");
 }
 
 TEST(Domains, AFunctionOfTheAuthorsIsItsOwnAffair) {

@@ -1,0 +1,42 @@
+// How alike two pictures are called, also where they hold what is no number.
+#include "lab/check/picture_gap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
+
+/// Two samples a pixel.
+image::Image picture(std::initializer_list<float> samples) {
+    image::Image image({int(samples.size() / 2), 1}, 2, image::SampleType::f32);
+    std::ranges::copy(samples, image.f32().begin());
+    return image;
+}
+
+TEST(Alikeness, IsThePsnrOfNumbers) {
+    EXPECT_EQ(alikeness(picture({0, 0.5f}), picture({0, 0.5f})), "the same");
+    EXPECT_EQ(alikeness(picture({0, 0, 0, 0}), picture({0.1f, 0.1f, 0.1f, 0.1f})), "20.0 dB");
+}
+
+TEST(Alikeness, CountsPixelsThatAreNoNumbersAndLeavesThemOut) {
+    const image::Image numbers = picture({0, 0, 0, 0, 0, 0});
+    EXPECT_EQ(alikeness(numbers, picture({0.1f, 0.1f, k_nan, 0, 0.1f, 0.1f})),
+              "0 pixels without a number become 1, 20.0 dB over the rest");
+    EXPECT_EQ(alikeness(picture({k_nan, k_nan, 0, k_infinity, 0, 0}), numbers),
+              "2 pixels without a number become 0, the same over the rest");
+    EXPECT_EQ(alikeness(numbers, picture({k_nan, 0, k_nan, 0, 0, k_infinity})),
+              "0 pixels without a number become 3, and no pixel has one in both");
+}
+
+TEST(Alikeness, TheSameNanInBothIsTheSame) {
+    EXPECT_EQ(alikeness(picture({k_nan, 0, 0, 0}), picture({k_nan, 0, 0.2f, 0})), "20.0 dB");
+}
+
+} // namespace
+} // namespace tidemark::lab
