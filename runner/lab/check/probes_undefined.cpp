@@ -53,7 +53,7 @@ public:
             if (!renderer)
                 return fail(renderer.error());
             const render::FrameInputs inputs = inputs_of(situation);
-            (*renderer)->draw_before(pass_.pass, inputs);
+            (*renderer)->advance_to(pass_.pass, inputs);
             const Moment moment{**renderer, pass_.pass, inputs};
             if (!stand_in_) {
                 auto linked = StandIn::link(moment, watch_.text, "the text with its domains watched");
