@@ -97,9 +97,7 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
     errors.both = differences.size();
     if (errors.both > 0) {
         std::sort(differences.begin(), differences.end());
-        const auto at = [&](double part) {
-            return differences[size_t(part * double(differences.size() - 1))];
-        };
+        const auto at = [&](double part) { return quantile_of_sorted(differences, part); };
         errors.rms = std::sqrt(squares / double(errors.both));
         errors.rms_right = right == 0 ? 0.0 : std::sqrt(right_squares / double(right));
         errors.median = at(0.5);

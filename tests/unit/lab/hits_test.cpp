@@ -61,6 +61,13 @@ TEST(HitErrors, count_what_is_wrong_in_each_way) {
     EXPECT_EQ(errors.evaluations, 10);
 }
 
+TEST(HitErrors, quantiles_of_an_even_count_lie_between_its_values) {
+    const HitErrors errors = hit_errors(hits({1, 1}), hits({1, 2}), std::vector<double>(2, 0.01));
+    EXPECT_DOUBLE_EQ(errors.median, 0.5);
+    EXPECT_DOUBLE_EQ(errors.p95, 0.95);
+    EXPECT_DOUBLE_EQ(errors.p99, 0.99);
+}
+
 TEST(HitErrors, of_equal_hits_are_none) {
     const Hits same = hits({1, -1, 3});
     const HitErrors errors = hit_errors(same, same, std::vector<double>(3, 0.01));
