@@ -116,6 +116,14 @@ TEST_F(WaterSurfaceField, IsAPlaneWithoutOctaves) {
     EXPECT_NEAR(certified_march(r.field, ray, r.range).distance, -ray.origin.y / ray.direction.y, 1e-12);
 }
 
+TEST_F(WaterSurfaceField, ProvesNothingBelowZero) {
+    set("wave_height=-1");
+    const auto made = water_surface_reference(inputs_);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().message,
+              "the reference knows no 'wave_height' below 0, and it is -1: its bounds would not hold");
+}
+
 TEST_F(WaterSurfaceField, SaysWhichKnobIsMissing) {
     const auto camera_only = std::span(inputs_.knobs).first(4);
     inputs_.knobs = camera_only;

@@ -85,6 +85,13 @@ TEST_P(WaveFields, CertifiedMarchAgreesWithADenseOne) {
 INSTANTIATE_TEST_SUITE_P(Scenes, WaveFields, testing::Values("gerstner_waves", "procedural_ocean"),
                          [](const auto& scene) { return std::string(scene.param); });
 
+TEST(GerstnerWavesField, NegativeScalesAreRefused) {
+    auto loaded = scene::load_scene(TIDEMARK_SOURCE_DIR "/shaders/gerstner_waves.glsl");
+    ASSERT_TRUE(loaded);
+    ASSERT_TRUE(scene::override_knob(*loaded, "wave_scale=-0.5"));
+    EXPECT_FALSE(find_reference("gerstner_waves")({.knobs = loaded->knobs}));
+}
+
 /// The document's four waves: where they put the water that rests at `rest`.
 glm::dvec3 moved(const glm::dvec2& rest, double time) {
     constexpr double waves[4][4] = {
