@@ -3,7 +3,7 @@
 #include "lab/setting.hpp"
 #include "lab/study/stricter.hpp"
 #include "lab/study/study.hpp"
-#include "scene/directives.hpp"
+#include "support/scene_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -14,15 +14,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-scene::Scene scene_of(std::string_view text) {
-    scene::Scene scene;
-    scene.passes.resize(1);
-    scene.passes[0].text.append(text, "a.glsl", 1);
-    if (auto directives = scene::take_directives(scene.passes[0].text))
-        scene.knobs = std::move(directives->knobs);
-    return scene;
-}
 
 const scene::Scene k_scene =
     scene_of("#define MAX_STEPS 64\n#iUniform float height = 0.5\nconst float EPS = 1e-3;\n");
