@@ -3,6 +3,7 @@
 #include "lab/fields/certified_march.hpp"
 #include "lab/fields/knob_reader.hpp"
 #include "lab/fields/value_noise.hpp"
+#include "lab/statistics.hpp"
 #include "waters.hpp"
 
 #include <cmath>
@@ -164,10 +165,7 @@ Judged judge(const image::Image& image, const lab::Reference& truth) {
             }
         }
     judged.wrong = double(wrong) / (k_small.width * k_small.height);
-    if (!errors.empty()) {
-        std::ranges::nth_element(errors, errors.begin() + long(errors.size() / 2));
-        judged.median = errors[errors.size() / 2];
-    }
+    judged.median = lab::median(std::move(errors));
     return judged;
 }
 
