@@ -55,10 +55,11 @@ Hits hits_of(const image::Image& image) {
     Hits hits;
     const auto samples = image.f32();
     for (size_t i = 0; i < samples.size(); i += 4) {
-        const float t = samples[i], flags = samples[i + 3];
-        const bool answer = std::isfinite(t) && (t >= 0 || t == float(k_miss));
+        const float t = samples[i], evaluations = samples[i + 1], flags = samples[i + 3];
+        const bool counted = std::isfinite(evaluations) && evaluations >= 0;
+        const bool answer = counted && std::isfinite(t) && (t >= 0 || t == float(k_miss));
         hits.distance.push_back(answer ? double(t) : std::numeric_limits<double>::quiet_NaN());
-        hits.evaluations.push_back(samples[i + 1]);
+        hits.evaluations.push_back(counted ? evaluations : 0.0f);
         hits.flags.push_back(flags >= 0 && flags < 256 ? uint8_t(flags) : uint8_t{0});
     }
     return hits;
@@ -97,9 +98,7 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
     errors.both = differences.size();
     if (errors.both > 0) {
         std::sort(differences.begin(), differences.end());
-        const auto at = [&](double part) {
-            return differences[size_t(part * double(differences.size() - 1))];
-        };
+        const auto at = [&](double part) { return quantile_of_sorted(differences, part); };
         errors.rms = std::sqrt(squares / double(errors.both));
         errors.rms_right = right == 0 ? 0.0 : std::sqrt(right_squares / double(right));
         errors.median = at(0.5);

@@ -112,13 +112,14 @@ bool more_rounds(const Rounds& rounds, const Stopwatch& watch, double seconds) {
 Result<SavedTime> time_starts(Contender& without, Contender& with_it, double seconds) {
     Rounds rounds;
     const Stopwatch watch;
-    for (bool warm = false; !warm || more_rounds(rounds, watch, seconds); warm = true) {
-        const auto first = without.start();
-        const auto second = with_it.start();
+    for (int round = 0; round == 0 || more_rounds(rounds, watch, seconds); ++round) {
+        const bool swapped = round % 2 != 0;
+        const auto first = (swapped ? with_it : without).start();
+        const auto second = (swapped ? without : with_it).start();
         if (!first || !second)
             return fail(first ? second.error() : first.error());
-        if (warm)
-            rounds.add(*first, *second);
+        if (round > 0)
+            rounds.add(swapped ? *second : *first, swapped ? *first : *second);
     }
     return rounds.saved();
 }

@@ -15,6 +15,8 @@ size_t below(std::mt19937& random, size_t count) {
     return size_t((uint64_t(random()) * count) >> 32);
 }
 
+} // namespace
+
 double quantile_of_sorted(std::span<const double> values, double part) {
     if (values.empty())
         return std::nan("");
@@ -23,8 +25,6 @@ double quantile_of_sorted(std::span<const double> values, double part) {
     const size_t high = std::min(low + 1, values.size() - 1);
     return values[low] + (place - double(low)) * (values[high] - values[low]);
 }
-
-} // namespace
 
 double quantile(std::vector<double> values, double part) {
     std::sort(values.begin(), values.end());

@@ -10,6 +10,7 @@ namespace tidemark::lab {
 
 /// The value below which that part (0..1) of the values lies, linear between neighbours; NaN of none.
 double quantile(std::vector<double> values, double part);
+double quantile_of_sorted(std::span<const double> values, double part);
 inline double median(std::vector<double> values) {
     return quantile(std::move(values), 0.5);
 }

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace tidemark::render {
 namespace {
@@ -215,6 +216,7 @@ Result<void> Renderer::resize(Extent extent) {
 }
 
 void Renderer::reset() {
+    within_frame_ = false;
     for (const PlannedPass& planned : plan_.passes)
         targets_[planned.pass].clear();
 }
@@ -245,6 +247,7 @@ void Renderer::warm_up(const FrameInputs& inputs) {
 }
 
 void Renderer::draw(const FrameInputs& inputs) {
+    assert(!within_frame_ || !plan_.feedback);
     draws_in_frame_ = 0;
     textures_.update(inputs);
     for (const PlannedPass& planned : plan_.passes)
@@ -302,7 +305,8 @@ const gl::Texture& Renderer::texture_of(const BoundChannel& channel) const {
                   : textures_.texture(std::get<ChannelTextures::Index>(channel.source));
 }
 
-void Renderer::draw_before(size_t pass, const FrameInputs& inputs) {
+void Renderer::advance_to(size_t pass, const FrameInputs& inputs) {
+    within_frame_ = true;
     textures_.update(inputs);
     for (const PlannedPass& planned : plan_.passes) {
         if (planned.pass == pass)

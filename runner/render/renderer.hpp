@@ -71,9 +71,10 @@ public:
     /// that are not at rest yet do not count.
     bool follows_clock() const;
 
-    /// The passes in front of `pass` alone. What draw_stand_in then sees is what `pass` would see in this
-    /// frame.
-    void draw_before(size_t pass, const FrameInputs& inputs);
+    /// Goes on into the frame as far as `pass`: those in front of it are drawn, and draw_stand_in sees what
+    /// `pass` would see. Buffers have made that step then: where there is feedback, `reset` comes next, no
+    /// `draw`.
+    void advance_to(size_t pass, const FrameInputs& inputs);
     /// Draws what `pass` is about to draw by another program, made from a text of the same dialect, into a
     /// target of the same size. Of a cubemap pass, one face. The pass itself stays undrawn.
     void draw_stand_in(size_t pass, const gl::Program& program, const FrameInputs& inputs,
@@ -176,6 +177,7 @@ private:
     std::vector<PassTarget> targets_; ///< one for each of the scene's; empty where nothing is drawn
     size_t passes_drawn_ = 0;
     size_t draws_in_frame_ = 0; ///< the last one
+    bool within_frame_ = false; ///< advance_to was there
 };
 
 } // namespace tidemark::render

@@ -95,6 +95,12 @@ class CheckRays(ProgramTest):
                 self.assertEqual(entry["verdict"], "fail", entry["found"])
                 self.assertIn("tidemark capture", entry["reproduction"])
 
+    def test_differences_over_nothing_are_no_slopes(self):
+        knobs = SOUND["knobs"].replace("{ 0.0005,", "{ 0.0,")
+        entry = self.verdicts(marcher({"knobs": knobs}), "--probe", "normals")["normals"]
+        self.assertEqual(entry["verdict"], "fail", entry["found"])
+        self.assertIn("over the scene's own 0 no slope is a number", entry["found"])
+
     def test_a_pole_without_a_direction_is_no_number(self):
         text = ("void mainImage(out vec4 c, in vec2 p) {\n"
                 "    float pitch = iMouse.y / 90.0 - 1.0;\n"

@@ -142,6 +142,13 @@ class Check(ProgramTest):
         self.assertEqual(entry["found"].count("quotient"), 1, "1 / 0 is an infinity, which is defined")
         self.assertIn(f"quotient of 0 and 0 (0, first at pixel 0,0) at {scene}:4: 50 % of the pixels", entry["found"])
 
+    def test_the_argument_farthest_outside_is_told_whatever_its_sign(self):
+        scene = self.write("far.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                       "    c = vec4(asin(p.x < 9.0 ? -1.001 : 5.0), pow(-p.x, 0.5), 0.0, 1.0);\n}\n")
+        found = self.verdicts(scene, "--probe", "undefined")["undefined"]["found"]
+        self.assertIn("asin of a number beyond 1 (5, ", found)
+        self.assertRegex(found, r"pow of a negative number \(-\d\d")
+
     def test_each_function_has_its_domain(self):
         for call in ("pow(x, 2.5)", "sqrt(x)", "inversesqrt(x)", "log(x)", "log2(x)", "asin(3.0 + x)", "acos(x - 3.0)",
                      "acosh(x)", "atanh(3.0 + x)", "atan(floor(0.1 * x), floor(0.1 * x))", "mod(1.0, floor(0.1 * x) + 1.0)",

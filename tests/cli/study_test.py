@@ -9,7 +9,7 @@ import subprocess
 import time
 
 from support import png
-from support.program import PROGRAM, ProgramTest, environment, main
+from support.program import PROGRAM, ROOT, ProgramTest, environment, main
 
 # The midpoint rule on exp(x): its error is known to a few per cent, exp(x) - its value = h^2/24 (e^x)'..., and falls
 # by 4 when the steps double. Both pictures are smooth, so that floats are far away.
@@ -262,6 +262,17 @@ class Report(Study):
         self.assertEqual(widths.split(",")[diagrams:], ["16", "16"])
         self.assertNotIn("0", widths.split(","))
         self.assertEqual(clip, "inset(0px 0px 0px 25%)")
+
+
+class CertifiedHits(Study):
+    def test_octaves_that_are_no_plain_number_are_named_and_never_guessed(self):
+        shaders = ROOT / "shaders"
+        shutil.copytree(shaders / "lib", self.folder / "lib")
+        text = (shaders / "water_surface.glsl").read_text()
+        self.write("water_surface.glsl", re.sub(r"#define OCTAVES \d+", "#define OCTAVES (4 + 3)", text))
+        done = self.run_program("study", "water_surface.glsl", "--vary", "MAX_STEPS=8,16", *QUICK)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("the reference reads OCTAVES as a plain number, not as '(4 + 3)'", done.stderr)
 
 
 class Baseline(Study):

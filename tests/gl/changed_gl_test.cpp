@@ -256,7 +256,7 @@ TEST_F(ChangedTest, passes_in_front_of_one_that_is_looked_at_are_drawn_when_they
            "#iChannel0 \"buffer_a.glsl\"\n"
            "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }"}});
     const size_t image = sparing_->shown_index();
-    both([&](Renderer& renderer) { renderer.draw_before(image, at(0)); });
+    both([&](Renderer& renderer) { renderer.advance_to(image, at(0)); });
     EXPECT_EQ(sparing_->passes_drawn(), 1u);
     expect_the_same();
     auto target = gl::make_render_target(gl::make_texture(k_extent, GL_RGBA32F, 1));

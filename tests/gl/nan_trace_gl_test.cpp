@@ -54,7 +54,7 @@ Mark read_mark(const fs::path& file) {
     return mark;
 }
 
-Result<std::optional<NanTrace>> trace(const fs::path& file, bool hidden) {
+Result<std::optional<NanTrace>> trace(const fs::path& file, bool hidden, int frame = 0) {
     auto scene = scene::load_scene(file);
     if (!scene)
         return fail(std::move(scene.error()));
@@ -64,6 +64,7 @@ Result<std::optional<NanTrace>> trace(const fs::path& file, bool hidden) {
     TraceRequest request;
     request.inputs = [](int frame) { return render::inputs_of_frame(frame, 60); };
     request.hidden = hidden;
+    request.frame = frame;
     return trace_nan(*renderer, request);
 }
 
@@ -108,6 +109,29 @@ TEST_P(Faults, AreNamedWithTheirLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Trace, Faults, testing::ValuesIn(cases("faults")), name_of);
+
+/// A buffer that counts frames: the pixel is +Inf in the third alone.
+TEST(Feedback, ThePixelIsLookedAtInItsOwnFrame) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "buffer_a.glsl")
+        << "#iChannel0 \"self\"\n"
+           "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }\n";
+    std::ofstream(folder / "image.glsl") << "#iChannel0 \"buffer_a.glsl\"\n"
+                                            "void mainImage(out vec4 c, in vec2 p) {\n"
+                                            "    float n = texelFetch(iChannel0, ivec2(p), 0).x;\n"
+                                            "    float bad = 1.0 / abs(n - 3.0);\n"
+                                            "    c = vec4(n == 3.0 ? bad : 0.1 * n);\n"
+                                            "}\n";
+    const auto found = trace(folder.path(), false, 4);
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_TRUE(*found) << "nothing was found";
+    const NanTrace& trace = **found;
+    EXPECT_EQ(trace.frame, 2);
+    EXPECT_FALSE(trace.washed);
+    ASSERT_TRUE(trace.cure);
+    EXPECT_EQ(trace.cure->where.line, 4);
+    EXPECT_THAT(trace.notes, testing::IsEmpty());
+}
 
 class SoundShaders : public testing::TestWithParam<fs::path> {};
 

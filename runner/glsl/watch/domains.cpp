@@ -57,7 +57,8 @@ uniform float $value;
 float $undefined(int i,float told,float plain){
 atomicAdd($out[3*i],1u);
 atomicMax($out[3*i+1],~uint(int(gl_FragCoord.x)+%*int(gl_FragCoord.y)));
-atomicMax($out[3*i+2],floatBitsToUint(told));
+uint bits=floatBitsToUint(told);
+atomicMax($out[3*i+2],bits<<1|bits>>31);
 return $number==i?$value:$number<0?plain:0.0;}
 )";
 

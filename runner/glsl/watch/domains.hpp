@@ -24,7 +24,7 @@ struct DomainWatch {
 };
 
 /// Words of a call: how often it was undefined, the complement of the first pixel (x + y * width) that saw
-/// it, and the argument farthest from zero, as bits.
+/// it, and the argument farthest from zero, as bits with the sign behind the last one.
 inline constexpr size_t k_domain_words = 3;
 
 /// `facts` are the text's own; `width` is the picture's. Calls whose arguments stand in the text are left

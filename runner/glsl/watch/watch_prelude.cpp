@@ -43,9 +43,7 @@ constexpr std::string_view k_pop = "@ $K(int n,@ v){--$depth;return v;}\n";
 /// How a slot holds a value of `type`: its code, then its numbers as bits.
 std::string store(std::string_view prefix, std::string_view type, int code, int components) {
     constexpr std::string_view k_parts = "xyzw";
-    const std::string_view to_bits = code < int(SlotType::integer)            ? "floatBitsToUint"
-                                     : code < int(SlotType::unsigned_integer) ? "uint"
-                                                                              : "uint";
+    const std::string_view to_bits = code < int(SlotType::integer) ? "floatBitsToUint" : "uint";
     std::string text = fmt::format("void {0}store(int k,{1} v){{{0}out[k]={2}u;", prefix, type, code);
     for (int i = 0; i < components; ++i)
         text += fmt::format("{}out[k+{}]={}(v{});", prefix, i + 1, to_bits,

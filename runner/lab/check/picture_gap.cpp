@@ -1,6 +1,7 @@
 #include "lab/check/picture_gap.hpp"
 
 #include "image/compare/metrics.hpp"
+#include "lab/statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -11,19 +12,17 @@
 namespace tidemark::lab {
 
 double p99_difference(const image::Image& left, const image::Image& right) {
-    std::vector<float> largest(left.extent.pixels());
+    std::vector<double> largest(left.extent.pixels());
     const auto channels = size_t(left.channels);
     for (size_t i = 0; i < left.samples(); ++i) {
-        const float difference = std::abs(left.f32()[i] - right.f32()[i]);
+        const double difference = std::abs(double(left.f32()[i]) - double(right.f32()[i]));
         // What is a number in one only is as different as can be.
         const bool same =
             left.f32()[i] == right.f32()[i] || (std::isnan(left.f32()[i]) && std::isnan(right.f32()[i]));
-        float& most = largest[i / channels];
-        most = std::max(most, same ? 0.0f : std::isnan(difference) ? 1.0f : difference);
+        double& most = largest[i / channels];
+        most = std::max(most, same ? 0.0 : std::isfinite(difference) ? difference : 1.0);
     }
-    const auto at = largest.begin() + std::ptrdiff_t(double(largest.size() - 1) * 0.99);
-    std::ranges::nth_element(largest, at);
-    return double(*at);
+    return quantile(std::move(largest), 0.99);
 }
 
 namespace {

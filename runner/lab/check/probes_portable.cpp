@@ -69,7 +69,7 @@ private:
         if (!renderer)
             return fail(renderer.error());
         const render::FrameInputs inputs = inputs_of(k_situation);
-        (*renderer)->draw_before(pass, inputs);
+        (*renderer)->advance_to(pass, inputs);
         const Moment moment{**renderer, pass, inputs};
         auto stand_in = StandIn::link(moment, varied.text, "a variation of the text");
         if (!stand_in)

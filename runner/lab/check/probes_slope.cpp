@@ -3,10 +3,10 @@
 #include "lab/check/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
+#include "lab/statistics.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -17,13 +17,13 @@ namespace {
 constexpr std::string_view k_step = "tidemark_step";
 
 /// Answers with the distance and the field's slope along the ray there, from differences over the knob k_step
-/// to either side; the field's value in z.
+/// to either side.
 constexpr std::string_view k_slope_hit = R"(#undef mainHit
 void mainHit(out vec4 hit, in vec2 fragCoord) {
     tidemark_own_hit(hit, fragCoord);
     float t = max(hit.x, 0.0);
     float rise = march_field(t + tidemark_step) - march_field(t - tidemark_step);
-    hit = vec4(hit.x, rise / (2.0 * tidemark_step), march_field(t), 0.0);
+    hit = vec4(hit.x, rise / (2.0 * tidemark_step), 0.0, 0.0);
 }
 )";
 
@@ -39,11 +39,6 @@ scene::Scene slope_scene(const scene::Scene& hit_scene) {
     return scene;
 }
 
-struct Slopes {
-    std::vector<double> slope; ///< of each pixel; NaN where the ray meets nothing
-    std::vector<double> value; ///< of the field there
-};
-
 class SlopeBench {
 public:
     static Result<SlopeBench> create(const scene::Scene& scene, glsl::Precision precision) {
@@ -52,16 +47,16 @@ public:
             return fail(std::move(made.error()));
         return SlopeBench(*std::move(made), scene.knobs);
     }
-    Slopes at(double step, const Situation& situation) {
+    /// The slope of each pixel; NaN where the ray meets nothing.
+    std::vector<double> at(double step, const Situation& situation) {
         knobs_.back().value = {step};
         renderer_.turn(knobs_);
         renderer_.draw(inputs_of(situation));
         const image::Image image = renderer_.read_back();
-        Slopes slopes;
+        std::vector<double> slopes;
         for (size_t i = 0; i < image.extent.pixels(); ++i) {
             const auto hit = image.f32().subspan(4 * i, 4);
-            slopes.slope.push_back(hit[0] >= 0 ? double(hit[1]) : std::nan(""));
-            slopes.value.push_back(double(hit[2]));
+            slopes.push_back(hit[0] >= 0 ? double(hit[1]) : std::nan(""));
         }
         return slopes;
     }
@@ -73,7 +68,7 @@ private:
     std::vector<scene::Knob> knobs_;
 };
 
-/// The median of the angles between two slopes, degrees; none where no ray meets the surface in both.
+/// The median of the angles between two slopes, degrees; none where no ray has both.
 std::optional<double> median_angle(const std::vector<double>& slopes, const std::vector<double>& truth) {
     std::vector<double> angles;
     for (size_t i = 0; i < slopes.size(); ++i)
@@ -81,9 +76,7 @@ std::optional<double> median_angle(const std::vector<double>& slopes, const std:
             angles.push_back(std::abs(std::atan(slopes[i]) - std::atan(truth[i])) * 180 / std::numbers::pi);
     if (angles.empty())
         return std::nullopt;
-    const auto middle = angles.begin() + std::ptrdiff_t(angles.size() / 2);
-    std::ranges::nth_element(angles, middle);
-    return *middle;
+    return median(std::move(angles));
 }
 
 /// The distance of differences that the scene itself takes, where it has a name for it.
@@ -120,9 +113,9 @@ Result<Answer> ask_normals(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(in_double.error())};
 
     const Situation view = typical_view();
-    const Slopes truth = in_double->at(1e-6, view);
+    const std::vector<double> truth = in_double->at(1e-6, view);
     // A picture's filter has steps, and a noise of floats: then there is no slope to be right about.
-    if (const auto own = median_angle(in_double->at(1e-5, view).slope, truth.slope); own && *own > 0.1)
+    if (const auto own = median_angle(in_double->at(1e-5, view), truth); own && *own > 0.1)
         return Answer{
             Verdict::not_applicable,
             fmt::format("the field is not smooth: in double its slopes over 1e-5 and 1e-6 are {:.2g} "
@@ -131,7 +124,7 @@ Result<Answer> ask_normals(ProbeBench& bench) {
     double best_step = 0, best = 1e9;
     std::string range;
     for (const double step : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
-        const auto angle = median_angle(in_float->at(step, view).slope, truth.slope);
+        const auto angle = median_angle(in_float->at(step, view), truth);
         if (!angle)
             return Answer{Verdict::not_applicable, "no ray meets the surface"};
         range += fmt::format("{}{:.2g} over {:g}", range.empty() ? "" : ", ", *angle, step);
@@ -140,15 +133,21 @@ Result<Answer> ask_normals(ProbeBench& bench) {
             best_step = step;
         }
     }
-    for (const double step : own_steps(bench.scene()))
-        if (const double angle = *median_angle(in_float->at(step, view).slope, truth.slope);
-            angle > k_visible_angle)
+    for (const double step : own_steps(bench.scene())) {
+        const auto angle = median_angle(in_float->at(step, view), truth);
+        if (!angle)
+            return Answer{
+                Verdict::fail,
+                fmt::format("over the scene's own {:g} no slope is a number; best is {:g}", step, best_step),
+                view};
+        if (*angle > k_visible_angle)
             return Answer{
                 Verdict::fail,
                 fmt::format("over the scene's own {:g} half of the slopes along the rays are off by {:.2g} "
                             "degrees and more; best is {:g}",
-                            step, angle, best_step),
+                            step, *angle, best_step),
                 view};
+    }
     return Answer{
         best > k_visible_angle ? Verdict::warn : Verdict::pass,
         fmt::format("differences of the field give slopes along the rays to {:.2g} degrees at best, over "

@@ -53,7 +53,7 @@ public:
             if (!renderer)
                 return fail(renderer.error());
             const render::FrameInputs inputs = inputs_of(situation);
-            (*renderer)->draw_before(pass_.pass, inputs);
+            (*renderer)->advance_to(pass_.pass, inputs);
             const Moment moment{**renderer, pass_.pass, inputs};
             if (!stand_in_) {
                 auto linked = StandIn::link(moment, watch_.text, "the text with its domains watched");
@@ -92,7 +92,8 @@ private:
             const auto width = uint32_t(Situation().extent.width);
             found.push_back(
                 {fmt::format("{} {} ({:.3g}, first at pixel {},{}) at {}", name, glsl::domain_fault(name),
-                             std::bit_cast<float>(of_call[2]), pixel % width, pixel / width, place),
+                             std::bit_cast<float>(std::rotr(of_call[2], 1)), pixel % width, pixel / width,
+                             place),
                  100 * share, situation, std::move(worst)});
             if (pass_.pass != bench_.scene().image_index())
                 found.back().where.pass = bench_.scene().passes[pass_.pass].name;

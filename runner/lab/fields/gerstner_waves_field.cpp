@@ -32,7 +32,7 @@ constexpr double k_most_steepness = 0.95; // the scene lowers what is steeper
 Trains trains_of(KnobReader& knobs, double time) {
     const glm::dvec4 length = knobs.quadruple("wave_length"), steepness = knobs.quadruple("wave_steepness");
     const glm::dvec4 pace = knobs.quadruple("wave_pace"), direction = knobs.quadruple("wave_direction");
-    const double scale = knobs.number("wave_scale") / 0.5;
+    const double scale = knobs.not_negative("wave_scale") / 0.5;
     // Rates are binary32 by definition: over a long time a last bit is whole waves.
     const float speed = float(knobs.number("wave_speed")) / 1.2F;
 

@@ -19,6 +19,17 @@ scene::KnobValue KnobReader::value(std::string_view name) {
     return {};
 }
 
+double KnobReader::not_negative(std::string_view name) {
+    const double found = number(name);
+    if (!(found >= 0) && !error_)
+        error_ = Error{ErrorCode::load,
+                       fmt::format("the reference knows no '{}' below 0, and it is {}: its bounds would not "
+                                   "hold",
+                                   name, found),
+                       {}};
+    return found;
+}
+
 glm::dvec2 KnobReader::pair(std::string_view name) {
     const scene::KnobValue v = value(name);
     return {float(v[0]), float(v[1])};

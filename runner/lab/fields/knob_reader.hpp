@@ -14,12 +14,15 @@
 
 namespace tidemark::lab {
 
-/// Reads knobs one by one and remembers the first that is not there; ask `error()` once at the end.
+/// Reads knobs one by one and remembers the first that is not there or not to be had; ask `error()` once at
+/// the end.
 class KnobReader {
 public:
     explicit KnobReader(std::span<const scene::Knob> knobs) : knobs_(knobs) {}
 
     double number(std::string_view name) { return float(value(name)[0]); }
+    /// A number that the field's bounds take for no less than 0: another one is an error.
+    double not_negative(std::string_view name);
     glm::dvec2 pair(std::string_view name);
     glm::dvec3 triple(std::string_view name);
     glm::dvec4 quadruple(std::string_view name);

@@ -26,10 +26,10 @@ struct Octave {
 using Octaves = std::vector<Octave>;
 
 Octaves octaves_of(KnobReader& knobs, const ReferenceInputs& inputs) {
-    const double scale = knobs.number("sea_scale");
-    double height = knobs.number("wave_height") / scale;
-    double choppiness = knobs.number("wave_choppiness");
-    double frequency = knobs.number("wave_frequency");
+    const double scale = knobs.not_negative("sea_scale");
+    double height = knobs.not_negative("wave_height") / scale;
+    double choppiness = knobs.not_negative("wave_choppiness");
+    double frequency = knobs.not_negative("wave_frequency");
     // Cells a second are binary32 by definition: over a long time a last bit is whole cells.
     float rate = float(frequency) * float(knobs.number("wave_speed"));
     const glm::dmat2 turn(1.6, -1.2, 1.2, 1.6);

@@ -42,14 +42,14 @@ Sea sea_of(KnobReader& knobs, const ReferenceInputs& inputs) {
     sea.bob_phase = knobs.number("bob_rate") * inputs.time;
     sea.bob_frequency = knobs.number("bob_frequency");
 
-    const double gain = knobs.number("wave_gain"), lacunarity = knobs.number("wave_lacunarity");
+    const double gain = knobs.not_negative("wave_gain"), lacunarity = knobs.not_negative("wave_lacunarity");
     const double turn = knobs.number("turn_angle") * std::sin(knobs.number("turn_rate") * inputs.time);
     // The scene lets a sea of sines start again even where its knob says never.
     const double period = knobs.number("drift_period");
     const bool sines = std::holds_alternative<SineLattice>(inputs.lattice);
     const double seconds = drift_seconds(inputs.time, sines && period <= 0 ? 62.83F : period);
-    double height = double(3.14F) * knobs.number("wave_height");
-    double frequency = knobs.number("wave_scale");
+    double height = double(3.14F) * knobs.not_negative("wave_height");
+    double frequency = knobs.not_negative("wave_scale");
     // Cells a second are binary32 by definition: over a long time a last bit is whole cells.
     float drift_rate = float(frequency) * float(knobs.number("wave_speed"));
     for (int k = 0; k < sea.count; ++k) {

@@ -29,7 +29,10 @@ void compare_errors(const WorkPrecisionSet& set, const Json& before, const WorkP
     const double is = error_of(set, now.all);
     const double noise =
         (set.has_hits() ? set.hit_standard.uncertainty : set.picture_standard.uncertainty).value_or(0.0);
-    if (is > was * k_more_wrong && is > was + noise)
+    if (std::isnan(was))
+        found.notes.push_back(
+            fmt::format("{}: its error is not compared: the baseline has no number for it", now.point.label));
+    else if (!(is <= was * k_more_wrong) && !(is <= was + noise)) // an error that is no number is worse
         found.worse.push_back(fmt::format("{}: more wrong: {} {} -> {}", now.point.label, error_name(set),
                                           figure(was), figure(is)));
 }
@@ -44,14 +47,21 @@ void compare_times(const Json& before, const WorkPrecision& now, Comparison& fou
                                           figure(time.confidence.high)));
 }
 
+bool same_view(const Json& old, const View& view) {
+    const auto same = [&](const char* pointer, double value) { return number_at(old, pointer) == value; };
+    return same("/time", view.time) && same("/mouse/0", view.mouse.x) && same("/mouse/1", view.mouse.y) &&
+           old.contains("camera") == view.camera.has_value() &&
+           (!view.camera ||
+            (same("/camera/0", view.camera->azimuth) && same("/camera/1", view.camera->elevation) &&
+             same("/camera/2", view.camera->distance)));
+}
+
 bool same_views(const Json& old, const Study& study) {
     const Json* views = old.contains("views") && old["views"].is_array() ? &old["views"] : nullptr;
     if (!views || views->size() != study.views.size())
         return false;
     for (size_t i = 0; i < study.views.size(); ++i)
-        if (number_at((*views)[i], "/time") != study.views[i].time ||
-            number_at((*views)[i], "/mouse/0") != study.views[i].mouse.x ||
-            number_at((*views)[i], "/mouse/1") != study.views[i].mouse.y)
+        if (!same_view((*views)[i], study.views[i]))
             return false;
     return number_at(old, "/size/0") == study.extent.width &&
            number_at(old, "/size/1") == study.extent.height;

@@ -17,8 +17,8 @@ struct Comparison {
 };
 
 /// `old_study` is a study.json; points are known by their labels. Slower: by more than 5 %, with intervals
-/// that do not overlap. More wrong: by more than 1 % and more than the reference's own error. Fails
-/// (ErrorCode::load) on a text that is no study, and on one of other views or another size.
+/// that do not overlap. More wrong: by more than 1 % and more than the reference's own error, or no number
+/// any more. Fails (ErrorCode::load) on a text that is no study, and on one of other views or another size.
 Result<Comparison> compare_with(std::string_view old_study, const std::string& file,
                                 const WorkPrecisionSet& set);
 

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <thread>
 
 namespace tidemark::lab {
@@ -109,6 +109,24 @@ std::vector<double> footprints(const Reference& reference, Extent extent) {
     return widths;
 }
 
+/// Of the shape, where the scene compiles them in; the error names a definition that is no plain number.
+Result<int> octaves_of(const scene::Scene& scene) {
+    for (const char* name : {"MARCH_OCTAVES", "OCTAVES"}) // a shape may have fewer than its light
+        if (const auto text = glsl::definition_of(scene, name)) {
+            int octaves = 0;
+            const char* end = text->data() + text->size();
+            if (const auto read = std::from_chars(text->data(), end, octaves);
+                read.ec != std::errc{} || read.ptr != end)
+                return fail(
+                    ErrorCode::load,
+                    fmt::format("the reference reads {} as a plain number, not as '{}': give one with "
+                                "--define {}=N, or write it so",
+                                name, *text, name));
+            return octaves;
+        }
+    return ReferenceInputs{}.octaves;
+}
+
 Result<Reference> reference_of(MakeReference make, const scene::Scene& scene, const View& view, Extent extent,
                                const Lattice3& lattice) {
     const render::FrameInputs inputs = inputs_of(view, extent);
@@ -117,11 +135,10 @@ Result<Reference> reference_of(MakeReference make, const scene::Scene& scene, co
     wanted.time = inputs.time;
     wanted.resolution = {extent.width, extent.height};
     wanted.mouse = {inputs.mouse.x, inputs.mouse.y};
-    for (const char* name : {"MARCH_OCTAVES", "OCTAVES"}) // a shape may have fewer than its light
-        if (const auto octaves = glsl::definition_of(scene, name)) {
-            wanted.octaves = std::atoi(octaves->c_str());
-            break;
-        }
+    const auto octaves = octaves_of(scene);
+    if (!octaves)
+        return fail(octaves.error());
+    wanted.octaves = *octaves;
     wanted.turning_poles = glsl::definition_of(scene, "TURNING_POLES").value_or("0") == "1";
     wanted.lattice = lattice;
     return make(wanted);

@@ -24,7 +24,7 @@ public:
         if (json.contains("size"))
             study.extent = extent_of(json["size"], "/size");
         each(json, "views", "",
-             [&](const Json& item, const std::string& at) { study.views.push_back(view(item, at)); });
+             [&](const Json& item, const std::string& at) { add(study.views, view(item, at), at); });
         each(json, "series", "",
              [&](const Json& item, const std::string& at) { study.series.push_back(series(item, at)); });
         study.reference = settings(json, "reference", "");
@@ -183,6 +183,13 @@ private:
         if (const auto checked = check(found); !checked)
             wrong(at, checked.error().message);
         return found;
+    }
+
+    /// A report knows views by their names.
+    void add(std::vector<View>& views, View fresh, const std::string& at) {
+        if (std::ranges::find(views, fresh.name, &View::name) != views.end())
+            wrong(at + "/name", fmt::format("another view is named '{}' already", fresh.name));
+        views.push_back(std::move(fresh));
     }
 
     Series series(const Json& json, const std::string& at) {

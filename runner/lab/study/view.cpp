@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -71,6 +72,9 @@ Result<std::vector<View>> parse_views(std::string_view text) {
                             text));
         if (auto checked = check(view); !checked)
             return fail(checked.error());
+        if (std::ranges::find(views, view.name, &View::name) != views.end())
+            return fail(ErrorCode::usage,
+                        fmt::format("--views {}: '{}' stands there twice", text, view.name));
         views.push_back(std::move(view));
     } while (take(rest, ';'));
     return views;

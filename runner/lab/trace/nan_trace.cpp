@@ -266,12 +266,17 @@ private:
         return std::nullopt;
     }
 
-    /// Everything as it was when `pass` was about to be drawn in `frame`.
-    void rewind(size_t pass, int frame) {
+    /// Everything as it is before `frame`.
+    void rewind(int frame) {
         renderer_.reset();
         for (int before = first_frame(); before < frame; ++before)
             renderer_.draw(request_.inputs(before));
-        renderer_.draw_before(pass, request_.inputs(frame));
+    }
+
+    /// Everything as it was when `pass` was about to be drawn in `frame`.
+    void rewind(size_t pass, int frame) {
+        rewind(frame);
+        renderer_.advance_to(pass, request_.inputs(frame));
     }
 
     Result<std::optional<NanTrace>> trace(const BadPixel& bad, bool nan_only) {
@@ -279,8 +284,7 @@ private:
         trace.pass = renderer_.scene().passes[bad.pass].name;
         trace.frame = bad.frame;
         trace.pixel = bad.pixel;
-        rewind(bad.pass, bad.frame);
-        renderer_.draw(request_.inputs(bad.frame));
+        rewind(bad.frame + 1);
         trace.colour = bits_at(renderer_.read_floats(bad.pass, bad.pixel.face), bad.pixel);
         trace.washed = is_finite(trace.colour);
         if (request_.progress && !trace.washed)

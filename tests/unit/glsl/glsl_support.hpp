@@ -2,22 +2,12 @@
 #pragma once
 
 #include "glsl/assemble.hpp"
-#include "scene/directives.hpp"
+#include "support/scene_of.hpp"
 
 #include <string>
 #include <string_view>
 
 namespace tidemark::glsl {
-
-/// A scene of one pass, written in `a.glsl`.
-inline scene::Scene scene_of(std::string_view text) {
-    scene::Scene scene;
-    scene.passes.resize(1);
-    scene.passes[0].text.append(text, "a.glsl", 1);
-    if (auto directives = scene::take_directives(scene.passes[0].text))
-        scene.knobs = std::move(directives->knobs);
-    return scene;
-}
 
 /// What the driver gets for it.
 inline ShaderSource source_of(std::string_view text) {

@@ -38,6 +38,15 @@ TEST(Hits, a_distance_below_0_that_is_no_miss_is_no_answer) {
     EXPECT_TRUE(std::isnan(hits_of(image).distance[0]));
 }
 
+TEST(Hits, evaluations_that_are_no_number_are_no_answer_and_leave_the_mean_one) {
+    image::Image image({4, 1}, 4, image::SampleType::f32);
+    const float samples[] = {2, 6, 0, 0, 2, std::nanf(""), 0, 0, 2, -1, 0, 0, 2, 2, 0, 0};
+    std::ranges::copy(samples, image.f32().begin());
+    const HitErrors errors = hit_errors(hits({2, 2, 2, 2}), hits_of(image), std::vector<double>(4, 0.01));
+    EXPECT_EQ(errors.no_answer, 50);
+    EXPECT_EQ(errors.evaluations, 2); // (6 + 0 + 0 + 2) / 4
+}
+
 TEST(HitErrors, count_what_is_wrong_in_each_way) {
     //                      right false miss false hit  +0.05  +0.5   both miss  NaN
     const Hits truth = hits({1.0, 2.0, -1.0, 4.0, 5.0, -1.0, 7.0});
@@ -59,6 +68,13 @@ TEST(HitErrors, count_what_is_wrong_in_each_way) {
     EXPECT_DOUBLE_EQ(errors.negative, one);
     EXPECT_DOUBLE_EQ(errors.no_answer, one);
     EXPECT_EQ(errors.evaluations, 10);
+}
+
+TEST(HitErrors, quantiles_of_an_even_count_lie_between_its_values) {
+    const HitErrors errors = hit_errors(hits({1, 1}), hits({1, 2}), std::vector<double>(2, 0.01));
+    EXPECT_DOUBLE_EQ(errors.median, 0.5);
+    EXPECT_DOUBLE_EQ(errors.p95, 0.95);
+    EXPECT_DOUBLE_EQ(errors.p99, 0.99);
 }
 
 TEST(HitErrors, of_equal_hits_are_none) {

@@ -1,4 +1,4 @@
-// How alike two pictures are called, also where they hold what is no number.
+// How far apart two pictures are, and how alike they are called, also where they hold what is no number.
 #include "lab/check/picture_gap.hpp"
 
 #include <gtest/gtest.h>
@@ -12,11 +12,27 @@ namespace {
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
 
-/// Two samples a pixel.
-image::Image picture(std::initializer_list<float> samples) {
-    image::Image image({int(samples.size() / 2), 1}, 2, image::SampleType::f32);
+image::Image row(std::initializer_list<float> samples, int channels) {
+    image::Image image({int(samples.size()) / channels, 1}, channels, image::SampleType::f32);
     std::ranges::copy(samples, image.f32().begin());
     return image;
+}
+
+image::Image grey(std::initializer_list<float> samples) {
+    return row(samples, 1);
+}
+image::Image picture(std::initializer_list<float> samples) {
+    return row(samples, 2);
+}
+
+TEST(P99Difference, LiesBetweenTheTwoPixelsAroundIt) {
+    EXPECT_NEAR(p99_difference(grey({0, 0}), grey({0, 1})), 0.99, 1e-12);
+    EXPECT_EQ(p99_difference(grey({2}), grey({1.5f})), 0.5);
+}
+
+TEST(P99Difference, WhatIsANumberInOneOnlyCountsAsOne) {
+    EXPECT_EQ(p99_difference(grey({k_nan, k_infinity}), grey({k_nan, k_infinity})), 0);
+    EXPECT_EQ(p99_difference(grey({k_nan, 0}), grey({0, k_infinity})), 1);
 }
 
 TEST(Alikeness, IsThePsnrOfNumbers) {

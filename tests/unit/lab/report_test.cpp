@@ -164,6 +164,27 @@ TEST(Baseline, tells_what_became_slower_or_more_wrong_and_nothing_else) {
                             HasSubstr("8: slower: 5.1 ms -> 7.14 ms")));
 }
 
+TEST(Baseline, an_error_that_is_no_number_any_more_is_worse_and_one_that_was_none_is_told) {
+    const std::string good = to_json(set_of({point(0, "8", 0.1, 5)}));
+    const WorkPrecisionSet broken = set_of({point(0, "8", NAN, 5)});
+    EXPECT_THAT(compare_with(good, "old.json", broken)->worse, ElementsAre(HasSubstr("8: more wrong: ")));
+    const auto found = compare_with(to_json(broken), "old.json", set_of({point(0, "8", 0.1, 5)}));
+    EXPECT_THAT(found->worse, ElementsAre());
+    EXPECT_THAT(found->notes, ElementsAre("8: its error is not compared: the baseline has no number for it"));
+}
+
+TEST(Baseline, another_camera_is_another_view) {
+    WorkPrecisionSet seen = usual();
+    const std::string plain = to_json(seen);
+    seen.study.views[0].camera = render::OrbitCamera{30, 20, 10, {}};
+    const std::string through = to_json(seen);
+    EXPECT_TRUE(compare_with(through, "old.json", seen));
+    EXPECT_FALSE(compare_with(plain, "old.json", seen));
+    EXPECT_FALSE(compare_with(through, "old.json", usual()));
+    seen.study.views[0].camera->elevation = 21;
+    EXPECT_FALSE(compare_with(through, "old.json", seen));
+}
+
 TEST(Baseline, of_another_machine_or_another_study_is_told) {
     const std::string old = to_json(usual());
     WorkPrecisionSet elsewhere = set_of({point(1, "defaults", 0.01, 200)});

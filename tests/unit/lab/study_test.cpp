@@ -3,7 +3,7 @@
 #include "lab/setting.hpp"
 #include "lab/study/stricter.hpp"
 #include "lab/study/study.hpp"
-#include "scene/directives.hpp"
+#include "support/scene_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -14,15 +14,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-scene::Scene scene_of(std::string_view text) {
-    scene::Scene scene;
-    scene.passes.resize(1);
-    scene.passes[0].text.append(text, "a.glsl", 1);
-    if (auto directives = scene::take_directives(scene.passes[0].text))
-        scene.knobs = std::move(directives->knobs);
-    return scene;
-}
 
 const scene::Scene k_scene =
     scene_of("#define MAX_STEPS 64\n#iUniform float height = 0.5\nconst float EPS = 1e-3;\n");
@@ -99,6 +90,7 @@ TEST(Views, are_times_and_places_of_the_mouse) {
 TEST(Views, outside_the_picture_or_before_the_start_are_errors) {
     EXPECT_EQ(parse_views("1@2,0").error().message, "view 't=1@2,0': the mouse at 2, 0 is outside the "
                                                     "picture; give parts of its width and height, 0 to 1");
+    EXPECT_EQ(parse_views("1;2;1").error().message, "--views 1;2;1: 't=1' stands there twice");
     EXPECT_EQ(parse_views("-1").error().message,
               "view 't=-1': the time -1 is out of range; give 0 to 1e+09 seconds");
 }
@@ -135,6 +127,8 @@ TEST(StudyFile, errors_have_line_and_pointer) {
                 HasSubstr("s.json:1: error: /views/0: needs a \"name\""));
     EXPECT_THAT(error_of("{\"views\": [{\"name\": \"v\", \"mouse\": [2, 0]}]}"),
                 HasSubstr("is outside the picture"));
+    EXPECT_THAT(error_of("{\"views\": [{\"name\": \"v\"}, {\"name\": \"v\", \"time\": 2}]}"),
+                HasSubstr("/views/1/name: another view is named 'v' already"));
     EXPECT_THAT(error_of("{\"size\": [0, 9]}"), HasSubstr("/size: must be [width, height] in pixels"));
     EXPECT_THAT(error_of("{\"size\": [1e99, 9]}"), HasSubstr("/size: must be [width, height] in pixels"));
     EXPECT_THAT(error_of("{\"series\": [{\"name\": \"s\", \"trust\": \"sure\"}]}"),

@@ -1,4 +1,4 @@
-#include "lab/fields/certified_march.hpp"
+#include "dense_march.hpp"
 #include "lab/fields/water_surface_field.hpp"
 #include "scene/scene.hpp"
 
@@ -90,20 +90,8 @@ TEST_F(WaterSurfaceField, CertifiedMarchAgreesWithADenseOne) {
     int hits = 0;
     for (int y = 0; y < 27; y += 2)
         for (int x = 0; x < 48; x += 3) {
-            const Ray ray = r.ray({x + 0.5, y + 0.5});
-            const double found = certified_march(r.field, ray, r.range).distance;
-            double dense = -1;
-            for (double t = r.range.near; t <= r.range.far && dense < 0; t += 4e-3)
-                dense = r.field.value(ray.at(t)) < 0 ? t : -1;
-            if (dense < 0) {
-                // A dense march may step over a crest, never the other way round.
-                EXPECT_TRUE(found < 0 || r.field.value(ray.at(found + 1e-6)) < 0);
-                continue;
-            }
-            ++hits;
-            EXPECT_LE(found, dense);
-            EXPECT_GT(found, dense - 4e-3) << "or a crest thinner than the dense step at " << x << ' ' << y;
-            EXPECT_NEAR(r.field.value(ray.at(found)), 0, 1e-12);
+            SCOPED_TRACE(testing::Message() << x << ' ' << y);
+            hits += expect_as_dense(r.field, r.ray({x + 0.5, y + 0.5}), r.range, 4e-3);
         }
     EXPECT_GT(hits, 100);
 }
@@ -114,6 +102,14 @@ TEST_F(WaterSurfaceField, IsAPlaneWithoutOctaves) {
     const Reference r = reference();
     const Ray ray = r.ray({24, 0.5});
     EXPECT_NEAR(certified_march(r.field, ray, r.range).distance, -ray.origin.y / ray.direction.y, 1e-12);
+}
+
+TEST_F(WaterSurfaceField, ProvesNothingBelowZero) {
+    set("wave_height=-1");
+    const auto made = water_surface_reference(inputs_);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().message,
+              "the reference knows no 'wave_height' below 0, and it is -1: its bounds would not hold");
 }
 
 TEST_F(WaterSurfaceField, SaysWhichKnobIsMissing) {
