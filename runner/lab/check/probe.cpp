@@ -45,6 +45,10 @@ std::span<const Probe> all_probes() {
         {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
          ask_witnesses},
         {"budget", "rays that run out of steps (mainHit)", ask_budget},
+        {"gradient",
+         "the largest slope of the field along a ray, sampled and climbed to, beside the bound that the "
+         "scene states (mainHit, march_field)",
+         ask_gradient},
         {"stiffness",
          "the same, and distances that are no number, with each knob at both ends, at 0, 1/2, 2 and 4 times "
          "its value within its range, and with defined heights and scales so (mainHit)",

@@ -55,6 +55,9 @@ Result<Answer> ask_grazing(ProbeBench& bench);
 Result<Answer> ask_places(ProbeBench& bench);
 Result<Answer> ask_far(ProbeBench& bench);
 
+// probes_gradient.cpp
+Result<Answer> ask_gradient(ProbeBench& bench);
+
 // probes_slope.cpp
 Result<Answer> ask_normals(ProbeBench& bench);
 
