@@ -19,6 +19,8 @@ std::vector<lab::Setting> told_settings(const Json& json) {
     return settings;
 }
 
+} // namespace
+
 Json told(const lab::Situation& situation) {
     Json json = {{"size", {situation.extent.width, situation.extent.height}},
                  {"time", situation.time},
@@ -51,8 +53,6 @@ lab::Situation told_situation(const Json& json) {
     situation.definitions = told_settings(json.at("definitions"));
     return situation;
 }
-
-} // namespace
 
 Json told(const Asked& asked) {
     Json json = {{"probe", asked.probe->name},        {"verdict", int(asked.answer.verdict)},

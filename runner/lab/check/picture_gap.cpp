@@ -22,4 +22,12 @@ double p99_difference(const image::Image& left, const image::Image& right) {
     return double(*at);
 }
 
+size_t different_pixels(const image::Image& left, const image::Image& right) {
+    const auto pixel = std::ptrdiff_t(left.row_bytes()) / left.extent.width;
+    size_t count = 0;
+    for (auto a = left.bytes.begin(), b = right.bytes.begin(); a != left.bytes.end(); a += pixel, b += pixel)
+        count += !std::equal(a, a + pixel, b);
+    return count;
+}
+
 } // namespace tidemark::lab

@@ -12,4 +12,7 @@ inline constexpr double k_visible_gap = 1.0 / 255;
 /// number in one picture only counts as 1. Floats, of one size.
 double p99_difference(const image::Image& left, const image::Image& right);
 
+/// Pixels whose bytes differ, of two pictures of one size and kind.
+size_t different_pixels(const image::Image& left, const image::Image& right);
+
 } // namespace tidemark::lab

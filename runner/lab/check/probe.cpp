@@ -42,6 +42,7 @@ std::span<const Probe> all_probes() {
          ask_repeats},
         {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
          ask_tiles},
+        {"threads", "one thread draws the same bytes as many", ask_threads},
         {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
          ask_witnesses},
         {"budget", "rays that run out of steps (mainHit)", ask_budget},

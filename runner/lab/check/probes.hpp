@@ -31,6 +31,7 @@ Result<Answer> ask_tiles(ProbeBench& bench);
 
 // probes_motion.cpp
 Result<Answer> ask_repeats(ProbeBench& bench);
+Result<Answer> ask_threads(ProbeBench& bench);
 Result<Answer> ask_camera(ProbeBench& bench);
 Result<Answer> ask_clicks(ProbeBench& bench);
 
