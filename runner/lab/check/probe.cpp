@@ -19,10 +19,11 @@ std::span<const Probe> all_probes() {
         {"times",
          "NaN or infinity in any pass, at 0, 1e-6 and 1 s, around 62.83 s, to 1e6 s, at 2^24 and -5 s",
          ask_times},
-        {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, held down", ask_mouse},
+        {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, pressed, dragged, released",
+         ask_mouse},
         {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},
         {"inputs",
-         "NaN or infinity with each input of Image unbound, black, white, one texel or noise; how far a "
+         "NaN or infinity with each input of any pass unbound, black, white, one texel or noise; how far a "
          "NaN in it spreads",
          ask_inputs},
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},

@@ -1,9 +1,9 @@
 #include "cli/forked.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
-#include <unistd.h>
 
 namespace tidemark::cli {
 namespace {
