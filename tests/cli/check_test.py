@@ -13,7 +13,7 @@ FAULTS = {
                       "    c = vec4(log(iMouse.z > 0.0 && iMouse.w < 0.0 ? 2.0 - distance(iMouse.xy, abs(iMouse.zw)) : 1.0));\n"
                       "}\n",
     "mouse, released": "void mainImage(out vec4 c, in vec2 p) {\n"
-                       "    c = vec4(log(iMouse.z < 0.0 ? 2.0 - distance(iMouse.xy, abs(iMouse.zw)) : 1.0));\n}\n",
+                       "    c = vec4(log(iMouse.z < 0.0 && iMouse.x > 0.0 ? 2.0 - distance(iMouse.xy, abs(iMouse.zw)) : 1.0));\n}\n",
     "sizes": "void mainImage(out vec4 c, in vec2 p) { c = vec4((p.y - 0.5) / (iResolution.y - 1.0)); }\n",
     "inputs": "void mainImage(out vec4 c, in vec2 p) {\n"
               "    vec4 t = textureLod(iChannel0, vec2(0.5), 8.0);\n    c = t / t.r;\n}\n",
