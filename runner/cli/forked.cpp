@@ -13,6 +13,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 namespace tidemark::cli {
 namespace {
@@ -30,9 +32,25 @@ void write_line(int fd, std::string_view line) {
     }
 }
 
-[[noreturn]] void be_child(int fd, const std::function<void(const Tell&)>& work) {
+/// One line, without its end; nothing where the parent went without asking.
+std::optional<std::string> read_line(int fd) {
+    std::string line;
+    for (char c = 0;;) {
+        const ssize_t count = ::read(fd, &c, 1);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            return std::nullopt;
+        if (c == '\n')
+            return line;
+        line += c;
+    }
+}
+
+[[noreturn]] void be_child(int questions, int answers, const ForkedHelper::Work& work) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL); // Ctrl-C at the parent ends us too
-    work([fd](std::string_view line) { write_line(fd, line); });
+    if (const auto question = read_line(questions))
+        work(*question, [answers](std::string_view line) { write_line(answers, line); });
     ::_exit(0); // no destructors of a driver that may hang in them
 }
 
@@ -56,37 +74,82 @@ bool read_all(int fd, Clock::time_point deadline, std::string& output) {
     }
 }
 
-} // namespace
-
-Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, double seconds) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-        return fail(ErrorCode::load, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-    const pid_t child = ::fork();
-    if (child < 0) {
-        ::close(ends[0]);
-        ::close(ends[1]);
-        return fail(ErrorCode::load, fmt::format("cannot start a process: {}", std::strerror(errno)));
-    }
-    if (child == 0) {
-        ::close(ends[0]);
-        be_child(ends[1], work);
-    }
-    ::close(ends[1]);
-    ForkedResult result;
-    const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                             std::chrono::duration<double>(std::min(seconds, 3e7)));
-    result.timed_out = !read_all(ends[0], deadline, result.output);
+void close_both(const std::array<int, 2>& ends) {
     ::close(ends[0]);
-    if (result.timed_out)
-        ::kill(child, SIGKILL);
+    ::close(ends[1]);
+}
+
+int status_of(pid_t child) {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
+    return status;
+}
+
+} // namespace
+
+Result<ForkedHelper> ForkedHelper::start(const Work& work) {
+    std::array<int, 2> questions{}, answers{};
+    if (::pipe2(questions.data(), O_CLOEXEC) != 0)
+        return fail(ErrorCode::load, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+    if (::pipe2(answers.data(), O_CLOEXEC) != 0) {
+        close_both(questions);
+        return fail(ErrorCode::load, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+    }
+    ForkedHelper helper;
+    helper.child_ = ::fork();
+    if (helper.child_ < 0) {
+        close_both(questions);
+        close_both(answers);
+        return fail(ErrorCode::load, fmt::format("cannot start a process: {}", std::strerror(errno)));
+    }
+    if (helper.child_ == 0) {
+        ::close(questions[1]);
+        ::close(answers[0]);
+        be_child(questions[0], answers[1], work);
+    }
+    ::close(questions[0]);
+    ::close(answers[1]);
+    helper.question_ = questions[1];
+    helper.answer_ = answers[0];
+    return helper;
+}
+
+ForkedHelper::ForkedHelper(ForkedHelper&& other) noexcept
+    : child_(std::exchange(other.child_, -1)), question_(std::exchange(other.question_, -1)),
+      answer_(std::exchange(other.answer_, -1)) {}
+
+ForkedHelper::~ForkedHelper() {
+    if (child_ == -1)
+        return;
+    ::close(question_);
+    ::close(answer_);
+    ::kill(child_, SIGKILL);
+    status_of(child_);
+}
+
+Result<ForkedResult> ForkedHelper::ask(std::string_view question, double seconds) {
+    ForkedResult result;
+    const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                             std::chrono::duration<double>(std::min(seconds, 3e7)));
+    write_line(question_, question);
+    ::close(question_);
+    result.timed_out = !read_all(answer_, deadline, result.output);
+    ::close(answer_);
+    if (result.timed_out)
+        ::kill(child_, SIGKILL);
+    const int status = status_of(std::exchange(child_, -1));
     if (!result.timed_out && WIFSIGNALED(status))
         result.signal = WTERMSIG(status);
     result.output.resize(result.output.rfind('\n') + 1);
     return result;
+}
+
+Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, double seconds) {
+    auto helper = ForkedHelper::start([&work](const std::string&, const Tell& tell) { work(tell); });
+    if (!helper)
+        return fail(std::move(helper.error()));
+    return helper->ask({}, seconds);
 }
 
 } // namespace tidemark::cli

@@ -22,4 +22,24 @@ using Tell = std::function<void(std::string_view line)>;
 /// Runs `work` in a child and waits for it.
 Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, double seconds);
 
+/// A child made early, while it may be, that sleeps until its work is asked for.
+class ForkedHelper {
+public:
+    using Work = std::function<void(const std::string& question, const Tell&)>;
+    static Result<ForkedHelper> start(const Work& work);
+    ForkedHelper(ForkedHelper&& other) noexcept;
+    ForkedHelper& operator=(ForkedHelper&&) = delete;
+    /// Ends a child that was not asked.
+    ~ForkedHelper();
+
+    /// Once, with one line: gives the child its question and waits for it.
+    Result<ForkedResult> ask(std::string_view question, double seconds);
+
+private:
+    ForkedHelper() = default;
+    int child_ = -1;    ///< -1: no more to be waited for
+    int question_ = -1; ///< to the child
+    int answer_ = -1;   ///< from it
+};
+
 } // namespace tidemark::cli

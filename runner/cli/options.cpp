@@ -26,11 +26,12 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
         command.add_option("--set", request.sets, "Value of a knob (#iUniform)")->type_name("NAME=VALUE"));
     repeatable(command.add_option("--define", request.defines, "Replaces a #define or const of the scene")
                    ->type_name("NAME=VALUE"));
-    repeatable(command
-                   .add_option("--channel", request.channels,
-                               "What iChannelN reads: a file, noise, keyboard or none; to test with: black, "
-                               "white, nan, texel")
-                   ->type_name("N=FILE|noise|none"));
+    repeatable(
+        command
+            .add_option("--channel", request.channels,
+                        "What iChannelN reads, of Image or another pass: a file, noise, keyboard or none; "
+                        "to test with: black, white, nan, texel")
+            ->type_name("[PASS:]N=FILE|noise|none"));
     command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
         ->type_name("DIR")
         ->check(unnamed(CLI::ExistingDirectory));
@@ -84,8 +85,9 @@ void add_time_options(CLI::App& command, FrameOptions& options) {
     frames->excludes(time);
     command
         .add_option("--mouse", options.mouse,
-                    "iMouse after a click at that pixel; down: in the frame of the press")
-        ->type_name("X,Y[,down]")
+                    "iMouse after a click at that pixel, or after a drag to it from another; down: in the "
+                    "frame of the press, or before the drag's end")
+        ->type_name("X,Y[,FROM_X,FROM_Y][,down]")
         ->excludes("--input");
 }
 

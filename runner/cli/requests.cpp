@@ -35,6 +35,14 @@ bool take(std::string_view& text, char wanted) {
     return true;
 }
 
+constexpr std::string_view k_down = ",down";
+
+/// `x,y`.
+bool take(std::string_view& text, glm::dvec2& place) {
+    return take(text, place.x) && take(text, ',') && take(text, place.y) &&
+           std::abs(place.x) <= k_farthest_pixel && std::abs(place.y) <= k_farthest_pixel;
+}
+
 /// One of the ranges between commas: `7`, `1-10`, `1-10x3`.
 bool take_range(std::string_view& text, std::vector<int>& frames) {
     int first = 0;
@@ -95,7 +103,7 @@ render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
     if (request.time) // the frames that lead to it go before it
         inputs.time = *request.time - (render::frame_at(*request.time, request.fps) - frame) / request.fps;
     inputs.mouse = request.mouse;
-    inputs.mouse_button.x = request.mouse.w > 0 ? 1 : 0;
+    inputs.mouse_button.x = request.mouse.z > 0 || request.mouse.w > 0 ? 1 : 0;
     inputs.date = request.date;
     inputs.camera = request.camera.matrix();
     return inputs;
@@ -126,15 +134,22 @@ Result<std::vector<int>> parse_frames(std::string_view text) {
 }
 
 Result<glm::vec4> parse_mouse(std::string_view text) {
-    double x = 0;
-    double y = 0;
+    glm::dvec2 at{0};
     std::string_view rest = text;
-    const bool good = take(rest, x) && take(rest, ',') && take(rest, y) && std::abs(x) <= k_farthest_pixel &&
-                      std::abs(y) <= k_farthest_pixel;
-    if (!good || (!rest.empty() && rest != ",down"))
-        return fail(ErrorCode::usage,
-                    fmt::format("--mouse {}: give x,y or x,y,down in pixels from the bottom left", text));
-    return render::Mouse::clicked(x, y, !rest.empty());
+    bool good = take(rest, at);
+    std::optional<glm::dvec2> from;
+    if (good && !rest.empty() && rest != k_down) {
+        from.emplace();
+        good = take(rest, ',') && take(rest, *from);
+    }
+    if (!good || (!rest.empty() && rest != k_down))
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--mouse {}: give x,y after a click or x,y,from_x,from_y after a drag, and ,down "
+                        "before its end, in pixels from the bottom left",
+                        text));
+    const bool down = !rest.empty();
+    return from ? render::Mouse::dragged(*from, at, down) : render::Mouse::clicked(at.x, at.y, down);
 }
 
 } // namespace tidemark::cli

@@ -63,7 +63,8 @@ Result<Extent> parse_size(std::string_view text);
 /// OpenImageIO's frame ranges: `7`, `1-10`, `1-10x3`, `10-1`, several with commas; inclusive; from 0.
 Result<std::vector<int>> parse_frames(std::string_view text);
 
-/// `x,y` or `x,y,down`: iMouse after a click at that pixel, or in the very frame of the press.
+/// `x,y` or `x,y,down`: iMouse after a click at that pixel, or in the very frame of the press;
+/// `x,y,from_x,from_y` or `x,y,from_x,from_y,down`: after a drag to that pixel, or before its end.
 Result<glm::vec4> parse_mouse(std::string_view text);
 
 } // namespace tidemark::cli

@@ -32,4 +32,14 @@ glm::vec4 Mouse::clicked(double x, double y, bool now) {
     return mouse.uniform();
 }
 
+glm::vec4 Mouse::dragged(glm::dvec2 from, glm::dvec2 to, bool held) {
+    Mouse mouse;
+    mouse.press(from.x, from.y);
+    mouse.frame_drawn();
+    mouse.move(to.x, to.y);
+    if (!held)
+        mouse.release();
+    return mouse.uniform();
+}
+
 } // namespace tidemark::render

@@ -19,6 +19,8 @@ public:
     glm::vec4 uniform() const;
     /// iMouse after a click at that place; `now`: in the very frame of the press.
     static glm::vec4 clicked(double x, double y, bool now);
+    /// iMouse after a drag from the one place to the other; `held`: the button is still down.
+    static glm::vec4 dragged(glm::dvec2 from, glm::dvec2 to, bool held);
     /// To be called when a frame has been drawn: the click is then no longer new.
     void frame_drawn() { clicked_ = false; }
 

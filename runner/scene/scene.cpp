@@ -107,13 +107,32 @@ std::optional<ChannelInput> test_input(std::string_view name) {
     return std::nullopt;
 }
 
+/// Image, or the pass that stands before a colon, with the number behind it.
+Result<std::pair<Pass*, std::string_view>> channel_of(Scene& scene, std::string_view place) {
+    const size_t colon = place.rfind(':');
+    if (colon == std::string_view::npos)
+        return std::pair(&scene.passes[scene.image_index()], place);
+    const std::string_view name = place.substr(0, colon);
+    const auto pass = std::ranges::find(scene.passes, name, &Pass::name);
+    if (pass != scene.passes.end())
+        return std::pair(&*pass, place.substr(colon + 1));
+    std::string names;
+    for (const Pass& known : scene.passes)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
+    return fail(ErrorCode::usage, fmt::format("--channel {}: the scene has {}", place, names));
+}
+
 } // namespace
 
 Result<void> override_channel(Scene& scene, std::string_view setting) {
     const auto split = split_setting(setting, "--channel");
     if (!split)
         return fail(split.error());
-    const auto [number, what] = *split;
+    const std::string_view what = split->second;
+    const auto place = channel_of(scene, split->first);
+    if (!place)
+        return fail(place.error());
+    const auto [pass, number] = *place;
     if (number.size() != 1 || number[0] < '0' || number[0] >= '0' + k_channel_count || what.empty())
         return fail(ErrorCode::usage,
                     fmt::format("--channel {}: give it as N=FILE, N=noise or N=none, N from 0 to {}", setting,
@@ -128,7 +147,7 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
     channel.input = test ? *test : input_of_name(what, {});
     if (std::holds_alternative<Keyboard>(channel.input))
         channel.sampling = k_keyboard_sampling;
-    scene.passes[scene.image_index()].channels[size_t(number[0] - '0')] = channel;
+    pass->channels[size_t(number[0] - '0')] = channel;
     note_files(scene, channel);
     return {};
 }

@@ -57,7 +57,7 @@ struct LoadOptions {
 /// with file and line. Pictures and other media are named, not opened.
 Result<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// Carries out `--channel N=WHAT`: a picture file, `noise` or `none`, sampled as ShaderToy samples textures.
+/// Carries out `--channel [PASS:]N=WHAT`: a picture file, `noise`, `none`; sampled as ShaderToy's textures are.
 Result<void> override_channel(Scene& scene, std::string_view setting);
 
 /// Carries out `--set NAME=VALUE`.

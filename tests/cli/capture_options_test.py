@@ -114,13 +114,19 @@ class Mouse(Told):
     def test_in_the_frame_of_the_press_both_are_positive(self):
         self.assertEqual(self.mouse("--mouse", "10,20,down"), [10, 20, 10, 20])
 
+    def test_a_drag_ends_where_the_button_is_released(self):
+        self.assertEqual(self.mouse("--mouse", "10,20,3,4"), [10, 20, -3, -4])
+
+    def test_before_a_drag_ends_only_its_press_is_no_longer_new(self):
+        self.assertEqual(self.mouse("--mouse", "10,20,3,4,down"), [10, 20, 3, -4])
+
     def test_pixels_are_whole(self):
         self.assertEqual(self.mouse("--mouse", "10.9,0.5"), [10, 0, -10, 0])
 
     def test_errors(self):
         for wrong in ("x", "1", "1,", "1,2,up", "1,2,", "1;2", "nan,1", "1,inf"):
-            self.refused(f"--mouse {wrong}", f"--mouse {wrong}: give x,y or x,y,down in pixels from the bottom "
-                                             "left")
+            self.refused(f"--mouse {wrong}", f"--mouse {wrong}: give x,y after a click or x,y,from_x,from_y after "
+                                             "a drag, and ,down before its end, in pixels from the bottom left")
 
 
 class Date(Told):

@@ -77,7 +77,7 @@ class CheckRays(ProgramTest):
         entries = self.verdicts(marcher({}))
         for probe, entry in entries.items():
             self.assertIn(entry["verdict"], ("pass", "n/a"), probe + ": " + entry["found"])
-        for probe in FAULTS.keys() - {"folds", "octaves"}:
+        for probe in (FAULTS.keys() | {"gradient"}) - {"folds", "octaves"}:
             self.assertEqual(entries[probe]["verdict"], "pass", probe + ": " + entries[probe]["found"])
 
     def test_sound_waves_neither_fold_over_nor_lose_their_octaves(self):
@@ -125,6 +125,21 @@ class CheckRays(ProgramTest):
             result = self.run_program("check", scene, *defines, "--probe", probe)
             self.assertEqual(result.returncode, 1, probe)
             self.assertIn(found, result.stdout.decode())
+
+    def test_a_slope_beyond_the_stated_bound_is_found(self):
+        # Along rays that fall by 1 in 2 the slope reaches its largest, the square root of 5.
+        steep = marcher({"field": "p.y - 0.5 * sin(4.0 * p.z)", "step": "0.4 * f"})
+        entry = self.verdicts(steep, "--probe", "gradient")["gradient"]
+        self.assertEqual(entry["verdict"], "pass")
+        self.assertIn("reaches 2.24; the scene states no bound", entry["found"])
+        self.write("marcher.check.json", '{"largest_slope": 2.237}')
+        self.assertEqual(self.verdicts(steep, "--probe", "gradient")["gradient"]["verdict"], "pass")
+        self.write("marcher.check.json", '{"largest_slope": 2.2}')
+        entry = self.verdicts(steep, "--probe", "gradient")["gradient"]
+        self.assertEqual(entry["verdict"], "fail")
+        self.assertRegex(entry["found"], r"reaches 2\.24 of the 2\.2 that the scene states, "
+                                         r"at \d+ s, pixel [\d.]+,[\d.]+, distance [\d.]+: steps that trust it")
+        self.assertIn("tidemark capture", entry["reproduction"])
 
     def test_promised_ranges_are_kept_to(self):
         self.write("marcher.check.json", '{"ranges": {"octaves": [1, 6]}}')

@@ -9,6 +9,11 @@ SOUND = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.
 FAULTS = {
     "times": "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(1.0 - iTime)); }\n",
     "mouse": "void mainImage(out vec4 c, in vec2 p) { c = vec4(log(1.0 + iMouse.x)); }\n",
+    "mouse, dragged": "void mainImage(out vec4 c, in vec2 p) {\n" # apart from the place of the press, once it is not new
+                      "    c = vec4(log(iMouse.z > 0.0 && iMouse.w < 0.0 ? 2.0 - distance(iMouse.xy, abs(iMouse.zw)) : 1.0));\n"
+                      "}\n",
+    "mouse, released": "void mainImage(out vec4 c, in vec2 p) {\n"
+                       "    c = vec4(log(iMouse.z < 0.0 && iMouse.x > 0.0 ? 2.0 - distance(iMouse.xy, abs(iMouse.zw)) : 1.0));\n}\n",
     "sizes": "void mainImage(out vec4 c, in vec2 p) { c = vec4((p.y - 0.5) / (iResolution.y - 1.0)); }\n",
     "inputs": "void mainImage(out vec4 c, in vec2 p) {\n"
               "    vec4 t = textureLod(iChannel0, vec2(0.5), 8.0);\n    c = t / t.r;\n}\n",
@@ -68,6 +73,16 @@ class Check(ProgramTest):
         self.assertEqual(command[:3], ["tidemark", "capture", str(scene)])
         self.succeed(*command[1:-1], str(self.folder / "again.exr"))
 
+    def test_a_drag_can_be_reproduced(self):
+        for fault, mouse in (("dragged", "63,35,1,1,down"), ("released", "63,35,1,1")):
+            scene = self.write("drag.glsl", FAULTS["mouse, " + fault])
+            entry = self.verdicts(scene, "--probe", "mouse")["mouse"]
+            self.assertIn(f"--mouse {mouse} ", entry["reproduction"])
+            self.assertIn("(logarithm of a negative number)", entry["traced"])
+            traced = self.run_program("check", "--trace", *shlex.split(entry["reproduction"])[2:-2])
+            self.assertEqual(traced.returncode, 1, traced.stderr)
+            self.assertIn(b"gave NaN", traced.stdout)
+
     def test_what_is_not_finite_is_traced_to_its_line(self):
         scene = self.write("waves.glsl", "float wave(float t) { return sqrt(0.5 - t); }\n" + FAULTS["times"].replace(
             "sqrt(1.0 - iTime)", "wave(iTime)"))
@@ -89,6 +104,27 @@ class Check(ProgramTest):
         entry = self.verdicts(scene, "--probe", "inputs")["inputs"]
         self.assertEqual(entry["verdict"], "pass")
         self.assertIn("NaN in iChannel0 comes to 50 % of the pixels", entry["found"])
+
+    def test_the_inputs_of_buffers_are_asked_too(self):
+        folder = self.folder / "project"
+        folder.mkdir()
+        (folder / "image.glsl").write_text('#iChannel0 "buffer_a.glsl"\n'
+                                           "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n")
+        buffer = ('#iChannel1 "noise"\nvoid mainImage(out vec4 c, in vec2 p) {\n'
+                  "    c = vec4(%s texture(iChannel1, p / iResolution.xy).r);\n}\n")
+        (folder / "buffer_a.glsl").write_text(buffer % "0.5 *")
+        entry = self.verdicts(folder, "--probe", "inputs")["inputs"]
+        self.assertEqual(entry["found"], "all numbers finite in 5 situations; "
+                                         "NaN in iChannel1 of Buffer A comes to 100 % of the pixels")
+        (folder / "buffer_a.glsl").write_text(buffer % "1.0 /")
+        entry = self.verdicts(folder, "--probe", "inputs")["inputs"]
+        self.assertEqual(entry["verdict"], "fail")
+        command = shlex.split(entry["reproduction"])
+        self.assertEqual(command[-6:-2], ["--channel", "Buffer A:1=none", "--pass", "Buffer A"])
+        self.assertEqual(entry["trace"]["first"]["line"], 3)
+        traced = self.run_program("check", "--trace", *command[2:-2])
+        self.assertEqual(traced.returncode, 1)
+        self.assertIn(b"gave +Inf", traced.stdout)
 
     def test_a_feedback_scene_is_traced_late_without_its_whole_past(self):
         scene = self.write("late.glsl", '#iChannel0 "self"\n'

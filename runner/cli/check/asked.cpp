@@ -19,6 +19,12 @@ std::vector<lab::Setting> told_settings(const Json& json) {
     return settings;
 }
 
+glm::ivec2 told_pixel(const Json& json) {
+    return {json[0].get<int>(), json[1].get<int>()};
+}
+
+} // namespace
+
 Json told(const lab::Situation& situation) {
     Json json = {{"size", {situation.extent.width, situation.extent.height}},
                  {"time", situation.time},
@@ -29,6 +35,8 @@ Json told(const lab::Situation& situation) {
                  {"pass", situation.pass}};
     if (situation.mouse)
         json["mouse"] = {situation.mouse->x, situation.mouse->y};
+    if (situation.dragged_from)
+        json["dragged_from"] = {situation.dragged_from->x, situation.dragged_from->y};
     if (const auto& camera = situation.camera)
         json["camera"] = {camera->azimuth, camera->elevation, camera->distance};
     return json;
@@ -42,7 +50,9 @@ lab::Situation told_situation(const Json& json) {
     json.at("channels").get_to(situation.channels);
     json.at("pass").get_to(situation.pass);
     if (json.contains("mouse"))
-        situation.mouse = glm::ivec2(json["mouse"][0].get<int>(), json["mouse"][1].get<int>());
+        situation.mouse = told_pixel(json["mouse"]);
+    if (json.contains("dragged_from"))
+        situation.dragged_from = told_pixel(json["dragged_from"]);
     if (json.contains("camera"))
         situation.camera =
             render::OrbitCamera{json["camera"][0].get<double>(), json["camera"][1].get<double>(),
@@ -51,8 +61,6 @@ lab::Situation told_situation(const Json& json) {
     situation.definitions = told_settings(json.at("definitions"));
     return situation;
 }
-
-} // namespace
 
 Json told(const Asked& asked) {
     Json json = {{"probe", asked.probe->name},        {"verdict", int(asked.answer.verdict)},

@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "base/shell_word.hpp"
 #include "cli/check/asked.hpp"
+#include "cli/check/one_thread.hpp"
 #include "cli/console.hpp"
 #include "cli/forked.hpp"
 #include "cli/progress.hpp"
@@ -126,10 +127,18 @@ void end_process_after(double seconds) {
 /// In a process of its own: one line for each probe.
 Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, const lab::Promises& promises,
                      Probes probes, Clock::time_point start, const Tell& tell) {
+    auto painter = one_thread_painter(scene, request.device);
+    if (!painter)
+        return fail(std::move(painter.error()));
     const auto context = platform::HeadlessContext::create(request.device);
     if (!context)
         return fail(context.error());
-    lab::ProbeBench bench(scene, promises);
+    lab::DrawElsewhere with_one_thread;
+    if (counts_threads())
+        with_one_thread = [&](const lab::Situation& situation) {
+            return drawn_by(*painter, situation, request.budget - seconds_since(start));
+        };
+    lab::ProbeBench bench(scene, promises, with_one_thread);
     Progress progress("probes", probes.size());
     double limit = request.budget;
     for (const lab::Probe* probe : probes) {

@@ -60,4 +60,12 @@ std::string alikeness(const image::Image& before, const image::Image& after) {
                : fmt::format("{}, {} over the rest", counted, decibels(squares / double(numbers * channels)));
 }
 
+size_t different_pixels(const image::Image& left, const image::Image& right) {
+    const auto pixel = std::ptrdiff_t(left.row_bytes()) / left.extent.width;
+    size_t count = 0;
+    for (auto a = left.bytes.begin(), b = right.bytes.begin(); a != left.bytes.end(); a += pixel, b += pixel)
+        count += !std::equal(a, a + pixel, b);
+    return count;
+}
+
 } // namespace tidemark::lab

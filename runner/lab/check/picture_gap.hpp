@@ -19,4 +19,7 @@ double p99_difference(const image::Image& left, const image::Image& right);
 /// it is that of the pixels without any.
 std::string alikeness(const image::Image& before, const image::Image& after);
 
+/// Pixels whose bytes differ, of two pictures of one size and kind.
+size_t different_pixels(const image::Image& left, const image::Image& right);
+
 } // namespace tidemark::lab

@@ -19,10 +19,11 @@ std::span<const Probe> all_probes() {
         {"times",
          "NaN or infinity in any pass, at 0, 1e-6 and 1 s, around 62.83 s, to 1e6 s, at 2^24 and -5 s",
          ask_times},
-        {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, held down", ask_mouse},
+        {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, pressed, dragged, released",
+         ask_mouse},
         {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},
         {"inputs",
-         "NaN or infinity with each input of Image unbound, black, white, one texel or noise; how far a "
+         "NaN or infinity with each input of any pass unbound, black, white, one texel or noise; how far a "
          "NaN in it spreads",
          ask_inputs},
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
@@ -44,9 +45,14 @@ std::span<const Probe> all_probes() {
          ask_repeats},
         {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
          ask_tiles},
+        {"threads", "one thread draws the same bytes as many", ask_threads},
         {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
          ask_witnesses},
         {"budget", "rays that run out of steps (mainHit)", ask_budget},
+        {"gradient",
+         "the largest slope of the field along a ray, sampled and climbed to, beside the bound that the "
+         "scene states (mainHit, march_field)",
+         ask_gradient},
         {"stiffness",
          "the same, and distances that are no number, with each knob at both ends, at 0, 1/2, 2 and 4 times "
          "its value within its range, and with defined heights and scales so (mainHit)",

@@ -8,8 +8,9 @@
 
 namespace tidemark::lab {
 
-ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises)
-    : scene_(scene), hit_scene_(glsl::hit_scene(scene)), promises_(std::move(promises)) {}
+ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises, DrawElsewhere with_one_thread)
+    : scene_(scene), hit_scene_(glsl::hit_scene(scene)), promises_(std::move(promises)),
+      with_one_thread_(std::move(with_one_thread)) {}
 
 /// What stands in the text is compiled; knobs are turned.
 Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry entry,

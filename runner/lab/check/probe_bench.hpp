@@ -8,6 +8,7 @@
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -19,9 +20,13 @@ struct PassPicture {
     image::Image picture; ///< RGBA, floats
 };
 
+/// RGB of Image as `picture` has it, drawn elsewhere.
+using DrawElsewhere = std::function<Result<image::Image>(const Situation&)>;
+
 class ProbeBench {
 public:
-    ProbeBench(const scene::Scene& scene, Promises promises);
+    /// `with_one_thread`: empty where the driver cannot be told to draw so.
+    ProbeBench(const scene::Scene& scene, Promises promises, DrawElsewhere with_one_thread = {});
 
     const scene::Scene& scene() const { return scene_; }
     const Promises& promises() const { return promises_; }
@@ -32,6 +37,8 @@ public:
                                  glsl::Precision precision = glsl::Precision::single);
     /// All passes that are drawn, but cubemaps.
     Result<std::vector<PassPicture>> passes(const Situation& situation);
+
+    const DrawElsewhere& with_one_thread() const { return with_one_thread_; }
 
     bool has_hits() const { return hit_scene_.has_value(); }
     Result<Hits> hits(const Situation& situation, glsl::Precision precision = glsl::Precision::single);
@@ -54,6 +61,7 @@ private:
     scene::Scene scene_;
     std::optional<scene::Scene> hit_scene_;
     Promises promises_;
+    DrawElsewhere with_one_thread_;
     std::map<std::string, render::Renderer> renderers_;
 };
 

@@ -31,6 +31,7 @@ Result<Answer> ask_tiles(ProbeBench& bench);
 
 // probes_motion.cpp
 Result<Answer> ask_repeats(ProbeBench& bench);
+Result<Answer> ask_threads(ProbeBench& bench);
 Result<Answer> ask_camera(ProbeBench& bench);
 Result<Answer> ask_clicks(ProbeBench& bench);
 
@@ -54,6 +55,9 @@ Result<Answer> ask_folds(ProbeBench& bench);
 Result<Answer> ask_grazing(ProbeBench& bench);
 Result<Answer> ask_places(ProbeBench& bench);
 Result<Answer> ask_far(ProbeBench& bench);
+
+// probes_gradient.cpp
+Result<Answer> ask_gradient(ProbeBench& bench);
 
 // probes_slope.cpp
 Result<Answer> ask_normals(ProbeBench& bench);

@@ -38,6 +38,11 @@ Result<Answer> ask_mouse(ProbeBench& bench) {
           glm::ivec2(w / 2, h / 2), glm::ivec2(-w, -h), glm::ivec2(2 * w, 2 * h)})
         for (const bool down : {false, true})
             situations.push_back({.mouse = pixel, .down = down});
+    const glm::ivec2 low(1, 1), high(w - 1, h - 1), outside(2 * w, -h);
+    for (const auto& [from, to] :
+         {std::pair(low, high), std::pair(high, low), std::pair(low, outside), std::pair(low, low)})
+        for (const bool down : {false, true})
+            situations.push_back({.mouse = to, .dragged_from = from, .down = down});
     return look_anew(bench, situations);
 }
 

@@ -11,22 +11,42 @@
 namespace tidemark::lab {
 namespace {
 
-/// The channels from which Image reads pictures.
-std::vector<int> read_channels(const ProbeBench& bench) {
+/// A channel from which a pass reads a picture that comes from outside.
+struct Input {
+    std::string name;    ///< `iChannel0 of Buffer A`
+    std::string setting; ///< `Buffer A:0`, as --channel has it; of Image without the pass
+};
+
+bool comes_from_outside(const scene::Scene& scene, const scene::ChannelInput& input) {
+    return !std::holds_alternative<scene::PassOutput>(input) &&
+           scene::texture_kind(scene, input) == scene::TextureKind::flat;
+}
+
+/// Of the passes that are drawn.
+Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
+    const auto renderer = bench.poised({});
+    if (!renderer)
+        return fail(renderer.error());
     const scene::Scene& scene = bench.scene();
-    const std::string text = scene.common.text() + scene.image().text.text();
-    std::vector<int> channels;
-    for (int channel = 0; channel < scene::k_channel_count; ++channel) {
-        const auto kind = scene::texture_kind(scene, scene.image().channels[size_t(channel)].input);
-        if (kind == scene::TextureKind::flat && text.find(fmt::format("iChannel{}", channel)) != text.npos)
-            channels.push_back(channel);
+    std::vector<Input> inputs;
+    for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
+        const scene::Pass& pass = scene.passes[planned.pass];
+        const bool image = planned.pass == scene.image_index();
+        const std::string text = scene.common.text() + pass.text.text();
+        for (int channel = 0; channel < scene::k_channel_count; ++channel)
+            if (comes_from_outside(scene, pass.channels[size_t(channel)].input) &&
+                (text.find(fmt::format("iChannel{}", channel)) != text.npos ||
+                 text.find(fmt::format("iCh{}", channel)) != text.npos))
+                inputs.push_back(
+                    {fmt::format("iChannel{}{}", channel, image ? "" : " of " + pass.name),
+                     image ? std::to_string(channel) : fmt::format("{}:{}", pass.name, channel)});
     }
-    return channels;
+    return inputs;
 }
 
 /// A NaN that comes in may go out: no fault, but good to know. Of the pixels, in percent.
-Result<double> spread_of_nan(ProbeBench& bench, int channel) {
-    const auto picture = bench.picture({.channels = {fmt::format("{}=nan", channel)}});
+Result<double> spread_of_nan(ProbeBench& bench, const Input& input) {
+    const auto picture = bench.picture({.channels = {input.setting + "=nan"}});
     if (!picture)
         return fail(picture.error());
     const auto samples = picture->f32();
@@ -39,22 +59,23 @@ Result<double> spread_of_nan(ProbeBench& bench, int channel) {
 } // namespace
 
 Result<Answer> ask_inputs(ProbeBench& bench) {
-    const std::vector<int> channels = read_channels(bench);
-    if (channels.empty())
-        return Answer{Verdict::not_applicable, "Image reads no picture"};
+    const auto inputs = inputs_read(bench);
+    if (!inputs)
+        return fail(inputs.error());
+    if (inputs->empty())
+        return Answer{Verdict::not_applicable, "no pass reads a picture"};
     std::vector<Situation> situations;
-    for (const int channel : channels)
+    for (const Input& input : *inputs)
         for (const char* what : {"none", "noise", "black", "white", "texel"})
-            situations.push_back({.channels = {fmt::format("{}={}", channel, what)}});
+            situations.push_back({.channels = {fmt::format("{}={}", input.setting, what)}});
     auto answer = look_anew(bench, situations);
     if (!answer || answer->verdict != Verdict::pass)
         return answer;
-    for (const int channel : channels) {
-        const auto spread = spread_of_nan(bench, channel);
+    for (const Input& input : *inputs) {
+        const auto spread = spread_of_nan(bench, input);
         if (!spread)
             return fail(spread.error());
-        answer->sentence +=
-            fmt::format("; NaN in iChannel{} comes to {:.3g} % of the pixels", channel, *spread);
+        answer->sentence += fmt::format("; NaN in {} comes to {:.3g} % of the pixels", input.name, *spread);
     }
     return answer;
 }

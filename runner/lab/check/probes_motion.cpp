@@ -44,6 +44,25 @@ Result<Answer> ask_repeats(ProbeBench& bench) {
     return Answer{Verdict::pass, "the same bytes again, after another frame and compiled anew"};
 }
 
+Result<Answer> ask_threads(ProbeBench& bench) {
+    if (!bench.with_one_thread())
+        return Answer{Verdict::not_applicable, "this driver cannot be told how many threads to draw with"};
+    // Drivers deal out squares of 64 pixels.
+    const Situation situation{.extent = {200, 136}, .time = 2};
+    const auto alone = bench.with_one_thread()(situation);
+    if (!alone)
+        return Answer{Verdict::not_applicable, "not to be had: " + alone.error().message};
+    auto together = bench.picture(situation);
+    if (!together)
+        return fail(std::move(together.error()));
+    if (const size_t different = different_pixels(*alone, *together))
+        return Answer{Verdict::fail,
+                      fmt::format("{} of {} pixels are others when one thread draws them all", different,
+                                  situation.extent.pixels()),
+                      situation, *std::move(together)};
+    return Answer{Verdict::pass, "the same bytes whether many threads draw or one"};
+}
+
 namespace {
 
 /// The mouse moved by a pixel at a time along one side of the picture, the other in the middle.

@@ -1,6 +1,7 @@
 // Slopes from differences of the field, as normals are made: of scenes with mainHit whose field is the
 // march_field of shaders/lib/march.glsl.
 #include "lab/check/defined_numbers.hpp"
+#include "lab/check/field_bench.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
 #include "lab/statistics.hpp"
@@ -14,12 +15,9 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr std::string_view k_step = "tidemark_step";
-
-/// Answers with the distance and the field's slope along the ray there, from differences over the knob k_step
-/// to either side.
-constexpr std::string_view k_slope_hit = R"(#undef mainHit
-void mainHit(out vec4 hit, in vec2 fragCoord) {
+/// Answers with the distance and the field's slope along the ray there, from differences over the knob
+/// tidemark_step to either side.
+constexpr std::string_view k_slope_hit = R"(void mainHit(out vec4 hit, in vec2 fragCoord) {
     tidemark_own_hit(hit, fragCoord);
     float t = max(hit.x, 0.0);
     float rise = march_field(t + tidemark_step) - march_field(t - tidemark_step);
@@ -27,48 +25,18 @@ void mainHit(out vec4 hit, in vec2 fragCoord) {
 }
 )";
 
-scene::Scene slope_scene(const scene::Scene& hit_scene) {
-    scene::Scene scene = hit_scene;
-    text::MappedText& text = scene.passes[scene.image_index()].text;
-    text::MappedText asked;
-    asked.append_generated("#define mainHit tidemark_own_hit\n");
-    asked.append(text);
-    asked.append_generated(k_slope_hit);
-    text = std::move(asked);
-    scene.knobs.push_back({.name = std::string(k_step), .initial = {1e-2}, .value = {1e-2}});
-    return scene;
+/// Of each pixel; NaN where the ray meets nothing.
+std::vector<double> slopes(FieldBench& bench, double step, const Situation& situation) {
+    const image::Image image = bench.ask({scene::KnobValue{step}}, situation);
+    std::vector<double> slopes;
+    for (size_t i = 0; i < image.extent.pixels(); ++i) {
+        const auto hit = image.f32().subspan(4 * i, 4);
+        slopes.push_back(hit[0] >= 0 ? double(hit[1]) : std::nan(""));
+    }
+    return slopes;
 }
 
-class SlopeBench {
-public:
-    static Result<SlopeBench> create(const scene::Scene& scene, glsl::Precision precision) {
-        auto made = render::Renderer::create(scene, {k_ray_extent, image::SampleType::f32, {}, precision});
-        if (!made)
-            return fail(std::move(made.error()));
-        return SlopeBench(*std::move(made), scene.knobs);
-    }
-    /// The slope of each pixel; NaN where the ray meets nothing.
-    std::vector<double> at(double step, const Situation& situation) {
-        knobs_.back().value = {step};
-        renderer_.turn(knobs_);
-        renderer_.draw(inputs_of(situation));
-        const image::Image image = renderer_.read_back();
-        std::vector<double> slopes;
-        for (size_t i = 0; i < image.extent.pixels(); ++i) {
-            const auto hit = image.f32().subspan(4 * i, 4);
-            slopes.push_back(hit[0] >= 0 ? double(hit[1]) : std::nan(""));
-        }
-        return slopes;
-    }
-
-private:
-    SlopeBench(render::Renderer renderer, std::vector<scene::Knob> knobs)
-        : renderer_(std::move(renderer)), knobs_(std::move(knobs)) {}
-    render::Renderer renderer_;
-    std::vector<scene::Knob> knobs_;
-};
-
-/// The median of the angles between two slopes, degrees; none where no ray has both.
+/// The median of the angles between two slopes, degrees; none where no ray meets the surface in both.
 std::optional<double> median_angle(const std::vector<double>& slopes, const std::vector<double>& truth) {
     std::vector<double> angles;
     for (size_t i = 0; i < slopes.size(); ++i)
@@ -102,20 +70,20 @@ constexpr double k_visible_angle = 1; // degree
 Result<Answer> ask_normals(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits();
-    if (bench.scene().image().text.text().find("march_field") == std::string::npos)
+    if (!has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take differences of"};
-    const scene::Scene asked = slope_scene(*glsl::hit_scene(bench.scene()));
-    auto in_float = SlopeBench::create(asked, glsl::Precision::single);
+    const FieldQuestion question{k_slope_hit, {{.name = "tidemark_step"}}};
+    auto in_float = FieldBench::create(bench.scene(), question, glsl::Precision::single);
     if (!in_float)
         return Answer{Verdict::not_applicable, "not to be asked: " + to_string(in_float.error())};
-    auto in_double = SlopeBench::create(asked, glsl::Precision::promoted);
+    auto in_double = FieldBench::create(bench.scene(), question, glsl::Precision::promoted);
     if (!in_double)
         return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(in_double.error())};
 
     const Situation view = typical_view();
-    const std::vector<double> truth = in_double->at(1e-6, view);
+    const std::vector<double> truth = slopes(*in_double, 1e-6, view);
     // A picture's filter has steps, and a noise of floats: then there is no slope to be right about.
-    if (const auto own = median_angle(in_double->at(1e-5, view), truth); own && *own > 0.1)
+    if (const auto own = median_angle(slopes(*in_double, 1e-5, view), truth); own && *own > 0.1)
         return Answer{
             Verdict::not_applicable,
             fmt::format("the field is not smooth: in double its slopes over 1e-5 and 1e-6 are {:.2g} "
@@ -124,7 +92,7 @@ Result<Answer> ask_normals(ProbeBench& bench) {
     double best_step = 0, best = 1e9;
     std::string range;
     for (const double step : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
-        const auto angle = median_angle(in_float->at(step, view), truth);
+        const auto angle = median_angle(slopes(*in_float, step, view), truth);
         if (!angle)
             return Answer{Verdict::not_applicable, "no ray meets the surface"};
         range += fmt::format("{}{:.2g} over {:g}", range.empty() ? "" : ", ", *angle, step);
@@ -134,7 +102,7 @@ Result<Answer> ask_normals(ProbeBench& bench) {
         }
     }
     for (const double step : own_steps(bench.scene())) {
-        const auto angle = median_angle(in_float->at(step, view), truth);
+        const auto angle = median_angle(slopes(*in_float, step, view), truth);
         if (!angle)
             return Answer{
                 Verdict::fail,

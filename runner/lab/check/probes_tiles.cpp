@@ -1,10 +1,9 @@
 // Large pictures are drawn in tiles (render/tile_grid.hpp): whether their seams would show.
+#include "lab/check/picture_gap.hpp"
 #include "lab/check/probes.hpp"
 #include "render/bands.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace tidemark::lab {
 namespace {
@@ -12,14 +11,6 @@ namespace {
 /// Odd, so that tiles stick out on both sides.
 constexpr Extent k_odd{61, 37};
 constexpr Extent k_tile{16, 8};
-
-size_t different_pixels(const image::Image& left, const image::Image& right) {
-    const auto pixel = std::ptrdiff_t(left.row_bytes()) / left.extent.width;
-    size_t count = 0;
-    for (auto a = left.bytes.begin(), b = right.bytes.begin(); a != left.bytes.end(); a += pixel, b += pixel)
-        count += !std::equal(a, a + pixel, b);
-    return count;
-}
 
 } // namespace
 

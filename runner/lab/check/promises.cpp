@@ -21,6 +21,7 @@ constexpr Field k_fields[] = {
     {"most_witness_percent", &Promises::most_witness_percent},
     {"smoothest_jump", &Promises::smoothest_jump},
     {"space_horizon", &Promises::space_horizon},
+    {"largest_slope", &Promises::largest_slope},
 };
 
 std::string names() {

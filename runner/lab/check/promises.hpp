@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct Promises {
     double smoothest_jump = 10; ///< dB that an instant may be less like the next than before and after
     double space_horizon =
         1e3; ///< units from its place up to which a camera sees the same in float and double
+    /// That march_field has along a ray, in its own unit a unit of distance; infinite: the scene states none.
+    double largest_slope = std::numeric_limits<double>::infinity();
     /// What knobs and definitions without a range of their own, or with a wider one, may be set to.
     std::map<std::string, std::pair<double, double>> ranges;
     std::map<std::string, std::string> skip; ///< probe: why it is not asked

@@ -8,14 +8,23 @@
 #include <algorithm>
 
 namespace tidemark::lab {
-namespace {} // namespace
+namespace {
+
+glm::vec4 mouse_of(const Situation& situation) {
+    if (situation.dragged_from)
+        return render::Mouse::dragged(*situation.dragged_from, *situation.mouse, situation.down);
+    return render::Mouse::clicked(situation.mouse->x, situation.mouse->y, situation.down);
+}
+
+} // namespace
 
 render::FrameInputs inputs_of(const Situation& situation, int before) {
     render::FrameInputs inputs;
     inputs.time = situation.time - before * inputs.time_delta;
     inputs.frame = render::frame_at(situation.time, inputs.frame_rate) - before;
     if (situation.mouse)
-        inputs.mouse = render::Mouse::clicked(situation.mouse->x, situation.mouse->y, situation.down);
+        inputs.mouse = mouse_of(situation);
+    inputs.mouse_button.x = situation.mouse && situation.down ? 1 : 0;
     inputs.camera = situation.camera.value_or(render::OrbitCamera{}).matrix();
     return inputs;
 }
@@ -36,9 +45,13 @@ Result<scene::Scene> in_situation(scene::Scene scene, const Situation& situation
 std::string capture_options(const Situation& situation) {
     std::string text = fmt::format("--size {}x{} --time {}", situation.extent.width, situation.extent.height,
                                    situation.time);
-    if (situation.mouse)
-        text += fmt::format(" --mouse {},{}{}", situation.mouse->x, situation.mouse->y,
-                            situation.down ? ",down" : "");
+    if (situation.mouse) {
+        text += fmt::format(" --mouse {},{}", situation.mouse->x, situation.mouse->y);
+        if (const auto& from = situation.dragged_from)
+            text += fmt::format(",{},{}", from->x, from->y);
+        if (situation.down)
+            text += ",down";
+    }
     if (situation.camera)
         text += fmt::format(" --camera {},{},{}", situation.camera->azimuth, situation.camera->elevation,
                             situation.camera->distance);

@@ -20,7 +20,8 @@ struct Situation {
     Extent extent{64, 36};
     double time = 1;                             ///< iTime, seconds
     std::optional<glm::ivec2> mouse{};           ///< the pixel that was clicked; none: never touched
-    bool down = false;                           ///< in the frame of the click
+    std::optional<glm::ivec2> dragged_from{};    ///< where the button was pressed; none: at `mouse` itself
+    bool down = false;                           ///< in the frame of the click; before the drag's end
     std::optional<render::OrbitCamera> camera{}; ///< of scenes that declare iCamera; none: the host's own
     std::vector<Setting> settings{};             ///< of knobs
     std::vector<Setting> definitions{};          ///< of `#define NAME` and `const … NAME`

@@ -155,6 +155,19 @@ TEST_F(Overrides, a_knob_gets_its_value_and_keeps_its_default) {
     EXPECT_EQ(scene.knobs[0].value[0], 2.5);
 }
 
+TEST_F(Overrides, a_channel_of_another_pass_is_named_with_it) {
+    scene.passes.insert(scene.passes.begin(), Pass{.kind = PassKind::buffer, .name = "Buffer A"});
+    EXPECT_EQ(message(override_channel(scene, "Buffer A:1=a:b.png")), "");
+    EXPECT_EQ(scene.passes[0].channels[1].input, ChannelInput(Picture{"a:b.png"}));
+    EXPECT_EQ(scene.image().channels[1].input, ChannelInput(Noise{}));
+    EXPECT_EQ(message(override_channel(scene, scene.image().name + ":1=none")), "");
+    EXPECT_EQ(scene.image().channels[1].input, ChannelInput(Unbound{}));
+    EXPECT_EQ(message(override_channel(scene, "Buffer B:0=none")),
+              "--channel Buffer B:0: the scene has Buffer A, Image");
+    EXPECT_EQ(message(override_channel(scene, "Buffer A:x=none")),
+              "--channel Buffer A:x=none: give it as N=FILE, N=noise or N=none, N from 0 to 9");
+}
+
 TEST_F(Overrides, a_channel_reads_what_it_is_told) {
     EXPECT_EQ(message(override_channel(scene, "0=noise")), "");
     EXPECT_EQ(scene.image().channels[0].input, ChannelInput(Noise{}));

@@ -1,0 +1,63 @@
+#include "cli/check/one_thread.hpp"
+
+#include "cli/check/asked.hpp"
+#include "gl/capabilities.hpp"
+#include "platform/headless_context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+
+namespace tidemark::cli {
+namespace {
+
+Result<image::Image> picture(const scene::Scene& scene, const std::string& device,
+                             const lab::Situation& situation) {
+    const auto context = platform::HeadlessContext::create(device);
+    if (!context)
+        return fail(context.error());
+    return lab::ProbeBench(scene, {}).picture(situation);
+}
+
+/// By their bits: JSON knows no NaN.
+Json told(const image::Image& picture) {
+    Json bits = Json::array();
+    for (const float sample : picture.f32())
+        bits.push_back(std::bit_cast<uint32_t>(sample));
+    return bits;
+}
+
+} // namespace
+
+Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const std::string& device) {
+    return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
+        ::setenv("LP_NUM_THREADS", "0", 1); // none beside the one that asks
+        const auto drawn = picture(scene, device, told_situation(Json::parse(question)));
+        tell(dump(drawn ? told(*drawn) : told(drawn.error())));
+    });
+}
+
+bool counts_threads() {
+    return gl::query_capabilities().renderer.starts_with("llvmpipe");
+}
+
+Result<image::Image> drawn_by(ForkedHelper& painter, const lab::Situation& situation, double seconds) {
+    const auto run = painter.ask(dump(told(situation)), seconds);
+    if (!run)
+        return fail(run.error());
+    if (run->timed_out)
+        return fail(ErrorCode::timed_out, fmt::format("one thread gave up after {:.3g} s", seconds));
+    if (run->output.empty())
+        return fail(ErrorCode::load, fmt::format("the driver crashed (signal {})", run->signal));
+    const Json bits = Json::parse(run->output);
+    if (auto error = told_error(bits))
+        return fail(*std::move(error));
+    image::Image picture(situation.extent, 3, image::SampleType::f32);
+    std::ranges::transform(bits, picture.f32().begin(),
+                           [](const Json& sample) { return std::bit_cast<float>(sample.get<uint32_t>()); });
+    return picture;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,194 @@
+// The bound of slopes that a solver's steps rely on, held against the largest slope that is to be found: of
+// scenes with mainHit whose field is the march_field of shaders/lib/march.glsl.
+#include "lab/check/field_bench.hpp"
+#include "lab/check/probes.hpp"
+#include "lab/check/rays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+/// Looks at sixteen places of a ray: the ray of a pixel of the window tidemark_pixels (low and high corner),
+/// as far as it goes, and of that what is within tidemark_distances. Answers with the steepest: its pixel,
+/// its distance, and the slope there from a difference over tidemark_step to either side. No difference is
+/// steeper than the field somewhere between its ends: what is found is never too much.
+constexpr std::string_view k_steepest_hit = R"(void mainHit(out vec4 hit, in vec2 fragCoord) {
+    vec2 pixel = mix(tidemark_pixels.xy, tidemark_pixels.zw, fragCoord / iResolution.xy);
+    tidemark_own_hit(hit, pixel);
+    float last = hit.x < 0.0 ? tidemark_distances.y : min(hit.x, tidemark_distances.y);
+    float first = min(tidemark_distances.x, last);
+    hit = vec4(pixel, 0.0, -1.0);
+    float before = 0.0;
+    for (int i = 0; i < 32; ++i) { // one call, so that a compiler need not hold two copies of the field
+        float side = (i & 1) == 0 ? -tidemark_step : tidemark_step;
+        float t = mix(first, last, (float(i / 2) + 0.5) / 16.0);
+        float value = march_field(t + side);
+        float slope = abs(value - before) / (2.0 * tidemark_step);
+        if (side > 0.0 && slope > hit.w) {
+            hit.zw = vec2(t, slope);
+        }
+        before = value;
+    }
+}
+)";
+
+struct Steep {
+    double slope = -1;
+    double distance = 0;
+    glm::dvec2 pixel{0};
+    Situation view{};
+};
+
+bool steeper(const Steep& one, const Steep& other) {
+    return one.slope > other.slope;
+}
+
+/// A part of a picture, and of the distances along its rays.
+struct Window {
+    glm::dvec2 low{0}, high{k_ray_extent.width, k_ray_extent.height};
+    double near = 0, far = 0;
+};
+
+/// The window around a place that is `part` of the whole to each side.
+Window around(const Steep& place, const Window& whole, double part) {
+    const glm::dvec2 pixels = part * (whole.high - whole.low);
+    const double distance = part * (whole.far - whole.near);
+    return {glm::max(place.pixel - pixels, whole.low), glm::min(place.pixel + pixels, whole.high),
+            std::max(place.distance - distance, whole.near), std::min(place.distance + distance, whole.far)};
+}
+
+class SlopeSearch {
+public:
+    static Result<SlopeSearch> create(const ProbeBench& bench, double furthest, glsl::Precision precision) {
+        const FieldQuestion question{k_steepest_hit,
+                                     {{.name = "tidemark_pixels", .type = scene::KnobType::vec4},
+                                      {.name = "tidemark_distances", .type = scene::KnobType::vec2},
+                                      {.name = "tidemark_step"}}};
+        auto field = FieldBench::create(bench.scene(), question, precision);
+        if (!field)
+            return fail(std::move(field.error()));
+        return SlopeSearch(*std::move(field), furthest);
+    }
+
+    /// Climbs from the best of all samples of several views.
+    Steep steepest(const std::vector<Situation>& views) {
+        constexpr size_t k_climbs = 3;
+        std::vector<Steep> starts;
+        for (const Situation& view : views)
+            starts.push_back(steepest_in(whole_, view));
+        std::ranges::sort(starts, steeper);
+        starts.resize(std::min(starts.size(), k_climbs));
+        for (Steep& start : starts)
+            start = climbed(start);
+        return std::ranges::min(starts, steeper);
+    }
+
+    /// Every window is half as wide as the one before, and lies around the best place so far.
+    Steep climbed(Steep best) {
+        constexpr int k_rounds = 8;
+        double part = 1.0 / 32;
+        for (int round = 0; round < k_rounds; ++round, part /= 2)
+            best = std::min(best, steepest_in(around(best, whole_, part), best.view), steeper);
+        return best;
+    }
+
+private:
+    SlopeSearch(FieldBench field, double furthest) : field_(std::move(field)) { whole_.far = furthest; }
+
+    Steep steepest_in(const Window& window, const Situation& view) {
+        const double step = 2e-5 * whole_.far;
+        const image::Image image = field_.ask(
+            {{window.low.x, window.low.y, window.high.x, window.high.y}, {window.near, window.far}, {step}},
+            view);
+        Steep best{.view = view};
+        for (size_t i = 0; i < image.extent.pixels(); ++i) {
+            const auto hit = image.f32().subspan(4 * i, 4);
+            if (double(hit[3]) > best.slope)
+                best = {double(hit[3]), double(hit[2]), {hit[0], hit[1]}, view};
+        }
+        return best;
+    }
+
+    FieldBench field_;
+    Window whole_;
+};
+
+std::vector<Situation> views_over_time() {
+    std::vector<Situation> views;
+    for (const double time : {1.0, 10.0, 100.0})
+        for (Situation view : usual_views()) {
+            view.time = time;
+            views.push_back(view);
+        }
+    return views;
+}
+
+/// The distance of the furthest that a ray meets; 0: none meets anything.
+Result<double> furthest_of(ProbeBench& bench, const std::vector<Situation>& views) {
+    double furthest = 0;
+    for (const Situation& view : views) {
+        const auto hits = bench.hits(view);
+        if (!hits)
+            return fail(hits.error());
+        for (const double distance : hits->distance)
+            furthest = std::max(furthest, distance); // never a NaN, which compares as false
+    }
+    return furthest;
+}
+
+Result<image::Image> map_of(ProbeBench& bench, const Steep& place) {
+    const auto hits = bench.hits(place.view);
+    if (!hits)
+        return fail(hits.error());
+    const auto pixel = size_t(std::min(place.pixel.y, k_ray_extent.height - 1.0)) * k_ray_extent.width +
+                       size_t(std::min(place.pixel.x, k_ray_extent.width - 1.0));
+    return ray_map(*hits, k_ray_extent, [pixel](size_t i) { return i == pixel; });
+}
+
+} // namespace
+
+Result<Answer> ask_gradient(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits();
+    if (!has_march_field(bench.scene()))
+        return Answer{Verdict::not_applicable, "the scene has no march_field to take slopes of"};
+    const std::vector<Situation> views = views_over_time();
+    const auto furthest = furthest_of(bench, views);
+    if (!furthest)
+        return fail(furthest.error());
+    if (*furthest == 0 || std::isinf(*furthest))
+        return Answer{Verdict::not_applicable, "no ray meets the surface"};
+    auto search = SlopeSearch::create(bench, *furthest, glsl::Precision::single);
+    if (!search)
+        return Answer{Verdict::not_applicable, "not to be asked: " + to_string(search.error())};
+    Steep found = search->steepest(views);
+    const double stated = bench.promises().largest_slope;
+    double slack = 1.05; // over so short a step the roundings of a field in floats are slopes, too
+    if (found.slope > stated)
+        if (auto exact = SlopeSearch::create(bench, *furthest, glsl::Precision::promoted)) {
+            found.slope = -1;
+            found = exact->climbed(found);
+            slack = 1.001;
+        }
+    Answer answer{Verdict::pass, fmt::format("the field's slope along a ray reaches {:.3g}", found.slope)};
+    answer.sentence += std::isinf(stated) ? std::string("; the scene states no bound, largest_slope,")
+                                          : fmt::format(" of the {:g} that the scene states,", stated);
+    answer.sentence += fmt::format(" at {:g} s, pixel {:.2f},{:.2f}, distance {:.4g}", found.view.time,
+                                   found.pixel.x, found.pixel.y, found.distance);
+    if (found.slope > stated * slack) {
+        answer.verdict = Verdict::fail;
+        answer.sentence += ": steps that trust it are too long";
+        answer.where = found.view;
+        auto map = map_of(bench, found);
+        if (!map)
+            return fail(std::move(map.error()));
+        answer.picture = *std::move(map);
+    }
+    return answer;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,68 @@
+#include "cli/forked.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace tidemark::cli {
+namespace {
+
+Result<ForkedHelper> echo() {
+    return ForkedHelper::start([](const std::string& question, const Tell& tell) {
+        tell("asked: " + question);
+        tell(question == "crash" ? "before" : "done");
+        if (question == "crash")
+            ::raise(SIGKILL);
+        if (question == "sleep")
+            ::sleep(60);
+    });
+}
+
+TEST(Forked, WhatWasToldSurvives) {
+    const auto run = run_forked([](const Tell& tell) { tell("one"), tell("two"); }, 60);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->output, "one\ntwo\n");
+    EXPECT_EQ(run->signal, 0);
+    EXPECT_FALSE(run->timed_out);
+}
+
+TEST(Forked, AHelperAnswersItsQuestion) {
+    auto helper = echo();
+    ASSERT_TRUE(helper);
+    const auto run = helper->ask("how deep?", 60);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->output, "asked: how deep?\ndone\n");
+}
+
+TEST(Forked, AHelperThatCrashesIsSaid) {
+    auto helper = echo();
+    const auto run = helper->ask("crash", 60);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->output, "asked: crash\nbefore\n");
+    EXPECT_EQ(run->signal, SIGKILL);
+}
+
+TEST(Forked, AHelperHasItsTime) {
+    auto helper = echo();
+    const auto run = helper->ask("sleep", 0.2);
+    ASSERT_TRUE(run);
+    EXPECT_TRUE(run->timed_out);
+    EXPECT_EQ(run->output, "asked: sleep\ndone\n");
+}
+
+TEST(Forked, AHelperThatNobodyAskedEnds) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    {
+        auto helper = ForkedHelper::start([](const std::string&, const Tell&) {});
+        ASSERT_TRUE(helper);
+        ::close(ends[1]); // the helper has the last one
+    }
+    char byte = 0;
+    EXPECT_EQ(::read(ends[0], &byte, 1), 0);
+    ::close(ends[0]);
+}
+
+} // namespace
+} // namespace tidemark::cli
