@@ -166,9 +166,11 @@ Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions
          .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
          .tile = *tile});
     if (renderer && options.tile && !renderer->tiles())
-        return fail(ErrorCode::usage,
-                    fmt::format("--tile: {} must be drawn whole: it is a cube, or a pass reads it",
-                                renderer->shown_pass().name));
+        return fail(
+            ErrorCode::usage,
+            fmt::format(
+                "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
+                renderer->shown_pass().name));
     return renderer;
 }
 
