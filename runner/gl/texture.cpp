@@ -33,6 +33,12 @@ Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, in
     return new_texture(GL_TEXTURE_3D, extent, depth, internal_format, levels);
 }
 
+bool has_storage(const Texture& texture) {
+    GLint immutable = 0; // becomes so by glTextureStorage, when that succeeds
+    glGetTextureParameteriv(texture.id(), GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
+    return immutable != 0;
+}
+
 void upload(const Texture& texture, int layer, GLenum format, GLenum type,
             std::span<const std::byte> pixels) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

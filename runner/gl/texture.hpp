@@ -25,6 +25,9 @@ Texture make_texture(Extent extent, GLenum internal_format, int levels);
 Texture make_cube_texture(int side, GLenum internal_format, int levels);
 Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, int levels);
 
+/// Whether the driver had room for it. One without reads as black.
+bool has_storage(const Texture& texture);
+
 /// Fills level 0 from tightly packed rows, row 0 first (`layer`: a cube's face, a volume's slice). Other
 /// levels are left to `make_mipmaps`.
 void upload(const Texture& texture, int layer, GLenum format, GLenum type, std::span<const std::byte> pixels);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
 
 namespace tidemark::gl {
 namespace {
@@ -55,10 +58,19 @@ Numbers repacked(std::span<const double> values, size_t width, size_t per_elemen
     return numbers;
 }
 
+/// Whole numbers wrap as GLSL's own do; what is none, or beyond 64 bits, is 0.
+template <class T>
+T number_of(double value) {
+    if constexpr (std::is_floating_point_v<T>)
+        return T(value);
+    else
+        return std::abs(value) < 0x1p63 ? T(int64_t(value)) : T(0);
+}
+
 template <class T>
 std::array<T, k_most_numbers> converted(const Numbers& values) {
     std::array<T, k_most_numbers> numbers{};
-    std::transform(values.begin(), values.end(), numbers.begin(), [](double value) { return T(value); });
+    std::transform(values.begin(), values.end(), numbers.begin(), number_of<T>);
     return numbers;
 }
 

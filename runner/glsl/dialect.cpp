@@ -1,7 +1,5 @@
 #include "glsl/dialect.hpp"
 
-#include "glsl/pass_reading.hpp"
-
 #include <fmt/format.h>
 
 namespace tidemark::glsl {
@@ -19,14 +17,6 @@ std::string to_string(const Dialect& dialect) {
                                      : ", in double precision, hashes too";
     return fmt::format("{}{}{}{}{}", version, main, dialect.initialise ? "" : ", nothing initialised",
                        precision, dialect.joins_overloads ? ", built-in functions overloaded" : "");
-}
-
-std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass) {
-    return PassReading(scene, pass).dialects(Precision::single);
-}
-
-std::vector<Diagnostic> entry_point_problems(const scene::Scene& scene, const scene::Pass& pass) {
-    return PassReading(scene, pass).entry_point_problems();
 }
 
 } // namespace tidemark::glsl

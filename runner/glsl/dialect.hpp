@@ -51,16 +51,9 @@ struct Dialect {
 /// "330 core", with what else is unusual: "300 es, main last".
 std::string to_string(const Dialect& dialect);
 
-/// The dialects worth offering for `pass` in single precision, the likeliest first; never empty. The first
-/// that links is the one: when none does, the first one's messages are the best.
-std::vector<Dialect> dialects_to_try(const scene::Scene& scene, const scene::Pass& pass);
-
 /// After the driver refused `source` with `log`: kinds for the channels that nobody specified, the likeliest
 /// first, cubes before volumes. Empty when the log does not complain about samplers.
 std::vector<ChannelKinds> channel_kinds_to_try(const scene::Scene& scene, const scene::Pass& pass,
                                                const text::MappedText& source, std::string_view log);
-
-/// What no dialect can cure: no entry point, or several (tabs pasted into one file), each with its place.
-std::vector<Diagnostic> entry_point_problems(const scene::Scene& scene, const scene::Pass& pass);
 
 } // namespace tidemark::glsl

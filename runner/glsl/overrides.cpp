@@ -1,10 +1,10 @@
 #include "glsl/overrides.hpp"
 
+#include "base/hint.hpp"
 #include "glsl/syntax/preprocess.hpp"
 #include "text/tokens.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <unordered_set>
@@ -93,12 +93,11 @@ std::vector<Definition> find_definitions(const std::vector<Token>& tokens) {
     return found;
 }
 
-Error no_such_definition(std::string_view name, std::vector<std::string> names) {
-    const std::string nearest = nearest_name(name, names);
-    const std::string hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
-                             : names.empty()  ? std::string("it defines none")
-                                              : fmt::format("it has {}", fmt::join(names, ", "));
-    return {ErrorCode::usage, fmt::format("the scene has no #define or const '{}': {}", name, hint), {}};
+Error no_such_definition(std::string_view name, const std::vector<std::string>& names) {
+    return {ErrorCode::usage,
+            fmt::format("the scene has no #define or const '{}': {}", name,
+                        hint_for(name, names, "it defines none")),
+            {}};
 }
 
 /// The texts that authors write: Common, which stands in front of the others, first.

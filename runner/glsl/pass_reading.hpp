@@ -26,17 +26,21 @@ public:
     PassReading(const PassReading&) = delete;
     PassReading& operator=(const PassReading&) = delete;
 
-    /// As dialects_to_try and entry_point_problems for the same pass. Hashes that cannot stay in floats are
-    /// promoted where nothing else links.
+    /// The dialects worth offering, the likeliest first; never empty. The first that links is the one: when
+    /// none does, the first one's messages are the best. Hashes that cannot stay in floats are promoted where
+    /// nothing else links.
     std::vector<Dialect> dialects(Precision precision) const;
     /// Fails (ErrorCode::load) where something has no double form; never in single precision.
     Result<Assembly> assemble(const Dialect& dialect) const;
+    /// What no dialect can cure: no entry point, or several (tabs pasted into one file), each with its place.
     std::vector<Diagnostic> entry_point_problems() const;
     /// Where a name of the text stands first.
     std::optional<SourceLocation> place_of(std::string_view name) const;
     /// What the site would compile of it: GLSL ES 3.00, and nothing of the text changed. Knobs are the
     /// constants that `export` makes of them.
     text::MappedText site_source() const;
+    /// Whether pixels may keep what was drawn there before.
+    bool discards() const { return facts_.discards; }
 
 private:
     const scene::Scene& scene_;

@@ -72,6 +72,7 @@ public:
             read_macro(macro);
         for (at_ = 0; at_ < code().size(); ++at_)
             read_code();
+        result_.discards = result_.discards || macros_mention("discard");
         return std::move(result_);
     }
 
@@ -148,6 +149,8 @@ private:
             read_uniform();
         else if (token.is("out") && depth_ == 0 && !peek(-1).is("(") && !peek(-1).is(","))
             read_output();
+        else if (token.is("discard"))
+            result_.discards = true;
         else if (is_word(-1) && peek(1).is("("))
             read_function();
         else if (depth_ == 0 && parentheses_ == 0 && is_one_of(peek(-1).text, k_plain_types))

@@ -53,6 +53,7 @@ struct Survey {
     bool sound_takes_time_alone = false; ///< `mainSound(float time)`
     std::vector<size_t> mains;           ///< the name of each `void main()` of the author's own
     bool main_is_macro = false;
+    bool discards = false;       ///< or may do so
     std::string_view own_output; ///< `out vec4 NAME;`
     std::string_view own_output_type;
 

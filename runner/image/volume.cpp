@@ -1,6 +1,7 @@
 #include "image/volume.hpp"
 
 #include "base/file.hpp"
+#include "image/byte_order.hpp"
 
 #include <fmt/format.h>
 
@@ -13,13 +14,6 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view k_signature = "BIN\0"sv;
 constexpr size_t k_header = 20;
-
-uint32_t little_endian(std::string_view file, size_t at, size_t bytes) {
-    uint32_t value = 0;
-    for (size_t i = bytes; i-- > 0;)
-        value = value << 8 | uint8_t(file[at + i]);
-    return value;
-}
 
 } // namespace
 

@@ -1,9 +1,9 @@
 #include "lab/setting.hpp"
 
+#include "base/hint.hpp"
 #include "glsl/overrides.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -36,12 +36,9 @@ Error no_such_name(const scene::Scene& scene, std::string_view name) {
     std::vector<std::string> names = glsl::definition_names(scene);
     for (const scene::Knob& knob : scene.knobs)
         names.push_back(knob.name);
-    const std::string nearest = nearest_name(name, names);
-    const std::string hint = !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
-                             : names.empty()  ? std::string("it has none at all")
-                                              : fmt::format("it has {}", fmt::join(names, ", "));
     return {ErrorCode::usage,
-            fmt::format("the scene has no #iUniform, #define or const '{}': {}", name, hint),
+            fmt::format("the scene has no #iUniform, #define or const '{}': {}", name,
+                        hint_for(name, names, "it has none at all")),
             {}};
 }
 

@@ -262,6 +262,14 @@ private:
     int levels_;
 };
 
+tl::unexpected<Error> refuse(const gl::Texture& texture) {
+    while (glGetError() != GL_NO_ERROR) { // is told here
+    }
+    return fail(ErrorCode::load,
+                fmt::format("this driver has no room for a texture of {}x{}x{}; give a smaller one",
+                            texture.extent.width, texture.extent.height, texture.depth));
+}
+
 } // namespace
 
 Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& channel) {
@@ -273,6 +281,8 @@ Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& ch
     if (known != entries_.end())
         return Index(known - entries_.begin());
     auto loaded = std::visit(Loader(channel.sampling), channel.input);
+    if (loaded && !gl::has_storage(loaded->texture))
+        loaded = refuse(loaded->texture);
     if (!loaded && !channel.where.file.empty()) // say which directive asked for it
         return fail(error_at(channel.where, loaded.error().message));
     if (!loaded)

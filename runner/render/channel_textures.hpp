@@ -54,8 +54,6 @@ private:
         Edition edition = 0;
     };
 
-    Result<Entry> make_entry(const scene::Channel& channel) const;
-
     std::vector<Entry> entries_;
 };
 

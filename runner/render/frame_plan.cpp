@@ -23,8 +23,9 @@ bool needs_texture(const scene::Channel& channel, int number, const gl::Reflecti
 class Planner {
 public:
     Planner(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
-            const Extras& extras)
-        : scene_(scene), reflections_(reflections), extras_(extras), needed_(scene.passes.size(), false) {
+            const Extras& extras, const std::vector<size_t>& discarding)
+        : scene_(scene), reflections_(reflections), extras_(extras), discarding_(discarding),
+          needed_(scene.passes.size(), false) {
         plan_.targets.resize(scene.passes.size());
     }
 
@@ -38,6 +39,9 @@ public:
         for (const PlannedPass& planned : plan_.passes)
             for (const int channel : planned.channels)
                 plan_read(planned.pass, scene_.passes[planned.pass].channels[size_t(channel)]);
+        for (const size_t pass : discarding_)
+            if (needed_[pass])
+                plan_discarding(pass);
         for (const PlannedPass& planned : plan_.passes)
             if (scene_.passes[planned.pass].kind != scene::PassKind::image)
                 add_extras(plan_.targets[planned.pass]);
@@ -76,6 +80,12 @@ private:
         plan_.feedback = plan_.feedback || frame_ref(reader, output->pass) == FrameRef::previous;
     }
 
+    void plan_discarding(size_t pass) {
+        plan_.feedback = true;
+        if (scene_.passes[pass].kind != scene::PassKind::image)
+            plan_.targets[pass].two_textures = true;
+    }
+
     void add_extras(TargetPlan& target) const {
         target.mipmaps = target.mipmaps || extras_.mipmaps;
         target.two_textures = target.two_textures || extras_.second_textures;
@@ -84,6 +94,7 @@ private:
     const scene::Scene& scene_;
     const std::vector<std::optional<gl::Reflection>>& reflections_;
     const Extras extras_;
+    const std::vector<size_t>& discarding_;
     std::vector<bool> needed_;
     FramePlan plan_;
 };
@@ -101,8 +112,8 @@ FrameRef frame_ref(size_t reader, size_t source) {
 }
 
 FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
-                     size_t shown, const Extras& extras) {
-    return Planner(scene, reflections, extras).plan(shown);
+                     size_t shown, const Extras& extras, const std::vector<size_t>& discarding) {
+    return Planner(scene, reflections, extras, discarding).plan(shown);
 }
 
 } // namespace tidemark::render

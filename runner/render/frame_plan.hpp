@@ -31,7 +31,7 @@ struct PlannedPass {
 
 /// What the output of a pass is kept in.
 struct TargetPlan {
-    bool two_textures = false; ///< the pass reads its own last frame while it draws
+    bool two_textures = false; ///< the pass reads its own last frame while it draws, or keeps pixels of it
     bool mipmaps = false;      ///< some reader filters between mipmaps
 };
 
@@ -48,8 +48,10 @@ struct FramePlan {
 FrameRef frame_ref(size_t reader, size_t source);
 
 /// The passes that `shown` needs, itself included. `reflections` has one entry for each pass of the scene;
-/// those without (not linked) are not drawn.
+/// those without (not linked) are not drawn. `discarding`: the passes whose texts say `discard`, which leaves
+/// what the target held: of a buffer, as on the site, the frame before the last, because its two textures
+/// take turns; of Image the last one.
 FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
-                     size_t shown, const Extras& extras = {});
+                     size_t shown, const Extras& extras = {}, const std::vector<size_t>& discarding = {});
 
 } // namespace tidemark::render

@@ -16,7 +16,7 @@ using Edition = uint64_t;
 /// All that the pixels of a pass depend on, besides its program and the place it is drawn into.
 struct PassInputs {
     UniformValues uniforms;
-    std::vector<Edition> channels; ///< of the textures that it reads, in a fixed order
+    std::vector<Edition> channels; ///< of the textures that it reads or keeps pixels of, in a fixed order
 
     bool operator==(const PassInputs&) const = default;
 };

@@ -83,13 +83,13 @@ private:
             if (special.left_out.anything()) {
                 if (auto program = link(dialect, special.source))
                     return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes),
-                                      std::move(special.left_out)};
+                                      std::move(special.left_out), reading_.discards()};
                 special.left_out = {.kept_whole = "the driver does not take the shorter text"};
             }
             auto program = link(dialect, assembly->source);
             if (program)
                 return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes),
-                                  std::move(special.left_out)};
+                                  std::move(special.left_out), reading_.discards()};
             if (!first_)
                 first_ = Refusal{std::move(assembly->source), std::move(program.error())};
         }

@@ -17,6 +17,7 @@ struct LinkedPass {
     glsl::Dialect dialect;
     std::vector<glsl::KeptHash> hashes{}; ///< in floats, in a program of doubles
     glsl::LeftOut left_out{};
+    bool discards = false; ///< as glsl::PassReading has it
 };
 
 /// How a pass is compiled.

@@ -1,5 +1,6 @@
 #include "render/renderer.hpp"
 
+#include "glsl/pass_reading.hpp"
 #include "render/link_pass.hpp"
 
 #include <fmt/format.h>
@@ -105,7 +106,7 @@ std::vector<bool> Renderer::reachable() const {
     return found;
 }
 
-/// Its picture is for the eye alone, and the last one that a frame makes.
+/// Its picture is for the eye alone, the last one that a frame makes, and keeps nothing for the next frame.
 bool Renderer::can_be_tiled() const {
     const std::vector<bool> drawn = reachable();
     for (size_t i = 0; i < drawn.size(); ++i) {
@@ -116,14 +117,16 @@ bool Renderer::can_be_tiled() const {
         if (drawn[i] && (i > shown_ || std::ranges::any_of(scene_.passes[i].channels, reads_shown)))
             return false;
     }
-    return scene_.passes[shown_].kind != PassKind::cubemap;
+    return scene_.passes[shown_].kind != PassKind::cubemap &&
+           !glsl::PassReading(scene_, scene_.passes[shown_]).discards();
 }
 
 Result<void> Renderer::compile() {
-    if (!can_be_tiled())
+    if (tile_ && !can_be_tiled())
         tile_.reset();
     passes_.resize(scene_.passes.size());
     std::vector<std::optional<gl::Reflection>> reflections(scene_.passes.size());
+    std::vector<size_t> discarding;
     const std::vector<bool> wanted = reachable();
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
@@ -139,8 +142,11 @@ Result<void> Renderer::compile() {
         passes_[i].program = std::move(program);
         passes_[i].hashes = std::move(linked->hashes);
         passes_[i].left_out = std::move(linked->left_out);
+        passes_[i].discards = linked->discards;
+        if (linked->discards)
+            discarding.push_back(i);
     }
-    plan_ = plan_frame(scene_, reflections, shown_, extras_);
+    plan_ = plan_frame(scene_, reflections, shown_, extras_, discarding);
     return {};
 }
 
@@ -161,9 +167,9 @@ Result<void> Renderer::make_targets() {
         auto target = make_target(planned.pass);
         if (!target) {
             if (planned.pass != shown_ || !can_be_tiled())
-                target.error().message +=
-                    fmt::format("; {} cannot be drawn in tiles, because a pass reads it",
-                                scene_.passes[planned.pass].name);
+                target.error().message += fmt::format(
+                    "; {} cannot be drawn in tiles, because a pass reads it or it discards pixels",
+                    scene_.passes[planned.pass].name);
             return fail(std::move(target.error()));
         }
         targets_[planned.pass] = *std::move(target);
@@ -262,7 +268,6 @@ std::optional<TileGrid> Renderer::tiles() const {
 void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile) const {
     const gl::Program& program = *passes_[shown_].program;
     const gl::RenderTarget& into = targets_[shown_].latest();
-    gl::clear(into); // of what a pixel that is discarded would show of the tile before
     const CompiledPass& pass = passes_[shown_];
     pass.uniforms.upload(program, uniforms_of(shown_, pass.uniforms, inputs, extent_));
     bind_textures(pass);
@@ -345,6 +350,8 @@ void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
     PassInputs reads{uniforms_of(index, pass.uniforms, inputs, into.extent()), {}};
     for (const BoundChannel& channel : pass.channels)
         reads.channels.push_back(edition_of(channel));
+    if (pass.discards && &into != &target.latest()) // else what is discarded stays as it is shown
+        reads.channels.push_back(target.edition());
     if (!extras_.unchanged && pass.drawn.holds(reads, target.edition()))
         return;
     pass.uniforms.upload(*pass.program, reads.uniforms);

@@ -140,6 +140,7 @@ private:
         std::vector<glsl::KeptHash> hashes;
         LastDrawing drawn;
         glsl::LeftOut left_out;
+        bool discards = false; ///< a pixel may keep what an earlier frame drew there
     };
 
     Result<void> choose_pass(const std::string& name);

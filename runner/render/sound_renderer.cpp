@@ -11,6 +11,17 @@
 
 namespace tidemark::render {
 
+namespace {
+
+/// The site binds pictures and volumes for a Sound pass. What is another one in another frame has none here.
+bool is_heard(const scene::ChannelInput& input) {
+    return !std::holds_alternative<scene::PassOutput>(input) &&
+           !std::holds_alternative<scene::Keyboard>(input) && !std::holds_alternative<scene::Music>(input) &&
+           !std::holds_alternative<scene::Video>(input);
+}
+
+} // namespace
+
 int SoundRenderer::samples_in(int rows) {
     return glsl::k_sound_tile * rows;
 }
@@ -45,7 +56,7 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Dat
         if (!renderer.program_.reflection().has(fmt::format("iChannel{}", number)))
             continue;
         scene::Channel channel = pass->channels[size_t(number)];
-        if (std::holds_alternative<scene::PassOutput>(channel.input)) // pictures are not there to be heard
+        if (!is_heard(channel.input))
             channel.input = scene::Unbound{texture_kind(scene, channel.input)};
         auto bound = make_channel(renderer.program_, number, channel, renderer.textures_);
         if (!bound)

@@ -1,5 +1,7 @@
 #include "scene/knob.hpp"
 
+#include "base/hint.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -128,16 +130,11 @@ Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name) {
         std::find_if(knobs.begin(), knobs.end(), [&](const Knob& knob) { return knob.name == name; });
     if (found != knobs.end())
         return &*found;
-    if (knobs.empty())
-        return fail(ErrorCode::usage,
-                    fmt::format("the scene has no knob '{}': it declares none with #iUniform", name));
     std::vector<std::string> names;
     for (const Knob& knob : knobs)
         names.push_back(knob.name);
-    const std::string nearest = nearest_name(name, names);
-    const std::string hint = nearest.empty() ? fmt::format("it has {}", fmt::join(names, ", "))
-                                             : fmt::format("did you mean '{}'?", nearest);
-    return fail(ErrorCode::usage, fmt::format("the scene has no knob '{}': {}", name, hint));
+    return fail(ErrorCode::usage, fmt::format("the scene has no knob '{}': {}", name,
+                                              hint_for(name, names, "it declares none with #iUniform")));
 }
 
 std::string to_string(const Knob& knob, const KnobValue& value) {

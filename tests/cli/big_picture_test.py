@@ -83,7 +83,7 @@ class Sizes(BigPicture):
                          self.report(*options)["frames"][0]["sha256"])
         self.expect_failure_like(["capture", "scene", "--size", "100000x8"], 2,
                                  r"tidemark: error: --size 100000x8: this driver draws at most \d+ pixels on a side; "
-                                 r"Buffer A cannot be drawn in tiles, because a pass reads it")
+                                 r"Buffer A cannot be drawn in tiles, because a pass reads it or it discards pixels")
 
 
 class Refusals(BigPicture):

@@ -279,6 +279,17 @@ class Specialised(ProgramTest):
         self.assertEqual(frames, self.drawn("--plain"))
         self.assertNotEqual(frames[:160 * 90 * 3], frames[-160 * 90 * 3:])
 
+    def test_a_trial_sees_the_mouse_of_the_sequence(self):
+        self.write("a.glsl", "#iUniform float power = 4.0 in { 1.0, 9.0 }\n" # as a constant: a few products
+                             "void mainImage(out vec4 c, in vec2 p) {\n"
+                             "    float waves = pow(fract(p.x * 0.37 + 0.1), power);\n"
+                             "    c = vec4(iMouse.x > 1.0 ? fract(1e6 * waves) : 0.0);\n}\n")
+        self.write("hand.txt", "0 press left 3 2\n")
+        trial = ["capture", "a.glsl", "--size", "16x4", "-o", "a.png", "--allow-difference", "0"]
+        self.assertEqual(self.succeed(*trial).stderr, "wrote a.png\n")
+        self.assertIn("not specialised: it would differ from the plain program by ",
+                      self.succeed(*trial, "--input", "hand.txt").stderr)
+
     def test_plain_compiles_what_nobody_calls(self):
         self.write("a.glsl", "float unused() { return 1.0; }\nfloat broken() { return undeclared; }\n" + self.SCENE)
         self.drawn()

@@ -206,6 +206,18 @@ class Json(CaptureTest):
             self.assertEqual((self.folder / "alone.png").read_bytes(),
                              (self.folder / f"s{frame}.png").read_bytes())
 
+    def test_discarded_pixels_are_those_of_the_frames_before(self):
+        self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                                "    if (iFrame == 1 && p.x < 3.0)\n        discard;\n"
+                                "    c = vec4(1.0, float(iFrame) * 0.5, 0.0, 1.0);\n}\n")
+        sequence = json.loads(self.capture("--frames", "0-1", "-o", "s%d.png", "--json").stdout)["frames"]
+        alone = json.loads(self.capture("--frame", "1", "-o", "alone.png", "--json").stdout)["frames"]
+        self.assertEqual(alone[0]["sha256"], sequence[1]["sha256"])
+        self.assertEqual(self.picture("alone.png").pixel(0, 0)[:3], (255, 0, 0))
+        self.expect_failure(["capture", "wave.glsl", *SIZE, "--tile", "2"], 2,
+                            "tidemark: error: --tile: Image must be drawn whole: it is a cube, a pass reads it, "
+                            "or it discards pixels")
+
     def test_hash_of_a_float_picture_is_of_its_floats(self):
         self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x, -p.y, 1000.25, 0.0); }\n")
         report = json.loads(self.capture("-o", "a.exr", "--depth", "float", "--json").stdout)

@@ -242,6 +242,26 @@ TEST_F(ChangedTest, discarded_pixels_stay_what_they_were) {
         draw(clicked(at(0), x, x));
 }
 
+/// The two textures of a buffer take turns: what is discarded shows the frame before the last.
+TEST_F(ChangedTest, a_buffer_that_discards_keeps_what_the_site_keeps) {
+    open({{"buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
+                            "    if (p.x < iMouse.x) discard;\n    c = vec4(iMouse.y);\n}\n"},
+          {"image.glsl",
+           "#iChannel0 \"buffer_a.glsl\"\n"
+           "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n"}});
+    EXPECT_TRUE(sparing_->plan().feedback);
+    const auto shown = [&](float x, float y) {
+        draw(clicked(at(0), x, y));
+        return floats_at(sparing_->read_floats(0), 0, 0)[0];
+    };
+    EXPECT_EQ(shown(0, 1), 1);
+    EXPECT_EQ(shown(9, 2), 0);
+    EXPECT_EQ(shown(9, 2), 1);
+    EXPECT_EQ(shown(0, 3), 3);
+    EXPECT_EQ(shown(9, 3), 1);
+    EXPECT_EQ(shown(9, 3), 3);
+}
+
 TEST_F(ChangedTest, warming_up_draws_nothing_that_stays) {
     open_scene(scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 1.0, 1.0); }"));
     both([](Renderer& renderer) { renderer.warm_up(at(0)); });
@@ -309,13 +329,13 @@ TEST_F(ChangedTest, whatever_happens_nobody_can_tell) {
                             "void mainImage(out vec4 c, in vec2 p) {\n"
                             "    c = 0.5 * at(iChannel0, p) + textureLod(iChannel1, p / 5.0, 1.5);\n}\n"},
           {"buffer_c.glsl", "#iChannel0 \"keyboard\"\nvoid mainImage(out vec4 c, in vec2 p) {\n"
-                            "    if (p.y < iMouse.y) discard;\n"
                             "    c = vec4(p, texelFetch(iChannel0, ivec2(65, 0), 0).x, iMouse.x);\n}\n"},
           {"buffer_d.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(floor(iTime), p, 1.0); }"},
-          {"image.glsl", "#iChannel0 \"buffer_a.glsl\"\n#iChannel1 \"buffer_b.glsl\"\n"
-                         "#iChannel2 \"buffer_c.glsl\"\n#iChannel3 \"buffer_d.glsl\"\n"
-                         "void mainImage(out vec4 c, in vec2 p) {\n    c = at(iChannel0, p) - 0.1 * "
-                         "at(iChannel1, p) + at(iChannel2, p) * at(iChannel3, p);\n}\n"}});
+          {"image.glsl",
+           "#iChannel0 \"buffer_a.glsl\"\n#iChannel1 \"buffer_b.glsl\"\n"
+           "#iChannel2 \"buffer_c.glsl\"\n#iChannel3 \"buffer_d.glsl\"\n"
+           "void mainImage(out vec4 c, in vec2 p) {\n    if (p.y < iMouse.y) discard;\n"
+           "    c = at(iChannel0, p) - 0.1 * at(iChannel1, p) + at(iChannel2, p) * at(iChannel3, p);\n}\n"}});
     std::mt19937 random(20261121);
     const auto chance = [&](int one_in) { return random() % unsigned(one_in) == 0; };
     const auto some = [&](int below) { return float(random() % unsigned(below)); };

@@ -7,11 +7,11 @@
 #include "glsl/driver_log.hpp"
 #include "glsl/pass_reading.hpp"
 #include "platform/headless_context.hpp"
+#include "support/cases.hpp"
 #include "text/mapped_text.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -21,15 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path k_folder = fs::path(TIDEMARK_SOURCE_DIR) / "tests/cases/dialect";
-
-std::vector<std::string> case_names() {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(k_folder))
-        if (entry.path().extension() == ".glsl")
-            names.push_back(entry.path().stem());
-    std::sort(names.begin(), names.end());
-    return names;
-}
 
 struct Case {
     scene::Scene scene;
@@ -147,7 +138,7 @@ TEST_P(DialectCase, links_and_draws_in_double_precision) {
     expect_to_link_and_draw(Precision::promoted);
 }
 
-INSTANTIATE_TEST_SUITE_P(Text, DialectCase, testing::ValuesIn(case_names()),
+INSTANTIATE_TEST_SUITE_P(Text, DialectCase, testing::ValuesIn(case_names(k_folder)),
                          [](const auto& each) { return each.param; });
 
 } // namespace

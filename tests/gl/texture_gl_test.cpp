@@ -241,5 +241,12 @@ TEST_F(NoiseTest, has_mipmaps_whose_last_is_the_mean) {
     EXPECT_NEAR(last[1], 0.5, 0.02);
 }
 
+/// 128 GiB: more than llvmpipe takes for a texture, and than other drivers have.
+TEST_F(TextureTest, storage_that_the_driver_does_not_have_is_noticed) {
+    EXPECT_TRUE(gl::has_storage(gl::make_volume_texture({4, 4}, 4, GL_RGBA32F, 1)));
+    EXPECT_FALSE(gl::has_storage(gl::make_volume_texture({2048, 2048}, 2048, GL_RGBA32F, 1)));
+    EXPECT_EQ(glGetError(), GLenum(GL_OUT_OF_MEMORY));
+}
+
 } // namespace
 } // namespace tidemark::render

@@ -107,11 +107,14 @@ TEST_F(TilesTest, each_scene_that_comes_along) {
     }
 }
 
-TEST_F(TilesTest, a_discarded_pixel_shows_nothing_of_another_tile) {
-    expect_same(scene_of("void mainImage(out vec4 c, in vec2 p) {\n"
-                         "    if (mod(floor(p.x / 3.0) + floor(p.y / 5.0), 2.0) < 1.0) discard;\n"
-                         "    c = vec4(p / iResolution.xy, 1.0, 1.0);\n}\n"),
-                {40, 30}, {8, 8});
+TEST_F(TilesTest, a_picture_that_keeps_pixels_of_the_frame_before_is_drawn_whole) {
+    const auto tiled = [&](const char* statement) {
+        const std::string text = "void mainImage(out vec4 c, in vec2 p) { " + std::string(statement) +
+                                 " c = vec4(p / iResolution.xy, 1.0, 1.0); }\n";
+        return make(scene_of(text), {40, 30}, Extent{8, 8}, {}).tiles().has_value();
+    };
+    EXPECT_FALSE(tiled("if (p.x < 3.0 && iFrame > 0) discard;"));
+    EXPECT_TRUE(tiled("// discard;\n"));
 }
 
 TEST_F(TilesTest, buffers_stay_whole_and_keep_their_frames) {
@@ -143,7 +146,8 @@ TEST_F(TilesTest, a_pass_that_somebody_reads_is_drawn_whole) {
     EXPECT_EQ(refused.error().code, ErrorCode::usage);
     EXPECT_THAT(
         refused.error().message,
-        testing::EndsWith(fmt::format("{} cannot be drawn in tiles, because a pass reads it", what.pass)));
+        testing::EndsWith(fmt::format(
+            "{} cannot be drawn in tiles, because a pass reads it or it discards pixels", what.pass)));
 }
 
 TEST_F(TilesTest, every_version_knows_the_tile) {

@@ -95,6 +95,12 @@ TEST_F(UniformTest, uniforms_that_the_author_declares_otherwise_get_what_fits) {
     EXPECT_EQ(value("vec2 iMouse", "iMouse.x + 100.0 * iMouse.y"), 2010.0f);
     EXPECT_EQ(value("vec3 iMouse", "iMouse.z"), 30.0f);
     EXPECT_EQ(value("ivec4 iMouse", "float(iMouse.w)"), -40.0f);
+    EXPECT_EQ(value("uvec4 iMouse", "float(iMouse.w == uint(-40))"), 1.0f);
+    for (const double none : {1e300, -1e300, double(INFINITY), double(NAN)}) {
+        inputs.time = none;
+        EXPECT_EQ(value("int iTime", "float(iTime)"), 0.0f) << none;
+        EXPECT_EQ(value("uint iTime", "float(iTime)"), 0.0f) << none;
+    }
     EXPECT_EQ(value("int iSampleRate", "float(iSampleRate)"), 44100.0f);
     EXPECT_EQ(value("float iChannelTime[2]", "iChannelTime[1]"), 0.0f);
 }

@@ -109,10 +109,17 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
 /// In fewer frames a trial of another program does not pay.
 constexpr size_t k_frames_worth_a_trial = 64;
 
-/// A trial looks at the first frame that is drawn and at the last.
+/// A trial looks at the first frame that is drawn and at the last, as the sequence sees them but for what
+/// buffers hold: they are empty.
 TrialPlan plan_trial(const scene::Scene& scene, const CaptureOptions& options, const FrameRequest& request) {
     const int first = scene.passes.size() > 1 ? 0 : request.frames.front(); // buffers begin at frame 0
-    return {inputs_of(request, first), inputs_of(request, request.frames.back()), request.frames.size(),
+    const auto inputs_at = [&](int frame) {
+        render::FrameInputs inputs = inputs_of(request, frame);
+        if (request.input)
+            Replay(*request.input, request.camera).fill(inputs, request.extent.height);
+        return inputs;
+    };
+    return {inputs_at(first), inputs_at(request.frames.back()), request.frames.size(),
             options.allowed_difference};
 }
 
@@ -166,9 +173,11 @@ Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions
          .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
          .tile = *tile});
     if (renderer && options.tile && !renderer->tiles())
-        return fail(ErrorCode::usage,
-                    fmt::format("--tile: {} must be drawn whole: it is a cube, or a pass reads it",
-                                renderer->shown_pass().name));
+        return fail(
+            ErrorCode::usage,
+            fmt::format(
+                "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
+                renderer->shown_pass().name));
     return renderer;
 }
 

@@ -59,20 +59,21 @@ void Watchdog::run() {
         }
         const auto wake = work_->deadline ? std::min(*work_->deadline, work_->next_word) : work_->next_word;
         if (changed_.wait_until(lock, wake) == std::cv_status::timeout && work_)
-            speak_or_end(lock);
+            speak_or_end();
     }
 }
 
-void Watchdog::speak_or_end(std::unique_lock<std::mutex>& lock) {
+/// With the lock held, to the end: work that is done in this very moment waits in ~Watch, and nobody else
+/// uses what `before_exit_` takes down.
+void Watchdog::speak_or_end() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - work_->start).count();
     if (work_->deadline && now >= *work_->deadline) {
-        const std::string what = work_->what;
-        lock.unlock();
         if (before_exit_)
             before_exit_();
-        say(to_string(Error{
-            ErrorCode::timed_out, fmt::format("gave up {} after {:.3g} s (--timeout)", what, seconds), {}}));
+        say(to_string(Error{ErrorCode::timed_out,
+                            fmt::format("gave up {} after {:.3g} s (--timeout)", work_->what, seconds),
+                            {}}));
         ::_exit(exit_code(ErrorCode::timed_out));
     }
     if (now >= work_->next_word) {

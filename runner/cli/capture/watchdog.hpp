@@ -16,7 +16,7 @@ namespace tidemark::cli {
 class Watchdog {
 public:
     /// `before_exit` is called (on the watchdog's thread) before the process ends by a limit: what can be
-    /// finished without the stuck thread is finished there.
+    /// finished without the stuck thread is finished there. A Watch that ends meanwhile does not return.
     explicit Watchdog(std::function<void()> before_exit = {});
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;
@@ -47,7 +47,7 @@ private:
     };
 
     void run();
-    void speak_or_end(std::unique_lock<std::mutex>& lock);
+    void speak_or_end();
 
     std::function<void()> before_exit_;
     std::mutex mutex_;

@@ -51,7 +51,7 @@ public:
 
 private:
     /// Desktop GLSL lets a global variable start with what is no constant.
-    bool may_compute_first() const { return text_.headers().find(" es") == std::string::npos; }
+    bool may_compute_first() const { return !text_.is_es(); }
 
     bool remove(size_t begin, size_t end, std::string_view replacement = {}) {
         if (!edits_.stands_alone(begin, end))

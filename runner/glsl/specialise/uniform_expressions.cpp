@@ -1,5 +1,6 @@
 #include "glsl/specialise/uniform_expressions.hpp"
 
+#include "glsl/syntax/builtins.hpp"
 #include "glsl/syntax/tree_facts.hpp"
 
 #include <algorithm>
@@ -7,8 +8,6 @@
 namespace tidemark::glsl {
 namespace {
 
-constexpr std::string_view k_writing_builtins[] = {"modf",       "frexp",        "uaddCarry",
-                                                   "usubBorrow", "umulExtended", "imulExtended"};
 /// Functions that call functions that call functions …
 constexpr int k_deepest_calls = 60;
 
@@ -82,8 +81,7 @@ NodeId UniformExpressions::root_of(NodeId target) const {
 bool UniformExpressions::writes_through_arguments(std::string_view name) const {
     const auto found = functions_.find(name);
     if (found == functions_.end())
-        return std::find(std::begin(k_writing_builtins), std::end(k_writing_builtins), name) !=
-               std::end(k_writing_builtins);
+        return builtin_written_arguments(name) != 0;
     for (const Global* function : found->second)
         for (const NodeId part : tree_.children(function->node))
             if (tree_[part].kind == NodeKind::parameter) {

@@ -172,12 +172,12 @@ bool is_builtin_function(std::string_view name) {
     return std::binary_search(std::begin(k_functions), std::end(k_functions), name);
 }
 
-bool builtin_writes_argument(std::string_view name, size_t index) {
+unsigned builtin_written_arguments(std::string_view name) {
     if (name == "modf" || name == "frexp")
-        return index == 1;
+        return 0b10;
     if (name == "uaddCarry" || name == "usubBorrow")
-        return index == 2;
-    return (name == "umulExtended" || name == "imulExtended") && (index == 2 || index == 3);
+        return 0b100;
+    return name == "umulExtended" || name == "imulExtended" ? 0b1100 : 0;
 }
 
 bool is_keyword(std::string_view word) {

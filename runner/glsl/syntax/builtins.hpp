@@ -22,8 +22,8 @@ bool is_whole_type(std::string_view word);
 /// A function of GLSL 4.50 that a fragment shader may call, of its older names none.
 bool is_builtin_function(std::string_view name);
 
-/// Whether that function writes through its argument number `index` (from 0).
-bool builtin_writes_argument(std::string_view name, size_t index);
+/// The arguments that this function writes through, a bit each, the first one's the lowest.
+unsigned builtin_written_arguments(std::string_view name);
 
 /// A word of the language that is neither a type nor a function.
 bool is_keyword(std::string_view word);

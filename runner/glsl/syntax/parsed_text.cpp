@@ -1,5 +1,7 @@
 #include "glsl/syntax/parsed_text.hpp"
 
+#include <algorithm>
+
 namespace tidemark::glsl {
 
 Result<std::unique_ptr<const ParsedText>>
@@ -30,6 +32,13 @@ std::string ParsedText::headers() const {
         text += '\n';
     }
     return text;
+}
+
+bool ParsedText::is_es() const {
+    return std::ranges::any_of(expansion_.headers, [&](size_t hash) {
+        const size_t end = text::end_of_directive(tokens_, hash);
+        return tokens_[hash + 1].is("version") && tokens_[end - 1].is("es");
+    });
 }
 
 SourceLocation ParsedText::place(size_t token) const {

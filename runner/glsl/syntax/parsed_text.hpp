@@ -35,6 +35,8 @@ public:
 
     /// #version and the #extension lines, as they stand.
     std::string headers() const;
+    /// Whether that is GLSL ES.
+    bool is_es() const;
 
     /// Where a word is written (in a macro's body, where it comes from one), and where it is used.
     SourceLocation spelled(size_t word) const { return place(expansion_.words[word].spelled); }

@@ -1,17 +1,11 @@
 #include "glsl/syntax/tree_facts.hpp"
 
+#include "glsl/syntax/builtins.hpp"
+
 #include <algorithm>
 
 namespace tidemark::glsl {
 namespace {
-
-/// Built-in functions that write through an argument.
-struct Writer {
-    std::string_view name;
-    unsigned arguments;
-};
-constexpr Writer k_writers[] = {{"modf", 2u},       {"frexp", 2u},         {"uaddCarry", 4u},
-                                {"usubBorrow", 4u}, {"umulExtended", 12u}, {"imulExtended", 12u}};
 
 bool is_digits_shape(std::string_view text) {
     const auto digit = [](char c) { return c >= '2' && c <= '4'; };
@@ -157,6 +151,16 @@ bool has_qualifier(const ParsedText& text, NodeId type, std::string_view qualifi
     return false;
 }
 
+bool is_given(const ParsedText& text, NodeId type) {
+    const auto qualifiers = {"const", "uniform", "in", "out", "buffer", "shared", "varying", "attribute"};
+    return std::ranges::any_of(qualifiers, [&](auto word) { return has_qualifier(text, type, word); });
+}
+
+bool is_bracket(const ParsedText& text, NodeId part) {
+    const Node& node = text.tree()[part];
+    return node.kind == NodeKind::index && text.word(node.begin) == "[";
+}
+
 size_t dimensions(const ParsedText& text, NodeId type, NodeId declared) {
     const SyntaxTree& tree = text.tree();
     const NodeId structure = tree.child(type, 0);
@@ -192,12 +196,9 @@ const FunctionFacts* TreeFacts::function(std::string_view name) const {
 bool TreeFacts::writes_argument(std::string_view name, size_t index) const {
     if (index >= 32)
         return true; // nobody has so many: left alone
-    if (const FunctionFacts* own = function(name))
-        return ((own->written_arguments >> index) & 1u) != 0;
-    for (const Writer& writer : k_writers)
-        if (writer.name == name)
-            return ((writer.arguments >> index) & 1u) != 0;
-    return false;
+    const FunctionFacts* own = function(name);
+    const unsigned written = own ? own->written_arguments : builtin_written_arguments(name);
+    return ((written >> index) & 1u) != 0;
 }
 
 TreeFacts find_facts(const ParsedText& text) {

@@ -61,6 +61,10 @@ TreeFacts find_facts(const ParsedText& text);
 /// The word of a `type` node that names it; empty for a structure without a name.
 std::string_view type_name(const ParsedText& text, NodeId type);
 bool has_qualifier(const ParsedText& text, NodeId type, std::string_view qualifier);
+/// Whether a variable of that type gets its content from elsewhere, or never another one.
+bool is_given(const ParsedText& text, NodeId type);
+/// Whether a part of a declarator is a bracket of its own, as in `a[3]`. Any other part is its value.
+bool is_bracket(const ParsedText& text, NodeId part);
 /// How many brackets a declarator or parameter has, those of its type included.
 size_t dimensions(const ParsedText& text, NodeId type, NodeId declared);
 /// The name that a call calls, for functions and constructors alike; empty for an array's constructor and for

@@ -81,8 +81,7 @@ bool must_stay_constant(const ParsedText& text, NodeId id) {
             break;
         case NodeKind::declaration: {
             const NodeId type = tree.child(around, 0);
-            if (has_qualifier(text, type, "const") ||
-                (node.parent == 0 && text.headers().find(" es") != std::string::npos))
+            if (has_qualifier(text, type, "const") || (node.parent == 0 && text.is_es()))
                 return true;
             break;
         }

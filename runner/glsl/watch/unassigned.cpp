@@ -72,11 +72,8 @@ private:
         variable.declared = declared;
         variable.global = scopes_.size() == 1;
         const TypeClass kind = class_of_type(type_name(text_, type));
-        variable.begins_without = kind != TypeClass::sampler && kind != TypeClass::nothing;
-        for (const auto qualifier :
-             {"const", "uniform", "in", "out", "buffer", "shared", "varying", "attribute"})
-            if (has_qualifier(text_, type, qualifier))
-                variable.begins_without = false;
+        variable.begins_without =
+            kind != TypeClass::sampler && kind != TypeClass::nothing && !is_given(text_, type);
     }
 
     void declaration(NodeId id) {
@@ -85,8 +82,8 @@ private:
             each(part);
             declare(type, part);
             for (const NodeId inside : tree_.children(part))
-                if (tree_[inside].kind != NodeKind::index || text_.word(tree_[inside].begin) != "[")
-                    variables_.back().begins_without = false; // a value
+                if (!is_bracket(text_, inside))
+                    variables_.back().begins_without = false;
         }
     }
 

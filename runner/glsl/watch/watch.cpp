@@ -201,7 +201,7 @@ private:
     void declaration(NodeId id) {
         const NodeId type = tree_.child(id, 0);
         const bool constant = has_qualifier(text_, type, "const") || has_qualifier(text_, type, "uniform");
-        const bool es_global = tree_[id].parent == 0 && text_.headers().find(" es") != std::string::npos;
+        const bool es_global = tree_[id].parent == 0 && text_.is_es();
         if (constant || es_global)
             raw(id);
         else
@@ -217,7 +217,7 @@ private:
     void declarator(NodeId id) {
         size_t copied = tree_[id].begin;
         for (NodeId part = tree_[id].first_child; part != k_no_node; part = tree_[part].next) {
-            if (tree_[part].kind == NodeKind::index && text_.word(tree_[part].begin) == "[")
+            if (is_bracket(text_, part))
                 continue;
             put_words(copied, tree_[part].begin);
             emit(part, Cover::open);

@@ -70,13 +70,9 @@ std::vector<NodeId> uninitialised(const ParsedText& text, const TreeFacts& facts
             const NodeKind around = tree[tree[node.parent].parent].kind;
             bool has_value = false;
             for (const NodeId part : tree.children(id))
-                has_value =
-                    has_value || tree[part].kind != NodeKind::index || text.word(tree[part].begin) != "[";
+                has_value = has_value || !is_bracket(text, part);
             const bool variable = around == NodeKind::block || around == NodeKind::text;
-            bool stays = false;
-            for (const auto qualifier : {"const", "uniform", "in", "out", "buffer", "shared", "varying"})
-                stays = stays || has_qualifier(text, type, qualifier);
-            if (variable && !has_value && !stays && known(type))
+            if (variable && !has_value && !is_given(text, type) && known(type))
                 found.push_back(id);
         }
     }

@@ -69,23 +69,6 @@ void make_alike(CubeFaces& faces) {
         face = converted(face, channels, floats ? SampleType::f32 : SampleType::u8);
 }
 
-Result<CubeFaces> assembled(CubeFaces pictures, const std::array<std::string, 6>& names) {
-    for (size_t i = 0; i < pictures.size(); ++i) {
-        const Extent size = pictures[i].extent, first = pictures[0].extent;
-        if (size.width != size.height || size.width < 1)
-            return refuse(names[i],
-                          fmt::format("it is {}x{} pixels; a face is square", size.width, size.height));
-        if (size != first)
-            return refuse(names[i],
-                          fmt::format("it is {}x{} pixels and '{}' is {}x{}; faces are of one size",
-                                      size.width, size.height, names[0], first.width, first.height));
-    }
-    make_alike(pictures);
-    for (Image& picture : pictures)
-        picture = flipped(picture);
-    return pictures;
-}
-
 // --- Several faces in a picture --------------------------------------------------------------------------
 
 /// Where a face lies in the picture, in faces from the left and from the top.
@@ -216,8 +199,21 @@ std::array<Tap, 4> cube_taps(int side, const Direction& direction) {
 
 } // namespace
 
-Result<CubeFaces> cube_of_faces(std::array<Image, 6> pictures) {
-    return assembled(std::move(pictures), {"face +X", "face -X", "face +Y", "face -Y", "face +Z", "face -Z"});
+Result<CubeFaces> cube_of_faces(CubeFaces pictures, const std::array<std::string, 6>& names) {
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        const Extent size = pictures[i].extent, first = pictures[0].extent;
+        if (size.width != size.height || size.width < 1)
+            return refuse(names[i],
+                          fmt::format("it is {}x{} pixels; a face is square", size.width, size.height));
+        if (size != first)
+            return refuse(names[i],
+                          fmt::format("it is {}x{} pixels and '{}' is {}x{}; faces are of one size",
+                                      size.width, size.height, names[0], first.width, first.height));
+    }
+    make_alike(pictures);
+    for (Image& picture : pictures)
+        picture = flipped(picture);
+    return pictures;
 }
 
 Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name) {
@@ -253,7 +249,7 @@ Result<CubeFaces> read_cubemap(const std::vector<std::filesystem::path>& files) 
         pictures[i] = std::move(*picture);
         names[i] = files[i].string();
     }
-    return assembled(std::move(pictures), names);
+    return cube_of_faces(std::move(pictures), names);
 }
 
 Image column_of(const CubeFaces& faces) {

@@ -29,8 +29,8 @@ using CubeFaces = std::array<Image, 6>;
 /// floats. ErrorCode::load names the file and what is wrong.
 Result<CubeFaces> read_cubemap(const std::vector<std::filesystem::path>& files);
 
-/// The same for pictures that are in memory as read_picture gives them. `name` is what messages call it.
-Result<CubeFaces> cube_of_faces(std::array<Image, 6> pictures);
+/// The same for pictures that are in memory as read_picture gives them. Names are what messages call them.
+Result<CubeFaces> cube_of_faces(CubeFaces pictures, const std::array<std::string, 6>& names);
 Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name = "the picture");
 
 /// All faces in one picture, 1:6, from the top: what `cube_of_picture` takes apart again. The faces are

@@ -1,5 +1,7 @@
 #include "image/files/file_check.hpp"
 
+#include "image/byte_order.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,20 +22,6 @@ constexpr std::string_view k_cut_short = "the file is damaged or cut short";
 
 uint8_t byte_at(std::string_view file, size_t at) {
     return uint8_t(file[at]);
-}
-
-uint32_t big_endian(std::string_view file, size_t at, int bytes) {
-    uint32_t value = 0;
-    for (int i = 0; i < bytes; ++i)
-        value = value << 8 | byte_at(file, at + size_t(i));
-    return value;
-}
-
-uint32_t little_endian_32(std::string_view file, size_t at) {
-    uint32_t value = 0;
-    for (size_t i = 4; i-- > 0;)
-        value = value << 8 | byte_at(file, at + i);
-    return value;
 }
 
 constexpr std::array<uint32_t, 256> make_crc_table() {
@@ -203,7 +191,7 @@ std::optional<std::string_view> zero_terminated(std::string_view file, size_t& a
 Objection window_objection(std::string_view box) {
     if (box.size() != 16)
         return std::string(k_cut_short);
-    const auto corner = [&](size_t at) { return int64_t(int32_t(little_endian_32(box, at))); };
+    const auto corner = [&](size_t at) { return int64_t(int32_t(little_endian(box, at, 4))); };
     return size_objection(corner(8) - corner(0) + 1, corner(12) - corner(4) + 1);
 }
 
@@ -218,7 +206,7 @@ Objection exr_objection(std::string_view file) {
         const auto type = name ? zero_terminated(file, at) : std::nullopt;
         if (!type || file.size() - at < 4)
             break;
-        const size_t size = little_endian_32(file, at);
+        const size_t size = little_endian(file, at, 4);
         at += 4;
         if (size > file.size() - at)
             break;

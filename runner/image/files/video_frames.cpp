@@ -54,8 +54,7 @@ Result<void> replace_guessed_times(const std::filesystem::path& path, VideoTimes
 
 std::vector<std::string> decoder_arguments(const std::filesystem::path& path, const VideoTimes& times,
                                            size_t from) {
-    std::vector<std::string> arguments = {"ffmpeg",    "-hide_banner", "-nostdin", "-nostats",
-                                          "-loglevel", "level+info",   "-copyts"};
+    std::vector<std::string> arguments = first_arguments();
     // From the key frame at or before the time; what is not wanted of it is dropped here, by its own time.
     if (from > 0)
         for (std::string argument :

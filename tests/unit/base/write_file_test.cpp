@@ -1,15 +1,13 @@
 // A file is written whole or not at all.
 #include "base/file.hpp"
+#include "support/limited_child.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <iterator>
 
 namespace tidemark {
@@ -30,25 +28,7 @@ std::string refusal(const Result<void>& written) {
 
 /// What write_file says in a child process that may write files of at most `limit` bytes.
 std::string refusal_under_limit(size_t limit, const fs::path& path, const std::string& text) {
-    int ends[2];
-    EXPECT_EQ(::pipe(ends), 0);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        std::signal(SIGXFSZ, SIG_IGN);
-        const rlimit files{limit, limit};
-        ::setrlimit(RLIMIT_FSIZE, &files);
-        const std::string message = refusal(write_file(path, text));
-        [[maybe_unused]] const ssize_t count = ::write(ends[1], message.data(), message.size());
-        ::_exit(0);
-    }
-    ::close(ends[1]);
-    std::string message(4096, '\0');
-    message.resize(size_t(std::max<ssize_t>(0, ::read(ends[0], message.data(), message.size()))));
-    ::close(ends[0]);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-    return message;
+    return in_limited_child(limit, [&] { return refusal(write_file(path, text)); });
 }
 
 TEST(WriteFile, writes_every_byte_and_nothing_else) {

@@ -6,10 +6,10 @@
 #include "base/file.hpp"
 #include "glsl/overrides.hpp"
 #include "glsl/pass_reading.hpp"
+#include "support/cases.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -19,15 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path k_folder = fs::path(TIDEMARK_SOURCE_DIR) / "tests/cases/glsl";
-
-std::vector<std::string> case_names() {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(k_folder))
-        if (entry.path().extension() == ".glsl")
-            names.push_back(entry.path().stem());
-    std::sort(names.begin(), names.end());
-    return names;
-}
 
 struct Options {
     bool prologue = false;
@@ -124,7 +115,7 @@ TEST_P(GlslCase, gives_what_is_expected) {
     EXPECT_EQ(actual, *expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(Text, GlslCase, testing::ValuesIn(case_names()),
+INSTANTIATE_TEST_SUITE_P(Text, GlslCase, testing::ValuesIn(case_names(k_folder)),
                          [](const auto& each) { return each.param; });
 
 } // namespace

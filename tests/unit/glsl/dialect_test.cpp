@@ -1,4 +1,4 @@
-#include "glsl/dialect.hpp"
+#include "glsl/pass_reading.hpp"
 #include "glsl_support.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ std::vector<std::string> names(const std::string& text, scene::PassKind kind = s
     scene::Scene scene = scene_of(text);
     scene.passes[0].kind = kind;
     std::vector<std::string> list;
-    for (const Dialect& dialect : dialects_to_try(scene, scene.passes[0]))
+    for (const Dialect& dialect : PassReading(scene, scene.passes[0]).dialects(Precision::single))
         list.push_back(to_string(dialect));
     return list;
 }
@@ -141,7 +141,7 @@ TEST(EntryPoints, none_and_several_are_said_clearly) {
     const auto problems = [](const std::string& text) {
         const scene::Scene scene = scene_of(text);
         std::string words;
-        for (const Diagnostic& diagnostic : entry_point_problems(scene, scene.passes[0]))
+        for (const Diagnostic& diagnostic : PassReading(scene, scene.passes[0]).entry_point_problems())
             words += to_string(diagnostic) + "\n";
         return words;
     };
@@ -153,6 +153,18 @@ TEST(EntryPoints, none_and_several_are_said_clearly) {
         problems(k_main_image + "\n" + k_main_image),
         "a.glsl:3:6: error: mainImage is defined again: put each of ShaderToy's tabs into a file of its own\n"
         "a.glsl:1:6: note: first defined here\n");
+}
+
+TEST(PassReading, a_text_discards_where_a_pixel_may_come_to_it) {
+    const auto discards = [](const std::string& text) {
+        const scene::Scene scene = scene_of(text + k_main_image);
+        return PassReading(scene, scene.passes[0]).discards();
+    };
+    EXPECT_TRUE(discards("void f(float x) { if (x > 0.) discard; }\n"));
+    EXPECT_TRUE(discards("#define STOP discard\n"));
+    EXPECT_FALSE(discards("// discard;\n"));
+    EXPECT_FALSE(discards("#if 0\nvoid f() { discard; }\n#endif\n"));
+    EXPECT_FALSE(discards("float discarded;\n"));
 }
 
 } // namespace

@@ -16,6 +16,8 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
+const std::array<std::string, 6> k_names = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
 // What a texel sees, from ShaderToy's own table: the direction at uv is the bilinear mix of those at the
 // corners A (0,0), B (1,0), C (1,1), D (0,1) of a face.
 constexpr Vector k_corners[6][4] = {
@@ -134,10 +136,10 @@ TEST(CubemapFile, strips_hold_the_faces_in_order) {
 }
 
 TEST(CubemapFile, first_row_of_a_face_is_the_top_row_of_its_file) {
-    std::array<Image, 6> pictures;
+    CubeFaces pictures;
     for (size_t face = 0; face < 6; ++face)
         pictures[face] = flipped(compass(4)[face]); // as read_picture gives a file with the face upright
-    EXPECT_EQ(*cube_of_faces(pictures), compass(4));
+    EXPECT_EQ(*cube_of_faces(pictures, k_names), compass(4));
 }
 
 Vector panorama_direction(double u, double v) {
@@ -219,11 +221,11 @@ TEST(CubemapFile, infinities_of_a_panorama_stay_where_they_are) {
 }
 
 TEST(CubemapFile, faces_that_differ_in_kind_are_made_alike) {
-    std::array<Image, 6> pictures;
+    CubeFaces pictures;
     pictures.fill(patterned_u8({4, 4}, 3));
     pictures[2] = patterned_u8({4, 4}, 1);
     pictures[3] = patterned_u8({4, 4}, 2);
-    Result<CubeFaces> cube = cube_of_faces(pictures);
+    Result<CubeFaces> cube = cube_of_faces(pictures, k_names);
     ASSERT_TRUE(cube);
     for (const Image& face : *cube)
         EXPECT_EQ(face.channels, 4);
@@ -235,7 +237,7 @@ TEST(CubemapFile, faces_that_differ_in_kind_are_made_alike) {
         EXPECT_EQ((*cube)[3].u8()[4 * i + 3], both.u8()[2 * i + 1]);
     }
     pictures[5] = patterned_f32({4, 4}, 3);
-    cube = cube_of_faces(pictures);
+    cube = cube_of_faces(pictures, k_names);
     ASSERT_TRUE(cube);
     EXPECT_EQ((*cube)[0].type, SampleType::f32);
     EXPECT_EQ((*cube)[0].f32()[0], float(flipped(pictures[0]).u8()[0]) / 255.0f);

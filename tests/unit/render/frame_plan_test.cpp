@@ -133,5 +133,18 @@ TEST(PlanFrame, extra_textures_and_mipmaps_are_those_of_buffers) {
     EXPECT_FALSE(plan.targets[1].two_textures || plan.targets[1].mipmaps);
 }
 
+TEST(PlanFrame, what_a_pass_discards_is_of_an_earlier_frame) {
+    const Reflections programs{with({}), with({"iChannel0"})};
+    scene::Scene scene = scene_of(2);
+    scene.passes[1].channels[0] = reads(0);
+    const FramePlan image = plan_frame(scene, programs, 1, {}, {1});
+    EXPECT_TRUE(image.feedback);
+    EXPECT_FALSE(image.targets[1].two_textures) << "as the site's canvas";
+    const FramePlan buffer = plan_frame(scene, programs, 1, {}, {0});
+    EXPECT_TRUE(buffer.feedback);
+    EXPECT_TRUE(buffer.targets[0].two_textures) << "as the site's buffers";
+    EXPECT_FALSE(plan_frame(scene_of(2), programs, 1, {}, {0}).feedback) << "nobody reads it";
+}
+
 } // namespace
 } // namespace tidemark::render

@@ -1,0 +1,39 @@
+#include "base/error.hpp"
+#include "cli/capture/watchdog.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <thread>
+
+namespace tidemark::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Watchdog, work_that_ends_while_its_leavings_are_taken_down_does_not_go_on) {
+    EXPECT_EXIT(
+        {
+            Watchdog dog([] { std::this_thread::sleep_for(1s); });
+            {
+                const Watchdog::Watch watch(dog, "drawing", 0.05);
+                std::this_thread::sleep_for(1s);
+            }
+            ::_exit(1);
+        },
+        testing::ExitedWithCode(exit_code(ErrorCode::timed_out)), "gave up drawing after ");
+}
+
+TEST(Watchdog, work_in_time_is_left_alone) {
+    EXPECT_EXIT(
+        {
+            Watchdog dog([] { ::_exit(1); });
+            { const Watchdog::Watch watch(dog, "drawing", 0.5); }
+            std::this_thread::sleep_for(700ms);
+            ::_exit(0);
+        },
+        testing::ExitedWithCode(0), "");
+}
+
+} // namespace
+} // namespace tidemark::cli
