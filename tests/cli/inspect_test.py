@@ -1,6 +1,7 @@
 """`inspect`: what a scene needs, what was left out, and where it can be drawn."""
 import json
 
+from support import png
 from support.program import ProgramTest, environment, main
 
 SCENE = """#include "lib.glsl"
@@ -196,6 +197,30 @@ class With(ProgramTest):
             for time in (row["start"], row["frame"]):
                 self.assertGreater(time["wall_ms"]["without"], 0)
                 self.assertLessEqual(time["wall_ms"]["low"], time["wall_ms"]["high"])
+
+    def test_alpha(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = fract(p.xyxy * vec4(0.37, 0.61, 0.83, 0.29)); }\n")
+        rows, _ = self.savings("a.glsl", "alpha")
+        row = rows["alpha"]
+        self.assertEqual((list(row), row["left_out"], row["same_pixels"]),
+                         (["with", "left_out", "file", "without", "with_it", "same_pixels"], True, True))
+        self.assertEqual(row["without"]["draws"], row["with_it"]["draws"])
+        # As large as what capture writes, but for the text that says what the picture is.
+        self.succeed("capture", "a.glsl", "--size", "16x9", "--frame", "61", "-o", "a.png")
+        file = (self.folder / "a.png").read_bytes()
+        facts = [12 + len(data) for kind, data in png.chunks(file) if kind == b"tEXt" and data.startswith(b"tidemark:")]
+        self.assertEqual((png.decode(file).channels, len(file) - sum(facts)), (3, row["without"]["file_bytes"]))
+        self.assertGreater(row["with_it"]["file_bytes"], row["without"]["file_bytes"])
+        self.assertGreater(row["file"]["cpu_ms"]["without"], 0)
+        text = self.succeed("inspect", "a.glsl", "--with", "alpha", "--size", "16x9", "--budget", "0.1").stdout.decode()
+        self.assertRegex(text, r"alpha +encoding a PNG: [\d.]+ [+-][\d.]+ \[.+\], \d+ -> \d+ bytes; its colours are the same\n")
+
+    def test_alpha_that_is_not_one_is_no_omission(self):
+        self.project()
+        self.write("p/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 0.5); }\n")
+        done = self.succeed("inspect", "p", "--pass", "Buffer A", "--with", "alpha", "--size", "16x9", "--budget", "0.1",
+                            "--json")
+        self.assertFalse(json.loads(done.stdout)["savings"][0]["left_out"])
 
     def test_what_a_scene_needs_is_not_left_out(self):
         self.write("self.glsl", '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) '
