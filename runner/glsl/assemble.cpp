@@ -17,17 +17,23 @@ ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass, const 
 }
 
 const char* const k_vertex_shader = R"(#version 330 core
+uniform vec2 tidemark_tile;
+flat out vec2 tidemark_corner;
 void main() {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(corner, 0.0, 1.0);
+    tidemark_corner = tidemark_tile;
 }
 )";
 
 const char* vertex_shader(Version version) {
     return version != Version::es_300 ? k_vertex_shader : R"(#version 300 es
+uniform vec2 tidemark_tile;
+flat out vec2 tidemark_corner;
 void main() {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(corner, 0.0, 1.0);
+    tidemark_corner = tidemark_tile;
 }
 )";
 }

@@ -25,7 +25,7 @@ ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass, const 
 ShaderSource assemble(const scene::Scene& scene, const scene::Pass& pass);
 
 /// The vertex shader that goes with a fragment shader of that version: one triangle that covers the target,
-/// made from gl_VertexID alone.
+/// made from gl_VertexID alone. It hands `vec2 tidemark_tile` on to a fragment shader that is tiled.
 const char* vertex_shader(Version version);
 
 /// The vertex shader of every pass in a desktop version.

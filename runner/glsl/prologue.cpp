@@ -27,11 +27,12 @@ precision highp samplerCube;
 precision highp sampler3D;
 )";
 
-/// Halves below 2^23 and whole numbers add without rounding; `precise` keeps a compiler from mixing this sum
-/// with the author's own.
-constexpr const char* k_tile = R"(uniform vec2 tidemark_tile;
+/// The corner comes from the vertex shader: what is flat is there for nothing, where a driver that draws on
+/// the CPU looks a uniform up for every few pixels anew. Halves below 2^23 and whole numbers add without
+/// rounding; `precise` keeps a compiler from mixing this sum with the author's own.
+constexpr const char* k_tile = R"(flat in vec2 tidemark_corner;
 vec4 tidemark_frag_coord() {{
-    {}vec4 at = gl_FragCoord + vec4(tidemark_tile, 0.0, 0.0);
+    {}vec4 at = gl_FragCoord + vec4(tidemark_corner, 0.0, 0.0);
     return at;
 }}
 #define gl_FragCoord tidemark_frag_coord()

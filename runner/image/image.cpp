@@ -1,5 +1,7 @@
 #include "image/image.hpp"
 
+#include "image/colours.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cstring>
@@ -15,14 +17,14 @@ bool last_channel_is(std::span<const Sample> samples, size_t channels, Sample va
     return true;
 }
 
-template <class Sample>
-void copy_but_last_channel(std::span<const Sample> from, size_t channels, std::span<Sample> to) {
-    const size_t kept = channels - 1;
-    const size_t pixels = from.size() / channels;
-    for (size_t pixel = 0; pixel < pixels; ++pixel)
-        for (size_t channel = 0; channel < kept; ++channel)
-            // As bytes: a float that is assigned may lose the payload of a signalling NaN.
-            std::memcpy(&to[pixel * kept + channel], &from[pixel * channels + channel], sizeof(Sample));
+/// Of pixels of that many bytes the first ones. Each pixel is copied whole,
+/// and its surplus written over by the next: one move instead of one for each sample.
+template <size_t pixel, size_t kept>
+void copy_front(const std::byte* from, size_t count, std::byte* to) {
+    for (; count > 1; --count, from += pixel, to += kept)
+        std::memcpy(to, from, pixel);
+    if (count == 1)
+        std::memcpy(to, from, kept);
 }
 
 } // namespace
@@ -45,14 +47,25 @@ bool has_opaque_alpha(const Image& image) {
                                         : last_channel_is<float>(image.f32(), channels, 1.0f);
 }
 
+void copy_colours(const Image& image, int y, std::byte* to) {
+    assert(image.has_alpha());
+    const std::byte* from = image.bytes.data() + image.row_bytes() * size_t(y);
+    const auto width = size_t(image.extent.width);
+    switch (size_t(image.channels) * size_of(image.type)) {
+    case 2: return copy_front<2, 1>(from, width, to);
+    case 4: return copy_front<4, 3>(from, width, to);
+    case 8: return copy_front<8, 4>(from, width, to);
+    case 16: return copy_front<16, 12>(from, width, to);
+    default: assert(false);
+    }
+}
+
 Image without_alpha(const Image& image) {
     if (!image.has_alpha())
         return image;
     Image result(image.extent, image.channels - 1, image.type);
-    if (image.type == SampleType::u8)
-        copy_but_last_channel<uint8_t>(image.u8(), size_t(image.channels), result.u8());
-    else
-        copy_but_last_channel<float>(image.f32(), size_t(image.channels), result.f32());
+    for (int y = 0; y < image.extent.height; ++y)
+        copy_colours(image, y, result.bytes.data() + result.row_bytes() * size_t(y));
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "lab/savings.hpp"
 
+#include "image/files/png_codec.hpp"
 #include "lab/stopwatch.hpp"
 
 #include <GL/glcorearb.h>
@@ -29,10 +30,38 @@ constexpr Omission k_omissions[] = {
      [](Way& way) { way.options.extras.second_textures = true; }},
     {"code", "code that main cannot reach, compiled",
      [](Way& way) { way.options.specialise = glsl::Specialise::nothing; }},
+    {"alpha", "alpha that is 1 all over, encoded", [](Way& way) { way.alpha = true; }},
 };
 
 render::FrameInputs inputs_of(int frame) {
     return render::inputs_of_frame(frame, render::FrameInputs{}.frame_rate);
+}
+
+/// A frame as it is written.
+struct Encoded {
+    std::vector<unsigned char> file;
+    Elapsed time;
+
+    /// What is in it, without alpha; the encoder's own files have no errors.
+    image::Image colours() const {
+        const auto picture = image::decode_png(std::as_bytes(std::span(file)));
+        return picture->has_alpha() ? image::without_alpha(*picture) : *picture;
+    }
+};
+
+Result<Encoded> encode(const image::Image& picture, bool opaque_alpha_too) {
+    const Stopwatch watch;
+    const bool alpha = opaque_alpha_too || !image::has_opaque_alpha(picture);
+    image::Image stored = alpha ? picture : image::without_alpha(picture);
+    auto file = image::encode_png({image::FileFormat::png,
+                                   image::SampleDepth::u8,
+                                   stored.extent,
+                                   stored.channels,
+                                   std::move(stored.bytes),
+                                   {}});
+    if (!file)
+        return fail(ErrorCode::write, file.error());
+    return Encoded{*std::move(file), watch.elapsed()};
 }
 
 /// A way of drawing a scene that is drawn and timed.
@@ -62,6 +91,7 @@ public:
     }
 
     image::Image picture() const { return renderer_->read_back(); }
+    Result<Encoded> encoded() const { return encode(picture(), way_.alpha); }
     bool steps() const { return renderer_->plan().feedback; }
 
     render::FrameWork work() const {
@@ -137,6 +167,52 @@ SavedTime time_frames(Contender& without, Contender& with_it, double seconds, bo
     return rounds.saved();
 }
 
+/// Encoding alone: the drawing between is nobody's.
+Result<SavedTime> time_files(Contender& without, Contender& with_it, double seconds, bool& same_pixels) {
+    Rounds rounds;
+    const Stopwatch watch;
+    for (int frame = k_frame + 2; more_rounds(rounds, watch, seconds); ++frame) {
+        without.draw(frame);
+        with_it.draw(frame);
+        const bool in_turn = frame % 2 != 0;
+        const auto first = (in_turn ? without : with_it).encoded();
+        const auto second = (in_turn ? with_it : without).encoded();
+        if (!first || !second)
+            return fail(first ? second.error() : first.error());
+        rounds.add((in_turn ? first : second)->time, (in_turn ? second : first)->time);
+        same_pixels = same_pixels && first->colours().bytes == second->colours().bytes;
+    }
+    return rounds.saved();
+}
+
+Result<void> weigh_files(const Contender& without, const Contender& with_it, Saving& saving) {
+    const auto small = without.encoded();
+    const auto large = with_it.encoded();
+    if (!small || !large)
+        return fail(small ? large.error() : small.error());
+    saving.without.file_bytes = small->file.size();
+    saving.with_it.file_bytes = large->file.size();
+    return {};
+}
+
+Result<void> time_all(Contender& without, Contender& with_it, double seconds, Saving& saving) {
+    const double share = seconds / (saving.in_frame() ? saving.in_file() ? 3 : 2 : 1);
+    if (saving.in_frame()) {
+        auto start = time_starts(without, with_it, share);
+        if (!start)
+            return fail(std::move(start.error()));
+        saving.start = *start;
+        saving.frame = time_frames(without, with_it, share, saving.same_pixels);
+    }
+    if (saving.in_file()) {
+        auto file = time_files(without, with_it, share, saving.same_pixels);
+        if (!file)
+            return fail(std::move(file.error()));
+        saving.file = *file;
+    }
+    return {};
+}
+
 } // namespace
 
 std::span<const Omission> omissions() {
@@ -158,14 +234,12 @@ Result<Saving> measure_saving(const scene::Scene& scene, const render::RenderOpt
         return fail(std::move(started.error()));
     without.draw(k_frame + 1); // a frame that another one precedes
     with_it.draw(k_frame + 1);
-    Saving saving{without.work(), with_it.work()};
-    if (!saving.left_out())
-        return saving;
-    auto start = time_starts(without, with_it, seconds / 2);
-    if (!start)
-        return fail(std::move(start.error()));
-    saving.start = *start;
-    saving.frame = time_frames(without, with_it, seconds / 2, saving.same_pixels);
+    Saving saving{{without.work()}, {with_it.work()}};
+    if (way.alpha)
+        if (auto weighed = weigh_files(without, with_it, saving); !weighed)
+            return fail(std::move(weighed.error()));
+    if (auto timed = time_all(without, with_it, seconds, saving); !timed)
+        return fail(std::move(timed.error()));
     return saving;
 }
 

@@ -1,5 +1,5 @@
-// What leaving a thing out of a scene saves: the scene without it and with it, interleaved in one run, and
-// whether the pixels are the same bytes. A context must be current.
+// What leaving a thing out of a scene, or of the file that a frame goes into, saves: without it and with it,
+// interleaved in one run, and whether the pixels are the same bytes. A context must be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,6 +15,7 @@ namespace tidemark::lab {
 struct Way {
     render::RenderOptions options{};
     int frames_before = 0; ///< drawn on the way to the one that is wanted
+    bool alpha = false;    ///< goes into the file even where it is 1 all over
 };
 
 /// A thing that is left out where a scene does not need it.
@@ -38,15 +39,24 @@ struct SavedTime {
     Saved cpu;
 };
 
+/// What a frame takes on its way into a file.
+struct Work {
+    render::FrameWork frame{};
+    size_t file_bytes = 0; ///< of a PNG of it; 0: its file is not in question
+};
+
 struct Saving {
-    render::FrameWork without{};
-    render::FrameWork with_it{};
+    Work without{};
+    Work with_it{};
     SavedTime start{}; ///< from the scene to its first frame, the driver's cache warm
     SavedTime frame{};
+    SavedTime file{}; ///< encoding it
     bool same_pixels = true;
 
+    bool in_frame() const { return without.frame != with_it.frame; }
+    bool in_file() const { return without.file_bytes != with_it.file_bytes; }
     /// Putting it back made a difference to measure.
-    bool left_out() const { return without != with_it; }
+    bool left_out() const { return in_frame() || in_file(); }
 };
 
 /// Puts all of `things` back at once. Takes some `seconds`, more where five rounds take longer. Fails like

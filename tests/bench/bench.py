@@ -11,13 +11,12 @@ import os
 import pathlib
 import platform
 import re
-import shutil
-import signal
 import subprocess
 import tempfile
-import time
 
+import laboratory
 import peer
+import reload
 import scaling
 from measure import against, run, spread
 
@@ -51,8 +50,16 @@ def complete_shader(folder, scene, *options):
     return str(path)
 
 
-def floor(shader, frames, buffers=()):
-    return [FLOOR, shader, str(SIZE[0]), str(SIZE[1]), str(frames), "30", *buffers]
+def floor(shader, frames, buffers=(), size=SIZE):
+    return [FLOOR, shader, str(size[0]), str(size[1]), str(frames), "30", *buffers]
+
+
+def floor_of(folder):
+    """For scaling: from a scene to the floor's command at a size."""
+    def of_scene(scene):
+        shader = complete_shader(folder, scene)
+        return lambda size, frames: floor(shader, frames, size=size)
+    return of_scene
 
 
 def ours(frames, out, scene=SCENE, *options):
@@ -91,39 +98,6 @@ def start_up(rounds):
     return spread(walls)
 
 
-def reload_times(folder, rounds):
-    """From saving a file to the new picture in a window, as the window itself reports it."""
-    if not shutil.which("Xvfb"):
-        return None
-    display = ":97"
-    shutil.copytree(ROOT / "shaders", f"{folder}/shaders")
-    scene = pathlib.Path(folder) / "shaders" / "live.glsl"
-    text = pathlib.Path(SCENE).read_text()
-    scene.write_text(text)
-    server = subprocess.Popen(["Xvfb", display, "-screen", "0", "800x600x24", "-nolisten", "tcp"],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(1)
-    viewer = subprocess.Popen([TIDEMARK, "view", str(scene), "--fps", "1"], env=os.environ | {"DISPLAY": display},
-                              stderr=subprocess.PIPE, text=True)
-    rows = []
-    try:
-        time.sleep(3)
-        for i in range(rounds + 1):
-            time.sleep(1.5)
-            scene.write_text(f"// save {i}\n{text}")
-            line = viewer.stderr.readline()
-            rows.append([float(number) for number in re.findall(r"[\d.]+", line)])
-    finally:
-        viewer.send_signal(signal.SIGTERM)
-        viewer.wait()
-        server.terminate()
-        server.wait()
-    names = ("total", "notice", "load", "compile", "first draw")
-    table = dict(zip(names, (spread(column) for column in zip(*rows[1:]))))
-    table["ours"] = spread([row[1] + row[2] for row in rows[1:]])
-    return table
-
-
 def machine():
     model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if "model name" in line), "?")
     facts = json.loads(inspected(SCENE, "--json"))
@@ -139,18 +113,30 @@ def show(row):
               f"   ratio {ratio['median']:.3f} [{ratio['low']:.3f}, {ratio['high']:.3f}]")
 
 
+def show_reloads(report):
+    if not report:
+        return
+    for name, figures in report["scene"].items():
+        print("reload, {}: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(name, **figures))
+    for row in report["by_passes"]:
+        for what in ("one", "all"):
+            print("reload, {} of {} passes changed: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(
+                what, row["passes"], **row[what]["total"]))
+
+
 def show_all(report):
     print("tidemark --version: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(**report["version_ms"]))
-    for name, figures in (report["reload_ms"] or {}).items():
-        print("reload, {}: {median:.1f} ms [{low:.1f}, {high:.1f}]".format(name, **figures))
+    show_reloads(report["reload_ms"])
     for row in report["by_size"]:
-        print("{size}: {ns_a_pixel[median]:.2f} ns of CPU a pixel".format(**row))
+        print("{what}, {size}: {ns_a_pixel[median]:.2f} ns of CPU a pixel".format(**row))
     for row in report["by_frames"]:
         print("{frames} frames: {memory:.0f} MiB".format(**row))
     for row in report["front_end"]:
         print("front end, {kilobytes} kB: {ms:.2f} ms".format(**row))
     for row in report["check"]:
-        print("check {scene}: {check[wall]:.1f} s".format(**row))
+        print("check {scene}: {check[wall]:.1f} s, {ratio:.1f} captures".format(**row))
+    print("study {scene}, {settings} settings, {frames} frames timed ({frames_cpu:.1f} s): {study[cpu]:.1f} s of CPU, "
+          "{ratio[cpu]:.2f} of the bare captures'".format(**report["study"]))
     print("in a browser:", json.dumps(report["browser"]))
 
 
@@ -169,11 +155,12 @@ def main():
                 report["rows"].append(row)
                 show(row)
         report["version_ms"] = start_up(options.rounds)
-        report["reload_ms"] = reload_times(folder, options.rounds)
-        report["by_size"] = scaling.by_size(TIDEMARK, folder, few)
+        report["reload_ms"] = reload.times(TIDEMARK, folder, ROOT / "shaders", options.rounds)
+        report["by_size"] = scaling.by_size(TIDEMARK, floor_of(folder), folder, few)
         report["by_frames"] = scaling.by_frames(TIDEMARK, folder)
         report["front_end"] = scaling.front_end(FRONT_END)
-        report["check"] = scaling.laboratory(TIDEMARK, ROOT / "shaders")
+        report["check"] = laboratory.checks(TIDEMARK, ROOT / "shaders")
+        report["study"] = laboratory.study(TIDEMARK, ROOT / "shaders", folder)
         shader = complete_shader(folder, SCENE, *DOCUMENT)
         report["browser"] = peer.in_a_browser(folder, shader, ours(30, "-", SCENE, *DOCUMENT), SIZE, 30, few)
     show_all(report)

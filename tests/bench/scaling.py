@@ -7,9 +7,16 @@ import subprocess
 from measure import against, run, spread
 
 LIGHT = "void mainImage(out vec4 color, in vec2 place) { color = vec4(fract(place * 0.01 + iTime), 0.5, 1.0); }\n"
+HEAVY = """void mainImage(out vec4 color, in vec2 place) {
+    vec2 at = place * 0.01;
+    for (int i = 0; i < 12; ++i)
+        at += sin(at.yx + iTime) * cos(at * 1.5);
+    color = vec4(at, 0.5, 1.0);
+}
+"""
 SIZES = ((160, 90), (320, 180), (640, 360), (1280, 720), (2560, 1440), (3840, 2160), (7680, 4320))
 FRAMES = (1, 10, 100, 1000, 10000)
-PIXELS_A_RUN = 4e7  # as many are drawn at every size
+PIXELS_A_RUN = 4e7  # as many of the light scene are drawn at every size
 
 
 def capture(program, scene, size, frames, *options):
@@ -17,25 +24,36 @@ def capture(program, scene, size, frames, *options):
 
 
 def light_scene(folder):
-    path = pathlib.Path(folder) / "light.glsl"
-    path.write_text(LIGHT)
+    return written(folder, "light", LIGHT)
+
+
+def written(folder, name, text):
+    path = pathlib.Path(folder) / f"{name}.glsl"
+    path.write_text(text)
     return str(path)
 
 
-def nanoseconds_a_pixel(program, scene, size):
-    """CPU, drawn and read back, start-up and the first frame differenced away."""
-    frames = max(2, round(PIXELS_A_RUN / (size[0] * size[1])))
-    few = run(capture(program, scene, size, 1))
-    many = run(capture(program, scene, size, 1 + frames))
+def nanoseconds_a_pixel(command, size, pixels):
+    """CPU, drawn and read back, start-up and the first frame differenced away. `command` makes the one for so many
+    frames."""
+    frames = max(1, round(pixels / (size[0] * size[1])))
+    few = run(command(size, 1))
+    many = run(command(size, 1 + frames))
     return (many["cpu"] - few["cpu"]) / (frames * size[0] * size[1]) * 1e9
 
 
-def by_size(program, folder, rounds):
-    """Rounds over all sizes, so that a drifting machine hurts them alike."""
-    scene = light_scene(folder)
-    rows = [[nanoseconds_a_pixel(program, scene, size) for size in SIZES] for _ in range(rounds)]
-    return [{"size": f"{width}x{height}", "ns_a_pixel": spread([row[i] for row in rows])}
-            for i, (width, height) in enumerate(SIZES)]
+def by_size(program, floor, folder, rounds):
+    """Rounds over all sizes, so that a drifting machine hurts them alike; the floor, which draws no tiles, where its
+    frame is small enough for its own cost to show. `floor` makes its command for a scene."""
+    light, heavy = light_scene(folder), written(folder, "heavy", HEAVY)
+    bare = floor(light)
+    kinds = {"light": (lambda size, frames: capture(program, light, size, frames), SIZES, PIXELS_A_RUN),
+             "floor": (lambda size, frames: bare(size, frames), SIZES[:4], PIXELS_A_RUN),
+             "heavy": (lambda size, frames: capture(program, heavy, size, frames), SIZES, PIXELS_A_RUN / 4)}
+    rows = [{(kind, size): nanoseconds_a_pixel(command, size, pixels)
+             for kind, (command, sizes, pixels) in kinds.items() for size in sizes} for _ in range(rounds)]
+    return [{"what": kind, "size": f"{size[0]}x{size[1]}", "ns_a_pixel": spread([row[kind, size] for row in rows])}
+            for kind, size in rows[0]]
 
 
 def by_frames(program, folder):
@@ -48,15 +66,6 @@ def specialised(program, shaders, rounds, frames=10):
     for scene in sorted(pathlib.Path(shaders).glob("*.glsl")):
         ours = capture(program, str(scene), (320, 180), frames)
         yield against(f"{scene.stem}, specialised against plain", ours, [*ours, "--plain"], rounds)
-
-
-def laboratory(program, shaders):
-    """`check` and `study` as whole processes, and how much of a study's time went into frames that count."""
-    rows = []
-    for scene in sorted(pathlib.Path(shaders).glob("*.glsl")):
-        done = run([program, "check", str(scene), "--json"], codes=(0, 1))
-        rows.append({"scene": scene.stem, "check": done})
-    return rows
 
 
 def front_end(program):

@@ -1,6 +1,7 @@
 """`inspect`: what a scene needs, what was left out, and where it can be drawn."""
 import json
 
+from support import png
 from support.program import ProgramTest, environment, main
 
 SCENE = """#include "lib.glsl"
@@ -27,6 +28,8 @@ class Scene(ProgramTest):
         self.assertEqual(facts["scene"], "sea.glsl")
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(sorted(facts["uniforms"]), ["height", "iChannel1", "iTime"])
+        sizes = facts["passes"][0].pop("program")
+        self.assertEqual(list(sizes), ["plain", "specialised", "long_sequence", "constant_knobs"])
         self.assertEqual(facts["passes"], [{
             "name": "Image", "channels": {"iChannel1": "noise"},
             "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0}}])
@@ -42,6 +45,8 @@ class Scene(ProgramTest):
         lines = self.succeed("inspect", "sea.glsl").stdout.decode().splitlines()
         self.assertEqual(lines[0], "sea.glsl")
         self.assertRegex(lines[1], r"\A  driver    .+, OpenGL 4\.")
+        if "bytes of program" in lines[5]:  # the driver's to tell
+            lines.pop(5)
         self.assertEqual(lines[3:], [
             "  iChannel1 noise", "  code removed: 1 lines", "  knob      float height = 0.5 in { 0, 2 }",
             "  knob      color3 tint = vec3(1, 0.5, 0)",
@@ -52,6 +57,7 @@ class Scene(ProgramTest):
     def test_a_scene_that_reads_no_noise_gets_none(self):
         self.write("plain.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         facts = json.loads(self.succeed("inspect", "plain.glsl", "--json").stdout)
+        del facts["passes"][0]["program"]
         self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{
             "name": "Image", "channels": {},
             "code_removed": {"lines": 0, "branches": 0, "out_of_loops": 0,
@@ -108,10 +114,45 @@ class Scene(ProgramTest):
         self.assertEqual(text.count("\n"), plain.count("\n"))
         self.expect_failure(["inspect", "loop.glsl", "--specialised"], 2, "tidemark: error: --specialised requires --source")
 
+    def sizes(self, scene):
+        facts = json.loads(self.succeed("inspect", scene, "--json").stdout)
+        if facts["passes"][0]["program"]["plain"]["bytes"] is None:
+            self.skipTest("this driver has no form of its own")
+        return facts["passes"][0]["program"]
+
+    def test_what_the_driver_makes_of_it(self):
+        # Every driver removes a function that is not called; a branch that a knob closes it must keep.
+        self.write("knob.glsl", "#iUniform int waves = 0 in { 0, 9 }\n"
+                                "void mainImage(out vec4 c, in vec2 p) {\n"
+                                "    c = vec4(p * 0.01, 0.0, 1.0);\n"
+                                "    if (waves > 0)\n"
+                                "        for (int i = 0; i < waves; ++i)\n"
+                                "            c += sin(c.yzwx * float(i)) + cos(c.zwxy * float(i));\n"
+                                "}\n")
+        sizes = self.sizes("knob.glsl")
+        self.assertLess(sizes["long_sequence"]["bytes"], sizes["plain"]["bytes"])
+        self.assertLessEqual(sizes["specialised"]["bytes"], sizes["plain"]["bytes"])
+        self.assertEqual(sizes, self.sizes("knob.glsl"), "what was compiled before is no matter")
+        self.assertIn("  bytes of program: {}; of the whole text {}, in a long sequence {}, with constant knobs {}".format(
+            *(sizes[how]["bytes"] for how in ("specialised", "plain", "long_sequence", "constant_knobs"))),
+            self.succeed("inspect", "knob.glsl").stdout.decode().splitlines())
+
+    def test_each_pass_has_its_own_program(self):
+        self.write("p/image.glsl", '#iChannel0 "buffer_a.glsl"\n'
+                   "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n")
+        self.write("p/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = sin(p.xyxy) * cos(iTime); }\n")
+        self.write("p/buffer_b.glsl", "void mainImage(out vec4 c, in vec2 p) { this is not GLSL }\n")  # not drawn
+        self.sizes("p")
+        passes = json.loads(self.succeed("inspect", "p", "--json").stdout)["passes"]
+        self.assertEqual([one["name"] for one in passes], ["Buffer A", "Image"])
+        self.assertNotEqual(*(one["program"]["plain"]["bytes"] for one in passes))
+
     def test_writes_no_file(self):
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
         before = self.files()
-        self.succeed("inspect", "sea.glsl")
-        self.assertEqual(self.files(), before)
+        self.succeed("inspect", "sea.glsl", env=environment(TMPDIR=str(temporary)))
+        self.assertEqual((self.files(), list(temporary.iterdir())), (before, []))
 
     def test_standard_output_that_is_full(self):
         with open("/dev/full", "wb") as full:
@@ -156,6 +197,30 @@ class With(ProgramTest):
             for time in (row["start"], row["frame"]):
                 self.assertGreater(time["wall_ms"]["without"], 0)
                 self.assertLessEqual(time["wall_ms"]["low"], time["wall_ms"]["high"])
+
+    def test_alpha(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = fract(p.xyxy * vec4(0.37, 0.61, 0.83, 0.29)); }\n")
+        rows, _ = self.savings("a.glsl", "alpha")
+        row = rows["alpha"]
+        self.assertEqual((list(row), row["left_out"], row["same_pixels"]),
+                         (["with", "left_out", "file", "without", "with_it", "same_pixels"], True, True))
+        self.assertEqual(row["without"]["draws"], row["with_it"]["draws"])
+        # As large as what capture writes, but for the text that says what the picture is.
+        self.succeed("capture", "a.glsl", "--size", "16x9", "--frame", "61", "-o", "a.png")
+        file = (self.folder / "a.png").read_bytes()
+        facts = [12 + len(data) for kind, data in png.chunks(file) if kind == b"tEXt" and data.startswith(b"tidemark:")]
+        self.assertEqual((png.decode(file).channels, len(file) - sum(facts)), (3, row["without"]["file_bytes"]))
+        self.assertGreater(row["with_it"]["file_bytes"], row["without"]["file_bytes"])
+        self.assertGreater(row["file"]["cpu_ms"]["without"], 0)
+        text = self.succeed("inspect", "a.glsl", "--with", "alpha", "--size", "16x9", "--budget", "0.1").stdout.decode()
+        self.assertRegex(text, r"alpha +encoding a PNG: [\d.]+ [+-][\d.]+ \[.+\], \d+ -> \d+ bytes; its colours are the same\n")
+
+    def test_alpha_that_is_not_one_is_no_omission(self):
+        self.project()
+        self.write("p/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 0.5); }\n")
+        done = self.succeed("inspect", "p", "--pass", "Buffer A", "--with", "alpha", "--size", "16x9", "--budget", "0.1",
+                            "--json")
+        self.assertFalse(json.loads(done.stdout)["savings"][0]["left_out"])
 
     def test_what_a_scene_needs_is_not_left_out(self):
         self.write("self.glsl", '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) '

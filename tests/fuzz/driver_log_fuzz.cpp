@@ -1,6 +1,8 @@
-// Driver logs: any text gives messages, and places only where the text has lines.
+// Driver logs: any text gives messages, and places only where the text has lines. Any line is a count of
+// instructions or none.
 #include "fuzz.hpp"
 #include "glsl/driver_log.hpp"
+#include "glsl/instruction_count.hpp"
 
 using namespace tidemark;
 
@@ -14,5 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         REQUIRE(diagnostic.where.file.empty() ? diagnostic.where.line == 0 : diagnostic.where.line >= 1);
         REQUIRE(!to_string(diagnostic).empty());
     }
+    if (const auto count = glsl::read_instruction_count(text_of(data, size)))
+        REQUIRE(count->instructions >= 0 && !count->shader.empty());
     return 0;
 }

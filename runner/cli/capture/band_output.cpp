@@ -1,22 +1,32 @@
 #include "cli/capture/band_output.hpp"
 
 #include "cli/console.hpp"
+#include "image/colours.hpp"
 
 #include <algorithm>
 #include <system_error>
 #include <vector>
 
 namespace tidemark::cli {
+namespace {
+
+constexpr size_t k_block_bytes = 1 << 18; ///< what a processor's cache holds while it is filled and written
+
+} // namespace
 
 Result<void> put_raw(const image::Image& image) {
-    std::vector<std::byte> rgb(image.extent.pixels() * 3);
-    std::byte* to = rgb.data();
-    for (size_t row = size_t(image.extent.height); row-- > 0;) {
-        const std::byte* from = &image.bytes[row * image.row_bytes()];
-        for (int x = 0; x < image.extent.width; ++x, from += 4, to += 3)
-            std::copy_n(from, 3, to);
+    const size_t row_bytes = size_t(image.extent.width) * 3;
+    const size_t rows_at_once = std::max<size_t>(1, k_block_bytes / row_bytes);
+    std::vector<std::byte> block;
+    for (int row = image.extent.height; row > 0;) {
+        const auto rows = int(std::min(rows_at_once, size_t(row)));
+        block.resize(size_t(rows) * row_bytes);
+        for (int i = 0; i < rows; ++i)
+            copy_colours(image, --row, block.data() + size_t(i) * row_bytes);
+        if (auto done = put(block); !done)
+            return done;
     }
-    return put(rgb);
+    return {};
 }
 
 void add_rows(Sha256& hash, const image::Image& image) {

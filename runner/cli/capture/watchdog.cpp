@@ -40,26 +40,33 @@ Watchdog::Watch::Watch(Watchdog& dog, std::string what, std::optional<double> li
     if (limit_seconds)
         work.deadline = start + from_seconds(*limit_seconds);
     const std::lock_guard lock(dog_.mutex_);
+    // Not woken for each frame: it looks at what there is when it wakes by itself.
+    if (work.wake() < dog_.wakes_)
+        dog_.changed_.notify_all();
     dog_.work_ = std::move(work);
-    dog_.changed_.notify_all();
 }
 
 Watchdog::Watch::~Watch() {
     const std::lock_guard lock(dog_.mutex_);
     dog_.work_.reset();
-    dog_.changed_.notify_all();
+}
+
+Watchdog::Clock::time_point Watchdog::Work::wake() const {
+    return deadline ? std::min(*deadline, next_word) : next_word;
 }
 
 void Watchdog::run() {
     std::unique_lock lock(mutex_);
     while (!ending_) {
-        if (!work_) {
-            changed_.wait(lock);
-            continue;
-        }
-        const auto wake = work_->deadline ? std::min(*work_->deadline, work_->next_word) : work_->next_word;
-        if (changed_.wait_until(lock, wake) == std::cv_status::timeout && work_)
+        if (work_ && work_->wake() <= Clock::now()) {
             speak_or_end();
+        } else if (work_) {
+            wakes_ = work_->wake();
+            changed_.wait_until(lock, wakes_);
+        } else {
+            wakes_ = Clock::time_point::max();
+            changed_.wait(lock);
+        }
     }
 }
 

@@ -44,6 +44,9 @@ private:
         Clock::time_point start;
         std::optional<Clock::time_point> deadline;
         Clock::time_point next_word;
+
+        /// When something is due.
+        Clock::time_point wake() const;
     };
 
     void run();
@@ -53,6 +56,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<Work> work_;
+    Clock::time_point wakes_ = Clock::time_point::max(); ///< of itself
     bool ending_ = false;
     std::thread thread_;
 };

@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/inspect/driver_code.hpp"
 #include "cli/inspect/inspect_savings.hpp"
 #include "cli/omissions.hpp"
 #include "cli/options.hpp"
@@ -18,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,7 +97,10 @@ std::string to_line(const glsl::LeftOut& left_out) {
     return text + '\n';
 }
 
-Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
+/// By pass.
+using Sizes = std::vector<std::optional<CompiledSizes>>;
+
+Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver, const Sizes& sizes) {
     const SceneFacts facts = facts_of(renderer);
     const scene::Scene& scene = renderer.scene();
     Json json;
@@ -111,10 +116,12 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
         Json channels = Json::object();
         for (const int channel : facts_of_pass.channels)
             channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
-        json["passes"].push_back({{"name", pass.name},
-                                  {"channels", channels},
-                                  {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass,
-                                                                       glsl::Specialise::settled))}});
+        Json& json_of_pass = json["passes"].emplace_back(Json{
+            {"name", pass.name},
+            {"channels", channels},
+            {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::settled))}});
+        if (const auto& size = sizes[facts_of_pass.pass])
+            json_of_pass["program"] = to_json(*size);
     }
     json["knobs"] = knobs_of(scene);
     json["definitions"] = definitions_of(scene);
@@ -123,7 +130,7 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver) {
     return json;
 }
 
-std::string to_text(const render::Renderer& renderer, const gl::Capabilities& driver) {
+std::string to_text(const render::Renderer& renderer, const gl::Capabilities& driver, const Sizes& sizes) {
     const SceneFacts facts = facts_of(renderer);
     const scene::Scene& scene = renderer.scene();
     std::string text =
@@ -137,6 +144,8 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
         text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::settled));
+        if (const auto& size = sizes[facts_of_pass.pass])
+            text += to_lines(*size);
     }
     text += knob_lines(scene) + definition_lines(scene);
     text += precision_lines(renderer);
@@ -171,20 +180,22 @@ Result<int> inspect_scene(const InspectOptions& options) {
         return put(options.json ? what_files_say(*scene).dump(2) + "\n" : lines_of_files(*scene)).map([] {
             return 0;
         });
-    const auto context = platform::HeadlessContext::create(options.device);
+    const FreshDriverCache fresh;
+    const auto context = platform::HeadlessContext::create(options.device, platform::DebugContext::yes);
     if (!context)
         return fail(context.error());
     render::RenderOptions target;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
     target.specialise = glsl::Specialise::unreachable;
+    const Sizes sizes = compiled_sizes(*scene, target.precision); // before the driver has seen any of it
     const auto renderer = render::Renderer::create(*std::move(scene), target);
     if (!renderer)
         return fail(renderer.error());
     const gl::Capabilities driver = gl::query_capabilities();
-    return put(options.json ? to_json(*renderer, driver).dump(2) + "\n" : to_text(*renderer, driver)).map([] {
-        return 0;
-    });
+    return put(options.json ? to_json(*renderer, driver, sizes).dump(2) + "\n"
+                            : to_text(*renderer, driver, sizes))
+        .map([] { return 0; });
 }
 
 } // namespace

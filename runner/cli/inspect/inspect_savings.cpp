@@ -86,16 +86,31 @@ std::string change(size_t without, size_t with_it) {
 
 constexpr std::string_view k_row = "{:<16}  {:<30}  {:<30}  {:>11}  {:>9}  {:>9}  {:>9}  {}\n";
 
-std::string to_text(const Answer& answer) {
+std::string row_of_frame(const Answer& answer) {
     const Saving& saving = answer.saving;
-    if (!saving.left_out())
+    const render::FrameWork& without = saving.without.frame;
+    const render::FrameWork& with_it = saving.with_it.frame;
+    const double bytes = double(with_it.texture_bytes) - double(without.texture_bytes);
+    return fmt::format(fmt::runtime(k_row), answer.name, to_text(saving.start.wall),
+                       to_text(saving.frame.wall), fmt::format("{:+.2f} MiB", bytes / k_mebibyte),
+                       change(without.draws, with_it.draws), change(without.uniforms, with_it.uniforms),
+                       change(without.channels, with_it.channels),
+                       saving.same_pixels ? "the same" : "differ");
+}
+
+std::string row_of_file(const Answer& answer) {
+    const Saving& saving = answer.saving;
+    return fmt::format("{:<16}  encoding a PNG: {}, {} bytes; its colours {}\n", answer.name,
+                       to_text(saving.file.wall),
+                       change(saving.without.file_bytes, saving.with_it.file_bytes),
+                       saving.same_pixels ? "are the same" : "differ");
+}
+
+std::string to_text(const Answer& answer) {
+    if (!answer.saving.left_out())
         return fmt::format("{:<16}  nothing of that kind is left out of this scene\n", answer.name);
-    const double bytes = double(saving.with_it.texture_bytes) - double(saving.without.texture_bytes);
-    return fmt::format(
-        fmt::runtime(k_row), answer.name, to_text(saving.start.wall), to_text(saving.frame.wall),
-        fmt::format("{:+.2f} MiB", bytes / k_mebibyte), change(saving.without.draws, saving.with_it.draws),
-        change(saving.without.uniforms, saving.with_it.uniforms),
-        change(saving.without.channels, saving.with_it.channels), saving.same_pixels ? "the same" : "differ");
+    return (answer.saving.in_frame() ? row_of_frame(answer) : "") +
+           (answer.saving.in_file() ? row_of_file(answer) : "");
 }
 
 std::string to_text(const LoadedLibrary& loaded) {
@@ -117,20 +132,25 @@ Json to_json(const lab::SavedTime& time) {
     return {{"wall_ms", to_json(time.wall)}, {"cpu_ms", to_json(time.cpu)}};
 }
 
-Json to_json(const render::FrameWork& work) {
-    return {{"draws", work.draws},
-            {"uniforms", work.uniforms},
-            {"channels", work.channels},
-            {"texture_bytes", work.texture_bytes}};
+Json to_json(const lab::Work& work) {
+    Json json = {{"draws", work.frame.draws},
+                 {"uniforms", work.frame.uniforms},
+                 {"channels", work.frame.channels},
+                 {"texture_bytes", work.frame.texture_bytes}};
+    if (work.file_bytes > 0)
+        json["file_bytes"] = work.file_bytes;
+    return json;
 }
 
 Json to_json(const Answer& answer) {
     const Saving& saving = answer.saving;
     Json json = {{"with", answer.name}, {"left_out", saving.left_out()}};
+    if (saving.in_frame())
+        json.update({{"start", to_json(saving.start)}, {"frame", to_json(saving.frame)}});
+    if (saving.in_file())
+        json["file"] = to_json(saving.file);
     if (saving.left_out())
-        json.update({{"start", to_json(saving.start)},
-                     {"frame", to_json(saving.frame)},
-                     {"without", to_json(saving.without)},
+        json.update({{"without", to_json(saving.without)},
                      {"with_it", to_json(saving.with_it)},
                      {"same_pixels", saving.same_pixels}});
     return json;
@@ -150,7 +170,8 @@ std::string report_text(const SavingsOptions& options, const std::vector<Answer>
     std::string text =
         fmt::format("{}, {}, {}: milliseconds without, what the thing adds, and its 95 % interval\n",
                     options.scene.path.string(), options.size, gl::query_capabilities().renderer);
-    if (!answers.empty())
+    const auto in_frame = [](const Answer& answer) { return answer.saving.in_frame(); };
+    if (std::ranges::any_of(answers, in_frame))
         text += fmt::format(fmt::runtime(k_row), "with", "start", "a frame", "textures", "draws", "uniforms",
                             "channels", "pixels");
     for (const Answer& answer : answers)

@@ -1,0 +1,42 @@
+#include "gl/capabilities.hpp"
+#include "gl/compiler_messages.hpp"
+#include "gl/program.hpp"
+#include "gl_test.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tidemark::gl {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Of a text that no compiler takes.
+void compile(const std::string& name) {
+    const auto linked = Program::link("#version 450 core\nvoid main() { gl_Position = vec4(0.0); }\n",
+                                      "#version 450 core\nvoid main() { " + name + "; }\n");
+    EXPECT_FALSE(linked);
+}
+
+TEST(CompilerMessages, are_the_compilers_alone_and_only_while_somebody_listens) {
+    if (query_capabilities().version.find("Mesa") == std::string::npos)
+        GTEST_SKIP() << "what a driver says is its own affair; Mesa's compiler repeats its errors";
+    compile("before");
+    {
+        CompilerMessages messages;
+        constexpr std::string_view k_ours = "not the compiler's";
+        glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 1, GL_DEBUG_SEVERITY_HIGH,
+                             GLsizei(k_ours.size()), k_ours.data());
+        EXPECT_THAT(messages.take(), IsEmpty());
+        compile("while_it_lives");
+        EXPECT_THAT(messages.take(), Contains(HasSubstr("while_it_lives")));
+        EXPECT_THAT(messages.take(), IsEmpty());
+    }
+    compile("behind"); // must not write where there is nobody any more
+    CompilerMessages others;
+    EXPECT_THAT(others.take(), IsEmpty());
+}
+
+} // namespace
+} // namespace tidemark::gl
