@@ -29,7 +29,7 @@ class Scene(ProgramTest):
         self.assertEqual(sorted(facts["uniforms"]), ["height", "iChannel1", "iTime"])
         self.assertEqual(facts["passes"], [{
             "name": "Image", "channels": {"iChannel1": "noise"},
-            "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0}}])
+            "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0, "side_by_side": 0}}])
         self.assertEqual(facts["knobs"], [
             {"name": "height", "type": "float", "value": [1.25], "low": [0], "high": [2]},
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
@@ -54,7 +54,7 @@ class Scene(ProgramTest):
         facts = json.loads(self.succeed("inspect", "plain.glsl", "--json").stdout)
         self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{
             "name": "Image", "channels": {},
-            "code_removed": {"lines": 0, "branches": 0, "out_of_loops": 0,
+            "code_removed": {"lines": 0, "branches": 0, "out_of_loops": 0, "side_by_side": 0,
                              "none_because": "there is nothing to leave out"}}]))
         self.assertEqual(facts["left_out"][-1], "noise texture")
 
