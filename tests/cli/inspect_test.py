@@ -99,7 +99,7 @@ class Scene(ProgramTest):
                                 "        c += heavy();\n"
                                 "}\n")
         self.assertIn("  code removed: 3 lines; in a long sequence also 1 branches closed, 1 expressions taken out "
-                      "of loops", self.succeed("inspect", "loop.glsl").stdout.decode().splitlines())
+                      "of loops, 0 run side by side", self.succeed("inspect", "loop.glsl").stdout.decode().splitlines())
         plain = self.succeed("inspect", "loop.glsl", "--source").stdout.decode()
         self.assertIn("float heavy()", plain)
         text = self.succeed("inspect", "loop.glsl", "--source", "--specialised").stdout.decode()

@@ -94,7 +94,7 @@ std::string to_line(const glsl::LeftOut& left_out) {
     if (left_out.in_doubt())
         text +=
             fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops, "
-                        "{} of calls run side by side",
+                        "{} run side by side",
                         left_out.branches, left_out.hoisted, left_out.side_by_side);
     return text + '\n';
 }

@@ -75,9 +75,9 @@ bool OnlyRead::is_local(NodeId target, const Variables& locals) const {
 }
 
 bool OnlyRead::may_call(NodeId call, const Variables& locals) const {
-    const std::string_view callee = called_name(text_, call);
+    const std::string_view callee = called_name(text_, call); // of an array's constructor and .length() none
     const Reader* own = function(callee);
-    if (callee.empty() || (own ? !own->only_reads() : has_effects(callee)))
+    if (own ? !own->only_reads() : has_effects(callee))
         return false;
     const std::vector<NodeId> parts = tree_.children(call);
     for (size_t i = 1; i < parts.size(); ++i)
