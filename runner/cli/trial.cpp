@@ -1,6 +1,7 @@
 #include "cli/trial.hpp"
 
 #include "cli/omissions.hpp"
+#include "gl/capabilities.hpp"
 #include "lab/statistics.hpp"
 #include "lab/stopwatch.hpp"
 
@@ -27,25 +28,33 @@ constexpr double k_frames_of_trial = 3;
 /// However long they take.
 constexpr size_t k_fewest_pairs = 3;
 
+/// Where threads of this process draw, and it does nothing else, their CPU time is the measure: other
+/// processes do not stretch it.
+using Clock = double lab::Elapsed::*;
+Clock clock_of(const TrialPlan& plan) {
+    const bool in_software = gl::query_capabilities().renderer.starts_with("llvmpipe");
+    return in_software && plan.timing == 0 ? &lab::Elapsed::cpu : &lab::Elapsed::wall;
+}
+
 /// Of all that was drawn.
-double milliseconds_on(const lab::Stopwatch& watch) {
+double milliseconds_on(const lab::Stopwatch& watch, Clock clock) {
     glFinish();
-    return watch.elapsed().wall;
+    return watch.elapsed().*clock;
 }
 
 /// From nothing drawn, or a frame that it has just drawn would be free.
-double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs) {
+double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs, Clock clock) {
     renderer.reset();
     glFinish();
     const lab::Stopwatch watch;
     renderer.draw(inputs);
-    return milliseconds_on(watch);
+    return milliseconds_on(watch, clock);
 }
 
 /// Then leaves the device to others for as long: a software driver draws for one context at a time, and
 /// whoever comes back at once is served first.
 double politely_timed(Renderer& renderer, const render::FrameInputs& inputs) {
-    const double milliseconds = milliseconds_of(renderer, inputs);
+    const double milliseconds = milliseconds_of(renderer, inputs, &lab::Elapsed::wall);
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds));
     return milliseconds;
 }
@@ -133,6 +142,7 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
                              const TrialPlan& plan) {
     render::RenderOptions certain = options;
     certain.specialise = glsl::Specialise::unreachable;
+    const Clock clock = clock_of(plan);
     const lab::Stopwatch start;
     auto plain = Renderer::create(scene, certain);
     if (!plain)
@@ -140,9 +150,9 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
     if (!worth_trying(*plain, options.specialise))
         return Trial{*std::move(plain)};
     plain->draw(plan.first);
-    const double plain_start = milliseconds_on(start);
+    const double plain_start = milliseconds_on(start, clock);
     const Pictures first = pictures_of(*plain);
-    const double plain_time = milliseconds_of(*plain, plan.last);
+    const double plain_time = milliseconds_of(*plain, plan.last, clock);
     const Pictures last = pictures_of(*plain);
     const double cost = plain_start + k_frames_of_trial * plain_time;
     if (!plan.allowed && cost > k_share_of_sequence * double(plan.frames) * plain_time)
@@ -152,7 +162,7 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
         return blank(*std::move(plain));
     special->draw(plan.first);
     double difference = difference_of(pictures_of(*special), first);
-    double share = milliseconds_of(*special, plan.last) / plain_time;
+    double share = milliseconds_of(*special, plan.last, clock) / plain_time;
     difference = std::max(difference, difference_of(pictures_of(*special), last));
     const bool close = difference <= plan.allowed.value_or(0);
     if (close && plan.timing > 0)

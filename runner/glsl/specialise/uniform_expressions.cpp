@@ -134,13 +134,8 @@ auto UniformExpressions::evaluate(NodeId expression) const -> Value {
     const auto child = [&](size_t index) { return value(tree_.child(expression, index)); };
     switch (tree_[expression].kind) {
     case NodeKind::literal: {
-        const std::string_view digits = text_.word_of(expression);
-        const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
-        const bool floating = !hexadecimal && digits.find_first_of(".eEfF") != std::string_view::npos;
-        const bool is_unsigned = digits.ends_with('u') || digits.ends_with('U');
-        if (digits.ends_with("lf") || digits.ends_with("LF"))
-            return std::nullopt;
-        return FrameValue{{floating ? 'f' : is_unsigned ? 'u' : 'i', 1, 1}};
+        const auto type = type_of_literal(text_.word_of(expression));
+        return type ? Value(FrameValue{*type}) : std::nullopt;
     }
     case NodeKind::name: return is_callee(expression) ? std::nullopt : name(text_.word_of(expression));
     case NodeKind::parenthesis: return child(0);

@@ -68,6 +68,15 @@ std::string to_string(const ValueType& type) {
     return type.base == 'f' ? fmt::format("vec{}", type.rows) : fmt::format("{}vec{}", type.base, type.rows);
 }
 
+std::optional<ValueType> type_of_literal(std::string_view digits) {
+    const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
+    const bool floating = !hexadecimal && digits.find_first_of(".eEfF") != std::string_view::npos;
+    const bool is_unsigned = digits.ends_with('u') || digits.ends_with('U');
+    if (digits.ends_with("lf") || digits.ends_with("LF"))
+        return std::nullopt;
+    return ValueType{floating ? 'f' : is_unsigned ? 'u' : 'i', 1, 1};
+}
+
 std::optional<ValueType> type_of_operation(std::string_view op, const ValueType& left,
                                            const ValueType& right) {
     if (op != "+" && op != "-" && op != "*" && op != "/")

@@ -23,6 +23,8 @@ struct ValueType {
 /// Of a type's name.
 std::optional<ValueType> value_type(std::string_view name);
 std::string to_string(const ValueType& type);
+/// Of a number as it is written; doubles have none.
+std::optional<ValueType> type_of_literal(std::string_view digits);
 
 /// Of `left op right`, no assignment.
 std::optional<ValueType> type_of_operation(std::string_view op, const ValueType& left,
