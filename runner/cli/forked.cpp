@@ -54,14 +54,15 @@ std::optional<std::string> read_line(int fd) {
     ::_exit(0); // no destructors of a driver that may hang in them
 }
 
-/// Reads to the end or the deadline. True: the end.
-bool read_all(int fd, Clock::time_point deadline, std::string& output) {
+/// Reads to the end or the deadline, and whatever was told until then. True: the end.
+bool read_all(int fd, Clock::time_point deadline, std::string& output, const Tell& hear) {
     std::array<char, 1 << 14> block;
+    size_t heard = 0;
     for (;;) {
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
         pollfd wait{fd, POLLIN, 0};
-        const int ready = left <= 0 ? 0 : ::poll(&wait, 1, int(std::min<long>(left, 1'000'000)));
+        const int ready = ::poll(&wait, 1, int(std::clamp<long>(left, 0, 1'000'000)));
         if (ready == 0 && Clock::now() >= deadline)
             return false;
         if (ready <= 0)
@@ -71,6 +72,10 @@ bool read_all(int fd, Clock::time_point deadline, std::string& output) {
             return true;
         if (count > 0)
             output.append(block.data(), size_t(count));
+        for (size_t end = output.find('\n', heard); end != output.npos; end = output.find('\n', heard)) {
+            hear(std::string_view(output).substr(heard, end - heard));
+            heard = end + 1;
+        }
     }
 }
 
@@ -128,13 +133,13 @@ ForkedHelper::~ForkedHelper() {
     status_of(child_);
 }
 
-Result<ForkedResult> ForkedHelper::ask(std::string_view question, double seconds) {
+Result<ForkedResult> ForkedHelper::ask(std::string_view question, double seconds, const Tell& hear) {
     ForkedResult result;
     const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                              std::chrono::duration<double>(std::min(seconds, 3e7)));
     write_line(question_, question);
     ::close(question_);
-    result.timed_out = !read_all(answer_, deadline, result.output);
+    result.timed_out = !read_all(answer_, deadline, result.output, hear);
     ::close(answer_);
     if (result.timed_out)
         ::kill(child_, SIGKILL);
@@ -145,11 +150,12 @@ Result<ForkedResult> ForkedHelper::ask(std::string_view question, double seconds
     return result;
 }
 
-Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, double seconds) {
+Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, double seconds,
+                                const Tell& hear) {
     auto helper = ForkedHelper::start([&work](const std::string&, const Tell& tell) { work(tell); });
     if (!helper)
         return fail(std::move(helper.error()));
-    return helper->ask({}, seconds);
+    return helper->ask({}, seconds, hear);
 }
 
 } // namespace tidemark::cli

@@ -1,5 +1,5 @@
 // Work in a process of its own, for what may crash or never end: a driver that compiles a hostile shader. To
-// be called before the program has an OpenGL context or threads.
+// be called before the program has an OpenGL context or threads, but that of an Interrupt.
 #pragma once
 
 #include "base/result.hpp"
@@ -19,8 +19,9 @@ struct ForkedResult {
 /// Tells one line to the parent; what was told survives the end of the work.
 using Tell = std::function<void(std::string_view line)>;
 
-/// Runs `work` in a child and waits for it.
-Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, double seconds);
+/// Runs `work` in a child and waits for it; `hear` is called with each line as it comes.
+Result<ForkedResult> run_forked(
+    const std::function<void(const Tell&)>& work, double seconds, const Tell& hear = [](std::string_view) {});
 
 /// A child made early, while it may be, that sleeps until its work is asked for.
 class ForkedHelper {
@@ -32,8 +33,9 @@ public:
     /// Ends a child that was not asked.
     ~ForkedHelper();
 
-    /// Once, with one line: gives the child its question and waits for it.
-    Result<ForkedResult> ask(std::string_view question, double seconds);
+    /// Once, with one line: gives the child its question and waits for it; `hear` as in run_forked.
+    Result<ForkedResult> ask(
+        std::string_view question, double seconds, const Tell& hear = [](std::string_view) {});
 
 private:
     ForkedHelper() = default;

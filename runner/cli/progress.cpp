@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace tidemark::cli {
@@ -28,13 +29,18 @@ constexpr double k_redraw_seconds = 0.1;
 
 } // namespace
 
-Progress::Progress(std::string what, size_t total)
-    : what_(std::move(what)), total_(total), terminal_(::isatty(STDERR_FILENO) == 1), start_(Clock::now()),
-      shown_(start_), first_done_(start_) {}
+Progress::Progress(std::string what, size_t total, Manner manner)
+    : what_(std::move(what)), total_(total), manner_(manner), terminal_(::isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()), shown_(start_), first_done_(start_) {}
 
 Progress::~Progress() {
-    if (terminal_ && done_ > 0 && total_ > 1)
+    step_aside();
+}
+
+void Progress::step_aside() {
+    if (on_terminal_)
         show(k_clear_line);
+    on_terminal_ = false;
 }
 
 void Progress::advance() {
@@ -42,11 +48,12 @@ void Progress::advance() {
     const Clock::time_point now = Clock::now();
     if (done_ == 1)
         first_done_ = now;
-    if (total_ < 2)
+    if (total_ < 2 || seconds_between(start_, now) < manner_.silent)
         return;
-    if (terminal_ && (seconds_between(shown_, now) > k_redraw_seconds || done_ == total_)) {
+    if (terminal_ && (!on_terminal_ || seconds_between(shown_, now) > k_redraw_seconds || done_ == total_)) {
         show(k_clear_line + line());
         shown_ = now;
+        on_terminal_ = true;
     } else if (!terminal_ && done_ * 10 / total_ > (done_ - 1) * 10 / total_) {
         say(line());
     }
@@ -56,6 +63,9 @@ void Progress::advance() {
 /// rate as soon as there is a second.
 std::string Progress::line() const {
     const Clock::time_point now = Clock::now();
+    if (manner_.limit)
+        return fmt::format("{}/{} {}, at most {:.0f} s left", done_, total_, what_,
+                           std::max(0.0, *manner_.limit - seconds_between(start_, now)));
     const double counted = done_ > 1 ? double(done_ - 1) : 1.0;
     const double elapsed = seconds_between(done_ > 1 ? first_done_ : start_, now);
     const double rate = elapsed > 0 ? counted / elapsed : 0;

@@ -168,6 +168,10 @@ Result<int> study(const StudyOptions& options) {
     StudyWatcher watcher(interrupt);
     auto findings = lab::conduct(*scene, *plan, options.timing, watcher.watch(), circumstances_now());
     watcher.finish();
+    if (!findings && interrupt.requested()) {
+        say(to_string(findings.error()));
+        return Interrupt::k_exit_code;
+    }
     if (!findings)
         return fail(std::move(findings.error()));
     note_scene_and_driver(findings->set.circumstances, *scene);

@@ -64,13 +64,9 @@ class Names(CaptureTest):
         self.capture()
         self.assertEqual(self.picture("wave.png").width, 7)
 
-    def test_progress_has_a_line_for_each_tenth(self):
-        done = self.capture("--frames", "0-19", "-o", "f%d.png")
-        lines = done.stderr.splitlines()
-        self.assertEqual(len(lines), 11)
-        for tenth, line in enumerate(lines[:10], 1):
-            self.assertRegex(line, rf"\A{2 * tenth}/20 frames, [0-9.]+ a second, \d+ s left\Z")
-        self.assertEqual(lines[10], "wrote 20 frames, f0.png to f19.png")
+    def test_a_short_capture_shows_no_progress(self):
+        done = self.capture("--frames", "0-1", "-o", "f%d.png")
+        self.assertEqual(done.stderr.splitlines(), ["wrote 2 frames, f0.png to f1.png"])
 
     def test_errors(self):
         formats = ".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr"

@@ -312,6 +312,19 @@ class Interrupted(Study):
         self.assertIn("incomplete", (self.folder / "report/report.html").read_text())
 
 
+    def test_before_there_is_a_reference_it_ends_as_an_interrupt_does(self):
+        self.write("slow.glsl", SUM.replace("STEPS 4", "STEPS 20000"))
+        program = subprocess.Popen([PROGRAM, "study", "slow.glsl", "--vary", "STEPS=4,8,20000", "--size", "640x360",
+                                    "-o", "report"], cwd=self.folder, stderr=subprocess.PIPE, text=True, env=environment())
+        while program.poll() is None and not (self.folder / "report/study.json").exists():
+            time.sleep(0.01)
+        program.send_signal(signal.SIGINT)
+        words = program.stderr.read()
+        program.stderr.close()
+        self.assertEqual(program.wait(60), 130, words)
+        self.assertIn("interrupted before there was a reference", words)
+
+
 class BadInput(Study):
     def refuse(self, arguments: str, code: int, words: str) -> None:
         with self.subTest(arguments=arguments):

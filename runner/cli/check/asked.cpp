@@ -33,6 +33,8 @@ Json told(const lab::Situation& situation) {
                  {"definitions", told(situation.definitions)},
                  {"channels", situation.channels},
                  {"pass", situation.pass}};
+    if (situation.stepped)
+        json["stepped"] = *situation.stepped;
     if (situation.mouse)
         json["mouse"] = {situation.mouse->x, situation.mouse->y};
     if (situation.dragged_from)
@@ -49,6 +51,8 @@ lab::Situation told_situation(const Json& json) {
     json.at("down").get_to(situation.down);
     json.at("channels").get_to(situation.channels);
     json.at("pass").get_to(situation.pass);
+    if (json.contains("stepped"))
+        situation.stepped = json["stepped"].get<int>();
     if (json.contains("mouse"))
         situation.mouse = told_pixel(json["mouse"]);
     if (json.contains("dragged_from"))

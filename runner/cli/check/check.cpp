@@ -3,10 +3,12 @@
 #include "cli/check/check_trace.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace tidemark::cli {
@@ -20,7 +22,9 @@ struct CheckOptions {
     bool list = false;
 };
 
+/// All of them need --trace, which must be there.
 void add_trace_options(CLI::App& command, TraceOptions& options) {
+    const auto before = command.get_options();
     add_picture_options(command, options.frames);
     add_time_options(command, options.frames);
     command
@@ -31,6 +35,9 @@ void add_trace_options(CLI::App& command, TraceOptions& options) {
     command.add_option("--timeout", options.timeout, "Give up the trace after so long")
         ->type_name("SECONDS")
         ->capture_default_str();
+    for (CLI::Option* option : command.get_options())
+        if (std::ranges::find(before, option) == before.end())
+            option->needs("--trace")->group("With --trace");
 }
 
 Result<int> trace(const CheckOptions& options) {
@@ -49,12 +56,13 @@ void add_check(CLI::App& app, Action& chosen) {
         app.add_subcommand("check", "Tells whether a scene's numbers can be trusted, and where not");
     ProbesRequest& probes = options->probes;
     add_scene_options(*command, probes.scene);
-    add_precision_options(*command, probes.scene);
     repeatable(command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]"))
         ->type_name("NAME");
-    command->add_option("-o,--output", probes.output, "Folder for a picture of each failure")
+    command->add_option("-o,--output", probes.output, "Folder for a picture of each failure and warning")
         ->type_name("FOLDER");
-    command->add_option("--budget", probes.budget, "Seconds after which no other probe is begun")
+    command
+        ->add_option("--budget", probes.budget,
+                     "Seconds for all of it: what has not answered by then is cut, and is exit 5")
         ->type_name("S")
         ->capture_default_str();
     command->add_option("--device", probes.device, "Where to draw: a name from `tidemark inspect --devices`")
@@ -75,10 +83,8 @@ void add_check(CLI::App& app, Action& chosen) {
         if (!options->list && options->probes.scene.path.empty())
             throw CLI::RequiredError("SCENE");
         chosen = [options]() -> Result<int> {
-            if (options->probes.scene.doubles)
-                return fail(ErrorCode::usage,
-                            "check looks for what floats get wrong, and draws in double "
-                            "itself what it holds them against: leave --precision double out");
+            Interrupt interrupt;
+            const Interrupt::Immediate at_once(interrupt); // what was answered stands there already
             return options->list ? list_probes()
                    : options->portable
                        ? check_portable(options->probes.scene, options->probes.device, options->probes.json)

@@ -1,26 +1,23 @@
 #include "cli/check/check_probes.hpp"
 
 #include "base/file.hpp"
-#include "base/shell_word.hpp"
 #include "cli/check/asked.hpp"
 #include "cli/check/one_thread.hpp"
+#include "cli/check/verdicts.hpp"
 #include "cli/console.hpp"
 #include "cli/forked.hpp"
 #include "cli/progress.hpp"
-#include "cli/version.hpp"
 #include "glsl/overrides.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
-#include <sys/time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <csignal>
+#include <functional>
 #include <span>
-#include <sstream>
 
 namespace tidemark::cli {
 namespace fs = std::filesystem;
@@ -34,9 +31,8 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Once there is something to trace, the probes end at this part of --budget.
-constexpr double k_share_of_probes = 0.75;
-constexpr const char* k_not_asked = "not asked: --budget is spent";
+constexpr const char* k_not_asked = "--budget is spent: not asked";
+constexpr const char* k_not_finished = "--budget is spent: not finished";
 
 std::string probe_names() {
     std::string names;
@@ -68,26 +64,9 @@ Result<lab::Promises> promises_of(const fs::path& path, const scene::Scene& scen
                                [&](const std::string& name) { return glsl::definition_of(scene, name); });
 }
 
-std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
-    std::string options;
-    const auto add = [&options](const char* name, const std::vector<std::string>& values) {
-        for (const std::string& value : values)
-            options += fmt::format("{} {} ", name, shell_word(value));
-    };
-    add("--set", request.scene.sets);
-    add("--define", request.scene.defines);
-    add("--channel", request.scene.channels);
-    if (!request.scene.files.media.empty())
-        add("--media", {request.scene.files.media.string()});
-    if (request.scene.files.allow_outside)
-        options += "--allow-outside ";
-    return fmt::format("tidemark capture {} {}{} -o {}", shell_word(request.scene.path.string()), options,
-                       lab::capture_options(situation),
-                       shell_word(request.scene.path.stem().string() + ".exr"));
-}
-
 Result<void> keep_picture(const fs::path& folder, Asked& asked) {
-    if (folder.empty() || !asked.answer.picture)
+    const Verdict verdict = asked.answer.verdict;
+    if (folder.empty() || !asked.answer.picture || (verdict != Verdict::fail && verdict != Verdict::warn))
         return {};
     if (auto made = make_folder(folder); !made)
         return made;
@@ -97,12 +76,12 @@ Result<void> keep_picture(const fs::path& folder, Asked& asked) {
 
 /// Asks one probe, unless the scene leaves it out and nobody named it.
 Result<Asked> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name, bool time_left) {
-    Asked asked{&probe, {Verdict::not_applicable, {}}};
+    Asked asked{&probe, {}};
     const auto skipped = bench.promises().skip.find(std::string(probe.name));
     if (!by_name && skipped != bench.promises().skip.end()) {
-        asked.answer.sentence = "left out by the scene: " + skipped->second;
+        asked.answer = {Verdict::not_applicable, "left out by the scene: " + skipped->second};
     } else if (!time_left) {
-        asked.answer.sentence = k_not_asked;
+        asked.answer = {Verdict::cut, k_not_asked};
     } else {
         const Clock::time_point start = Clock::now();
         auto answer = probe.ask(bench);
@@ -115,14 +94,6 @@ Result<Asked> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name,
 }
 
 using Probes = std::span<const lab::Probe* const>;
-
-/// By SIGALRM, whatever it is at. Nothing when the time is over: then no probe is begun.
-void end_process_after(double seconds) {
-    itimerval timer{};
-    timer.it_value.tv_sec = time_t(std::max(seconds, 0.0));
-    timer.it_value.tv_usec = suseconds_t(1e6 * std::fmod(std::max(seconds, 0.0), 1.0));
-    ::setitimer(ITIMER_REAL, &timer, nullptr);
-}
 
 /// In a process of its own: one line for each probe.
 Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, const lab::Promises& promises,
@@ -139,74 +110,68 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
             return drawn_by(*painter, situation, request.budget - seconds_since(start));
         };
     lab::ProbeBench bench(scene, promises, with_one_thread);
-    Progress progress("probes", probes.size());
-    double limit = request.budget;
     for (const lab::Probe* probe : probes) {
-        auto asked = ask(*probe, bench, !request.probes.empty(), seconds_since(start) < limit);
+        auto asked = ask(*probe, bench, !request.probes.empty(), seconds_since(start) < request.budget);
         if (!asked)
             return fail(std::move(asked.error()));
         if (auto kept = keep_picture(request.output, *asked); !kept)
             return kept;
         tell(dump(told(*asked)));
-        if (asked->answer.non_finite && limit == request.budget) {
-            limit = k_share_of_probes * request.budget;
-            end_process_after(limit - seconds_since(start));
-        }
-        progress.advance();
     }
     return {};
 }
 
-/// Adds what a process told. The error is the one it ended with.
-Result<void> take(const std::string& output, std::vector<Asked>& all) {
-    std::istringstream lines(output);
-    for (std::string line; std::getline(lines, line);) {
-        const Json json = Json::parse(line);
-        if (auto error = told_error(json))
-            return fail(*std::move(error));
-        all.push_back(told_answer(json));
-    }
-    return {};
-}
+/// Called with each answer as it comes.
+using Take = std::function<Result<void>(Asked)>;
 
 /// Answers of all probes, in their order. The driver may hang or crash on the way: then the probe it was
 /// asked for has that as its answer.
-Result<std::vector<Asked>> answers(const ProbesRequest& request, const scene::Scene& scene,
-                                   const lab::Promises& promises, Probes probes, Clock::time_point start) {
-    std::vector<Asked> all;
-    const auto seconds_left = [&] {
-        const bool to_trace = std::ranges::any_of(all, [](const Asked& a) { return a.answer.non_finite; });
-        return (to_trace ? k_share_of_probes : 1) * request.budget - seconds_since(start);
-    };
-    while (all.size() < probes.size()) {
-        const double left = seconds_left();
+Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
+                        const lab::Promises& promises, Probes probes, Clock::time_point start,
+                        const Take& take) {
+    while (!probes.empty()) {
+        const double left = request.budget - seconds_since(start);
         if (left <= 0) {
-            all.push_back({probes[all.size()], {Verdict::not_applicable, k_not_asked}});
+            if (auto taken = take({probes.front(), {Verdict::cut, k_not_asked}}); !taken)
+                return taken;
+            probes = probes.subspan(1);
             continue;
         }
-        const size_t before = all.size();
         const Clock::time_point began = Clock::now();
+        double seconds = 0; // of those that answered
+        Result<void> heard;
         const auto run = run_forked(
             [&](const Tell& tell) {
-                if (auto done = ask_all(request, scene, promises, probes.subspan(before), start, tell); !done)
+                if (auto done = ask_all(request, scene, promises, probes, start, tell); !done)
                     tell(dump(told(done.error())));
             },
-            left);
+            left,
+            [&](std::string_view line) {
+                const Json json = Json::parse(line);
+                if (auto error = told_error(json))
+                    heard = fail(*std::move(error));
+                if (!heard)
+                    return;
+                Asked asked = told_answer(json);
+                seconds += asked.seconds;
+                probes = probes.subspan(1);
+                heard = take(std::move(asked));
+            });
         if (!run)
             return fail(run.error());
-        if (auto taken = take(run->output, all); !taken)
-            return fail(std::move(taken.error()));
-        if (all.size() == probes.size())
+        if (!heard)
+            return heard;
+        if (probes.empty())
             break;
-        Asked cut{probes[all.size()], {Verdict::not_applicable, "cut: --budget is spent"}};
-        if (run->signal != 0 && run->signal != SIGALRM)
-            cut.answer = {Verdict::fail, fmt::format("the driver crashed (signal {})", run->signal)};
-        cut.seconds = seconds_since(began);
-        for (const Asked& asked : std::span(all).subspan(before))
-            cut.seconds -= asked.seconds;
-        all.push_back(std::move(cut));
+        Asked last{probes.front(), {Verdict::cut, k_not_finished}};
+        if (run->signal != 0)
+            last.answer = {Verdict::fail, fmt::format("the driver crashed (signal {})", run->signal)};
+        last.seconds = seconds_since(began) - seconds;
+        if (auto taken = take(std::move(last)); !taken)
+            return taken;
+        probes = probes.subspan(1);
     }
-    return all;
+    return {};
 }
 
 /// What gave birth to what a probe found not finite.
@@ -233,57 +198,6 @@ void trace(const ProbesRequest& request, const scene::Scene& scene, Asked& asked
         asked.trace_json = found->json;
 }
 
-/// Each line behind `margin`.
-std::string indented(const std::string& text, const std::string& margin) {
-    std::string result;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-        result += margin + line + '\n';
-    return result;
-}
-
-std::string table(const ProbesRequest& request, const std::vector<Asked>& all) {
-    double seconds = 0;
-    for (const Asked& asked : all)
-        seconds += asked.seconds;
-    std::string text;
-    for (const Asked& asked : all) {
-        text += fmt::format("{:4}  {:10} {}", lab::to_string(asked.answer.verdict), asked.probe->name,
-                            asked.answer.sentence);
-        if (asked.seconds > 0)
-            text += fmt::format("  [{:.0f} %]", 100 * asked.seconds / seconds);
-        text += '\n';
-        const std::string margin(17, ' ');
-        text += indented(asked.trace, margin);
-        if (asked.answer.where)
-            text += fmt::format("{}{}\n", margin, reproduction(request, *asked.answer.where));
-        if (!asked.picture.empty())
-            text += fmt::format("{}{}\n", margin, asked.picture.string());
-    }
-    return text + fmt::format("{:.1f} s\n", seconds);
-}
-
-std::string report(const ProbesRequest& request, const std::vector<Asked>& all) {
-    Json json = {{"tidemark", k_version}, {"scene", request.scene.path.string()}};
-    json["probes"] = Json::array();
-    for (const Asked& asked : all) {
-        Json entry = {{"probe", asked.probe->name},
-                      {"verdict", lab::to_string(asked.answer.verdict)},
-                      {"found", asked.answer.sentence},
-                      {"seconds", asked.seconds}};
-        if (asked.answer.where)
-            entry["reproduction"] = reproduction(request, *asked.answer.where);
-        if (!asked.picture.empty())
-            entry["picture"] = asked.picture.string();
-        if (asked.answer.non_finite) {
-            entry["trace"] = asked.trace_json;
-            entry["traced"] = asked.trace;
-        }
-        json["probes"].push_back(std::move(entry));
-    }
-    return dump(json, 2) + "\n";
-}
-
 } // namespace
 
 Result<int> list_probes() {
@@ -306,18 +220,24 @@ Result<int> check_probes(const ProbesRequest& request) {
     const auto promises = promises_of(request.scene.path, *scene);
     if (!promises)
         return fail(promises.error());
-    auto told = answers(request, *scene, *promises, *probes, start);
-    if (!told)
-        return fail(std::move(told.error()));
-    std::vector<Asked>& all = *told;
-    for (Asked& asked : all)
-        if (asked.answer.non_finite)
-            trace(request, *scene, asked, request.budget - seconds_since(start));
-    const bool failed =
-        std::ranges::any_of(all, [](const Asked& asked) { return asked.answer.verdict == Verdict::fail; });
-    return put(request.json ? report(request, all) : table(request, all)).map([failed] {
-        return failed ? exit_code(ErrorCode::check_failed) : 0;
-    });
+    const bool verdicts_tell = !request.json && ::isatty(STDERR_FILENO) != 1;
+    Progress progress("probes", verdicts_tell ? 0 : probes->size(), {.limit = request.budget});
+    std::vector<Asked> all;
+    const auto done =
+        answer_all(request, *scene, *promises, *probes, start, [&](Asked asked) -> Result<void> {
+            if (asked.answer.non_finite) // while the next probe is asked
+                trace(request, *scene, asked, request.budget - seconds_since(start));
+            progress.step_aside();
+            if (auto shown = put(request.json ? "" : row(request, asked)); !shown)
+                return shown;
+            all.push_back(std::move(asked));
+            progress.advance();
+            return {};
+        });
+    if (!done)
+        return fail(done.error());
+    progress.step_aside();
+    return put(request.json ? report(request, all) : rest(all)).map([&all] { return exit_code(all); });
 }
 
 } // namespace tidemark::cli

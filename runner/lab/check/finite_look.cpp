@@ -11,26 +11,31 @@ namespace tidemark::lab {
 namespace {
 
 /// The picture in grey, pixels that are no number magenta.
-image::Image marked(const image::Image& picture) {
-    image::Image map(picture.extent, 3, image::SampleType::f32);
+struct Marked {
+    image::Image map;
+    size_t bad = 0; ///< pixels
+};
+Marked marked(const image::Image& picture) {
+    Marked result{image::Image(picture.extent, 3, image::SampleType::f32)};
     const auto channels = size_t(picture.channels);
     for (size_t i = 0; i < picture.extent.pixels(); ++i) {
         const auto samples = picture.f32().subspan(i * channels, channels);
         const bool bad = std::ranges::any_of(samples, [](float v) { return !std::isfinite(v); });
         const float grey = bad ? 0.0f : std::clamp((samples[0] + samples[1] + samples[2]) / 3, 0.0f, 1.0f);
         const float shown[] = {bad ? 1.0f : grey, grey, bad ? 1.0f : grey};
-        std::ranges::copy(shown, map.f32().begin() + std::ptrdiff_t(3 * i));
+        std::ranges::copy(shown, result.map.f32().begin() + std::ptrdiff_t(3 * i));
+        result.bad += bad;
     }
-    return map;
+    return result;
 }
 
-std::string counts(const image::FiniteCensus& census) {
+std::string kinds(const image::FiniteCensus& census) {
     std::string text;
     const std::pair<size_t, const char*> kinds[] = {
         {census.nan, "NaN"}, {census.positive_infinity, "+Inf"}, {census.negative_infinity, "-Inf"}};
     for (const auto& [count, name] : kinds)
         if (count > 0)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+            text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
     return text;
 }
 
@@ -39,13 +44,30 @@ Result<std::optional<Answer>> known_before(ProbeBench& bench) {
     const auto passes = bench.passes({});
     if (!passes)
         return fail(passes.error());
-    for (const PassPicture& pass : *passes)
-        if (image::census(pass.picture).non_finite() > 0)
-            return Answer{Verdict::not_applicable, "not finite as the scene stands: see times", {}, {}};
-    return std::nullopt;
+    if (not_finite(bench, {}, *passes))
+        return Answer{Verdict::not_applicable, "not finite as the scene stands: see times"};
+    return std::optional<Answer>{};
 }
 
 } // namespace
+
+std::optional<Answer> not_finite(const ProbeBench& bench, const Situation& situation,
+                                 const std::vector<PassPicture>& passes) {
+    for (const PassPicture& pass : passes) {
+        const image::FiniteCensus census = image::census(pass.picture);
+        if (census.non_finite() == 0)
+            continue;
+        Marked shown = marked(pass.picture);
+        Answer answer{Verdict::fail,
+                      fmt::format("{} of {} pixels of {} ({}), first at pixel {},{}", shown.bad,
+                                  pass.picture.extent.pixels(), pass.pass, kinds(census),
+                                  census.first_non_finite->x, census.first_non_finite->y),
+                      situation, std::move(shown.map), true};
+        answer.where->pass = pass.pass == bench.scene().image().name ? "" : pass.pass;
+        return answer;
+    }
+    return std::nullopt;
+}
 
 Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations) {
     Answer answer;
@@ -54,25 +76,15 @@ Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations)
         const auto passes = bench.passes(situation);
         if (!passes)
             return fail(passes.error());
-        bool seen = false;
         for (const PassPicture& pass : *passes) {
             const image::FiniteCensus census = image::census(pass.picture);
             subnormal += census.subnormal > 0;
             beyond_half += census.beyond_half > 0;
-            if (census.non_finite() == 0)
-                continue;
-            if (!answer.where) {
-                const image::SamplePlace& at = *census.first_non_finite;
-                answer = {Verdict::fail,
-                          fmt::format("{} of {} samples of {} ({}), first at pixel {},{}",
-                                      census.non_finite(), census.samples, pass.pass, counts(census), at.x,
-                                      at.y),
-                          situation, marked(pass.picture), true};
-                answer.where->pass = pass.pass == bench.scene().image().name ? "" : pass.pass;
-            }
-            seen = true;
         }
-        bad += seen;
+        auto fault = not_finite(bench, situation, *passes);
+        bad += fault.has_value();
+        if (fault && !answer.where)
+            answer = *std::move(fault);
     }
     answer.sentence += bad > 0 ? fmt::format("; in {} of {} situations", bad, situations.size())
                                : fmt::format("all numbers finite in {} situations", situations.size());

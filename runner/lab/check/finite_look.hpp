@@ -3,9 +3,15 @@
 
 #include "lab/check/probe.hpp"
 
+#include <string>
 #include <vector>
 
 namespace tidemark::lab {
+
+/// The fault that the passes of a frame show: the first pass with a NaN or an infinity, its pixels counted
+/// and marked.
+std::optional<Answer> not_finite(const ProbeBench& bench, const Situation& situation,
+                                 const std::vector<PassPicture>& passes);
 
 /// Asks the same of every situation; the first bad one is told.
 Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations);

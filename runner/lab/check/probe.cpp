@@ -10,6 +10,7 @@ std::string_view to_string(Verdict verdict) {
     case Verdict::warn: return "warn";
     case Verdict::fail: return "fail";
     case Verdict::not_applicable: return "n/a";
+    case Verdict::cut: return "cut";
     }
     return {};
 }
@@ -19,6 +20,10 @@ std::span<const Probe> all_probes() {
         {"times",
          "NaN or infinity in any pass, at 0, 1e-6 and 1 s, around 62.83 s, to 1e6 s, at 2^24 and -5 s",
          ask_times},
+        {"frames",
+         "NaN or infinity in any pass in the first 600 frames, drawn one after the other (a pass that reads "
+         "what it drew)",
+         ask_frames},
         {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, pressed, dragged, released",
          ask_mouse},
         {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},

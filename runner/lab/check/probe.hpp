@@ -12,13 +12,14 @@
 
 namespace tidemark::lab {
 
-enum class Verdict { pass, warn, fail, not_applicable };
+/// `cut`: it was not asked, or not until it answered.
+enum class Verdict { pass, warn, fail, not_applicable, cut };
 std::string_view to_string(Verdict verdict);
 
 struct Answer {
     Verdict verdict = Verdict::pass;
     std::string sentence; ///< what was found; why the probe does not apply
-    /// Where it shows first, and what it looks like there.
+    /// Where it shows first, and what it looks like there, with the pixels or rays in question in magenta.
     std::optional<Situation> where{};
     std::optional<image::Image> picture{};
     bool non_finite = false; ///< a NaN or an infinity is there, which can be traced to its birth

@@ -85,13 +85,36 @@ Result<std::vector<PassPicture>> ProbeBench::passes(const Situation& situation) 
     auto renderer = drawn(situation, Entry::picture, glsl::Precision::single);
     if (!renderer)
         return fail(std::move(renderer.error()));
+    return read_back(**renderer);
+}
+
+std::vector<PassPicture> ProbeBench::read_back(render::Renderer& renderer) const {
     std::vector<PassPicture> pictures;
-    for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
+    for (const render::PlannedPass& planned : renderer.plan().passes) {
         const scene::Pass& pass = scene_.passes[planned.pass];
         if (pass.kind != scene::PassKind::cubemap)
-            pictures.push_back({pass.name, (*renderer)->read_back(planned.pass)});
+            pictures.push_back({pass.name, renderer.read_back(planned.pass)});
     }
     return pictures;
+}
+
+Result<bool> ProbeBench::has_feedback() {
+    const auto made = renderer({}, Entry::picture, glsl::Precision::single);
+    if (!made)
+        return fail(made.error());
+    return (*made)->plan().feedback;
+}
+
+Result<void> ProbeBench::step(const See& see) {
+    const auto made = renderer({}, Entry::picture, glsl::Precision::single);
+    if (!made)
+        return fail(made.error());
+    (*made)->reset();
+    for (Situation at{.stepped = 0};; ++*at.stepped) {
+        (*made)->draw(inputs_of(at));
+        if (!see(at, read_back(**made)))
+            return {};
+    }
 }
 
 Result<Hits> ProbeBench::hits(const Situation& situation, glsl::Precision precision) {

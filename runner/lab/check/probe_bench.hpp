@@ -40,6 +40,13 @@ public:
 
     const DrawElsewhere& with_one_thread() const { return with_one_thread_; }
 
+    /// Whether a frame depends on the one before it.
+    Result<bool> has_feedback();
+    /// Draws frame after frame from 0 on and shows each, with all its passes but cubemaps, until `see` says
+    /// false.
+    using See = std::function<bool(const Situation&, const std::vector<PassPicture>&)>;
+    Result<void> step(const See& see);
+
     bool has_hits() const { return hit_scene_.has_value(); }
     Result<Hits> hits(const Situation& situation, glsl::Precision precision = glsl::Precision::single);
 
@@ -56,6 +63,7 @@ private:
     enum class Entry { picture, hit };
     Result<render::Renderer*> poised(const Situation& situation, Entry entry, glsl::Precision precision);
     Result<render::Renderer*> drawn(const Situation& situation, Entry entry, glsl::Precision precision);
+    std::vector<PassPicture> read_back(render::Renderer& renderer) const;
     Result<render::Renderer*> renderer(const Situation& situation, Entry entry, glsl::Precision precision);
 
     scene::Scene scene_;

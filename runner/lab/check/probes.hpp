@@ -7,6 +7,7 @@ namespace tidemark::lab {
 
 // probes_finite.cpp
 Result<Answer> ask_times(ProbeBench& bench);
+Result<Answer> ask_frames(ProbeBench& bench);
 Result<Answer> ask_mouse(ProbeBench& bench);
 Result<Answer> ask_sizes(ProbeBench& bench);
 Result<Answer> ask_knobs(ProbeBench& bench);

@@ -3,6 +3,9 @@
 #include "lab/check/finite_look.hpp"
 #include "lab/check/probes.hpp"
 
+#include <fmt/format.h>
+
+#include <chrono>
 #include <cmath>
 
 namespace tidemark::lab {
@@ -26,6 +29,30 @@ Result<Answer> ask_times(ProbeBench& bench) {
          {0.0, 1e-6, 1.0, 60.0, 62.83 - 1 / 60.0, 62.83 + 1 / 60.0, 1e3, 1e4, 1e5, 1e6, 16777216.0, -5.0})
         situations.push_back({.time = time});
     return look(bench, situations);
+}
+
+Result<Answer> ask_frames(ProbeBench& bench) {
+    constexpr int k_frames = 600; // ten seconds of the clock
+    constexpr std::chrono::seconds k_patience(5);
+    const auto feedback = bench.has_feedback();
+    if (!feedback)
+        return fail(feedback.error());
+    if (!*feedback)
+        return Answer{Verdict::not_applicable, "no frame depends on the one before it"};
+    std::optional<Answer> fault;
+    int seen = 0;
+    const auto start = std::chrono::steady_clock::now();
+    const auto done = bench.step([&](const Situation& at, const std::vector<PassPicture>& passes) {
+        fault = not_finite(bench, at, passes);
+        return !fault && ++seen < k_frames && std::chrono::steady_clock::now() - start < k_patience;
+    });
+    if (!done)
+        return fail(done.error());
+    if (fault)
+        fault->sentence = fmt::format("from frame {} on: {}", seen, fault->sentence);
+    return fault ? *std::move(fault)
+                 : Answer{Verdict::pass, fmt::format("all numbers finite in the first {} frames{}", seen,
+                                                     seen < k_frames ? ": no more were drawn in 5 s" : "")};
 }
 
 Result<Answer> ask_mouse(ProbeBench& bench) {

@@ -115,10 +115,16 @@ Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const
             return fail(std::move(picture.error()));
         return Answer{Verdict::fail, std::move(sentence), where, *std::move(picture)};
     };
-    if (found.not_finite)
+    if (found.not_finite) {
+        const auto untouched = bench.picture({.extent = sweep.extent});
+        if (!untouched)
+            return fail(untouched.error());
+        if (image::census(*untouched).non_finite() > 0)
+            return Answer{Verdict::not_applicable, "not finite without the mouse either: see times"};
         return show(*found.not_finite,
                     fmt::format("the picture is not finite with the mouse at {} = {} of {}", sweep.axis,
                                 *found.not_finite, sweep.length));
+    }
     if (found.most > k_turn)
         return show(
             found.step + 1,
@@ -152,8 +158,11 @@ Result<Answer> ask_camera(ProbeBench& bench) {
     }
     if (!changes)
         return Answer{Verdict::not_applicable, "the mouse changes nothing"};
-    return Answer{Verdict::pass,
-                  fmt::format("one pixel of the mouse changes the picture evenly, to {:.1f} dB", most)};
+    return Answer{
+        Verdict::pass,
+        fmt::format("the picture turns evenly: no step of the mouse by a pixel changes it by more than "
+                    "{:.1f} dB more than the steps beside it",
+                    most)};
 }
 
 Result<Answer> ask_clicks(ProbeBench& bench) {

@@ -160,7 +160,7 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
         }
     if (!probe.asked())
         return Answer{Verdict::not_applicable, left_out.empty() ? "nothing is computed" : why};
-    Answer answer = probe.answer("rounded otherwise");
+    Answer answer = probe.answer("stable when rounded otherwise");
     if (!left_out.empty())
         answer.sentence += "; not to be had: " + listed(left_out);
     return answer;

@@ -42,7 +42,7 @@ Result<Answer> ask_unassigned(ProbeBench& bench) {
                 found.push_back(said);
         }
     if (found.empty())
-        return Answer{Verdict::pass, "nothing is read before it has a value"};
+        return Answer{Verdict::pass, "nothing is read that no path assigns"};
     return Answer{Verdict::warn,
                   "read before it has a value, which is 0 on ShaderToy's site and here, and anything "
                   "elsewhere: " +
@@ -71,7 +71,7 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
         }
     }
     if (found.empty())
-        return Answer{Verdict::pass, "neighbours are at hand wherever they are asked for"};
+        return Answer{Verdict::pass, "derivatives and mipmaps only in uniform control flow"};
     return Answer{Verdict::warn,
                   "needs neighbouring pixels that may have gone another way: " + listed(found)};
 }

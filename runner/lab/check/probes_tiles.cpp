@@ -35,7 +35,7 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
         return fail(whole.error());
     if (const size_t different = different_pixels(tiled, whole->read_back()))
         return Answer{Verdict::fail,
-                      fmt::format("{} of {} pixels are others in tiles of {}x{}", different,
+                      fmt::format("{} of {} pixels differ when drawn in {}x{} tiles", different,
                                   tiled.extent.pixels(), k_tile.width, k_tile.height),
                       situation, image::without_alpha(tiled)};
     return Answer{Verdict::pass, fmt::format("the same bytes in {} tiles", cut->tiles()->count())};

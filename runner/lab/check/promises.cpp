@@ -62,6 +62,7 @@ std::string take_number(Promises& promises, const std::string& name, const Json&
     if (!value.is_number() || !(value.get<double>() >= 0))
         return fmt::format("'{}' takes a number from 0", name);
     promises.*(field->value) = value.get<double>();
+    promises.stated.insert(name);
     return {};
 }
 

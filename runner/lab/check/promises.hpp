@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,7 @@ struct Promises {
         1e3; ///< units from its place up to which a camera sees the same in float and double
     /// That march_field has along a ray, in its own unit a unit of distance; infinite: the scene states none.
     double largest_slope = std::numeric_limits<double>::infinity();
+    std::set<std::string> stated; ///< those numbers that the file names
     /// What knobs and definitions without a range of their own, or with a wider one, may be set to.
     std::map<std::string, std::pair<double, double>> ranges;
     std::map<std::string, std::string> skip; ///< probe: why it is not asked

@@ -20,8 +20,12 @@ glm::vec4 mouse_of(const Situation& situation) {
 
 render::FrameInputs inputs_of(const Situation& situation, int before) {
     render::FrameInputs inputs;
-    inputs.time = situation.time - before * inputs.time_delta;
-    inputs.frame = render::frame_at(situation.time, inputs.frame_rate) - before;
+    if (situation.stepped) {
+        inputs = render::inputs_of_frame(*situation.stepped - before, inputs.frame_rate);
+    } else {
+        inputs.time = situation.time - before * inputs.time_delta;
+        inputs.frame = render::frame_at(situation.time, inputs.frame_rate) - before;
+    }
     if (situation.mouse)
         inputs.mouse = mouse_of(situation);
     inputs.mouse_button.x = situation.mouse && situation.down ? 1 : 0;
@@ -31,7 +35,7 @@ render::FrameInputs inputs_of(const Situation& situation, int before) {
 
 int run_up_of(const Situation& situation) {
     constexpr int k_run_up = 8;
-    return std::min(inputs_of(situation).frame, k_run_up);
+    return situation.stepped.value_or(std::min(inputs_of(situation).frame, k_run_up));
 }
 
 Result<scene::Scene> in_situation(scene::Scene scene, const Situation& situation) {
@@ -43,8 +47,9 @@ Result<scene::Scene> in_situation(scene::Scene scene, const Situation& situation
 }
 
 std::string capture_options(const Situation& situation) {
-    std::string text = fmt::format("--size {}x{} --time {}", situation.extent.width, situation.extent.height,
-                                   situation.time);
+    std::string text = fmt::format("--size {}x{} ", situation.extent.width, situation.extent.height);
+    text += situation.stepped ? fmt::format("--frame {}", *situation.stepped)
+                              : fmt::format("--time {}", situation.time);
     if (situation.mouse) {
         text += fmt::format(" --mouse {},{}", situation.mouse->x, situation.mouse->y);
         if (const auto& from = situation.dragged_from)

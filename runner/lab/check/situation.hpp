@@ -18,10 +18,11 @@ namespace tidemark::lab {
 
 struct Situation {
     Extent extent{64, 36};
-    double time = 1;                             ///< iTime, seconds
-    std::optional<glm::ivec2> mouse{};           ///< the pixel that was clicked; none: never touched
-    std::optional<glm::ivec2> dragged_from{};    ///< where the button was pressed; none: at `mouse` itself
-    bool down = false;                           ///< in the frame of the click; before the drag's end
+    double time = 1;                          ///< iTime, seconds
+    std::optional<int> stepped{};             ///< in place of `time`: this frame, and before it all from 0 on
+    std::optional<glm::ivec2> mouse{};        ///< the pixel that was clicked; none: never touched
+    std::optional<glm::ivec2> dragged_from{}; ///< where the button was pressed; none: at `mouse` itself
+    bool down = false;                        ///< in the frame of the click; before the drag's end
     std::optional<render::OrbitCamera> camera{}; ///< of scenes that declare iCamera; none: the host's own
     std::vector<Setting> settings{};             ///< of knobs
     std::vector<Setting> definitions{};          ///< of `#define NAME` and `const … NAME`
@@ -32,7 +33,8 @@ struct Situation {
 /// iFrame is the one at 60 frames a second; before the start it is 0. `before`: so many frames earlier.
 render::FrameInputs inputs_of(const Situation& situation, int before = 0);
 
-/// From so many frames before the moment a scene with feedback is drawn: from its start would take days.
+/// From so many frames before the moment a scene with feedback is drawn: from its start would take days,
+/// where nobody asks for just that.
 int run_up_of(const Situation& situation);
 
 /// With the situation's channels and settings. The error is one of theirs (ErrorCode::usage).

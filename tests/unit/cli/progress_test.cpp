@@ -8,10 +8,10 @@
 namespace tidemark::cli {
 namespace {
 
-std::string printed(size_t total, size_t done) {
+std::string printed(size_t total, size_t done, Progress::Manner manner = {.silent = 0}) {
     testing::internal::CaptureStderr();
     {
-        Progress progress("frames", total);
+        Progress progress("frames", total, manner);
         for (size_t i = 0; i < done; ++i)
             progress.advance();
     }
@@ -32,6 +32,15 @@ TEST(Progress, a_line_for_each_of_a_few) {
     const std::string lines = printed(3, 3);
     EXPECT_THAT(lines, testing::StartsWith("1/3 frames, "));
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
+}
+
+TEST(Progress, a_short_job_needs_none) {
+    EXPECT_EQ(printed(100, 100, {}), "");
+}
+
+TEST(Progress, uneven_pieces_have_no_rate) {
+    EXPECT_THAT(printed(10, 1, {.silent = 0, .limit = 3600}),
+                testing::MatchesRegex("1/10 frames, at most (3600|3599) s left\n"));
 }
 
 TEST(Progress, one_thing_has_no_progress) {

@@ -1,0 +1,155 @@
+#include "cli/check/verdicts.hpp"
+
+#include "base/shell_word.hpp"
+#include "cli/version.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <sstream>
+#include <vector>
+
+namespace tidemark::cli {
+namespace {
+
+using lab::Verdict;
+
+/// Where sentences begin.
+constexpr int k_margin = 18;
+
+bool waits(const Asked& asked) {
+    return asked.answer.verdict == Verdict::not_applicable || asked.answer.verdict == Verdict::cut;
+}
+
+/// Whether there is something to show again.
+bool accuses(const Asked& asked) {
+    return asked.answer.verdict == Verdict::fail || asked.answer.verdict == Verdict::warn;
+}
+
+size_t count(std::span<const Asked> all, Verdict verdict) {
+    return size_t(std::ranges::count(all, verdict, [](const Asked& asked) { return asked.answer.verdict; }));
+}
+
+double seconds_of(std::span<const Asked> all) {
+    double seconds = 0;
+    for (const Asked& asked : all)
+        seconds += asked.seconds;
+    return seconds;
+}
+
+std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
+    std::string options;
+    const auto add = [&options](const char* name, const std::vector<std::string>& values) {
+        for (const std::string& value : values)
+            options += fmt::format("{} {} ", name, shell_word(value));
+    };
+    add("--set", request.scene.sets);
+    add("--define", request.scene.defines);
+    add("--channel", request.scene.channels);
+    if (!request.scene.files.media.empty())
+        add("--media", {request.scene.files.media.string()});
+    if (request.scene.files.allow_outside)
+        options += "--allow-outside ";
+    return fmt::format("tidemark capture {} {}{} -o {}", shell_word(request.scene.path.string()), options,
+                       lab::capture_options(situation),
+                       shell_word(request.scene.path.stem().string() + ".exr"));
+}
+
+std::string line(Verdict verdict, const std::string& probes, const std::string& sentence) {
+    return fmt::format("{:4}  {:10}  {}\n", lab::to_string(verdict), probes, sentence);
+}
+
+/// Each line behind the margin.
+std::string indented(const std::string& text) {
+    std::string result;
+    std::istringstream lines(text);
+    for (std::string each; std::getline(lines, each);)
+        result += std::string(k_margin, ' ') + each + '\n';
+    return result;
+}
+
+/// `2 fail, 1 warn, 14 pass, 12 n/a`.
+std::string counted(std::span<const Asked> all) {
+    std::string text;
+    for (const Verdict verdict :
+         {Verdict::fail, Verdict::warn, Verdict::pass, Verdict::not_applicable, Verdict::cut})
+        if (const size_t number = count(all, verdict); number > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, lab::to_string(verdict));
+    return text;
+}
+
+/// `horizon 40 %, rays 22 %`: the shares of the time that are a percent or more, the largest first.
+std::string shares(std::span<const Asked> all) {
+    std::vector<Asked> dear(all.begin(), all.end());
+    std::ranges::stable_sort(dear, std::greater(), &Asked::seconds);
+    std::string text;
+    for (const Asked& asked : dear)
+        if (const double share = 100 * asked.seconds / seconds_of(all); share >= 1)
+            text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", asked.probe->name, share);
+    return text;
+}
+
+} // namespace
+
+std::string row(const ProbesRequest& request, const Asked& asked) {
+    if (waits(asked))
+        return {};
+    std::string text = line(asked.answer.verdict, std::string(asked.probe->name), asked.answer.sentence) +
+                       indented(asked.trace);
+    if (accuses(asked) && asked.answer.where)
+        text += indented(reproduction(request, *asked.answer.where));
+    if (!asked.picture.empty())
+        text += indented(asked.picture.string());
+    return text;
+}
+
+std::string rest(std::span<const Asked> all) {
+    struct Group {
+        const lab::Answer* answer;
+        std::string probes;
+    };
+    std::vector<Group> groups;
+    for (const Asked& asked : all)
+        if (waits(asked)) {
+            const auto same = std::ranges::find(groups, asked.answer.sentence,
+                                                [](const Group& group) { return group.answer->sentence; });
+            if (same == groups.end())
+                groups.push_back({&asked.answer, std::string(asked.probe->name)});
+            else
+                same->probes += fmt::format(", {}", asked.probe->name);
+        }
+    std::string text;
+    for (const Group& group : groups)
+        text += line(group.answer->verdict, group.probes, group.answer->sentence);
+    return text + fmt::format("{}; {:.1f} s: {}\n", counted(all), seconds_of(all), shares(all));
+}
+
+std::string report(const ProbesRequest& request, std::span<const Asked> all) {
+    Json json = {{"tidemark", k_version}, {"scene", request.scene.path.string()}};
+    json["probes"] = Json::array();
+    for (const Asked& asked : all) {
+        Json entry = {{"probe", asked.probe->name},
+                      {"verdict", lab::to_string(asked.answer.verdict)},
+                      {"found", asked.answer.sentence},
+                      {"seconds", asked.seconds}};
+        if (accuses(asked) && asked.answer.where)
+            entry["reproduction"] = reproduction(request, *asked.answer.where);
+        if (!asked.picture.empty())
+            entry["picture"] = asked.picture.string();
+        if (asked.answer.non_finite) {
+            entry["trace"] = asked.trace_json;
+            entry["traced"] = asked.trace;
+        }
+        json["probes"].push_back(std::move(entry));
+    }
+    return dump(json, 2) + "\n";
+}
+
+int exit_code(std::span<const Asked> all) {
+    return count(all, Verdict::fail) > 0  ? exit_code(ErrorCode::check_failed)
+           : count(all, Verdict::cut) > 0 ? exit_code(ErrorCode::timed_out)
+                                          : 0;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,24 @@
+// What probes answered, as people and as scripts read it.
+#pragma once
+
+#include "cli/check/asked.hpp"
+#include "cli/check/check_probes.hpp"
+
+#include <span>
+#include <string>
+
+namespace tidemark::cli {
+
+/// A verdict with all that belongs to it. Empty for those that wait for `rest`.
+std::string row(const ProbesRequest& request, const Asked& asked);
+
+/// Those that did not apply or were cut, one line for each reason, and the sum of it all.
+std::string rest(std::span<const Asked> all);
+
+/// All of it as JSON.
+std::string report(const ProbesRequest& request, std::span<const Asked> all);
+
+/// Of the command. A failure is one even where other probes were cut.
+int exit_code(std::span<const Asked> all);
+
+} // namespace tidemark::cli

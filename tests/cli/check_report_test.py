@@ -1,0 +1,163 @@
+"""`tidemark check` as a person meets it: what is printed and when, how it ends, which options it takes."""
+import json
+import re
+import signal
+import subprocess
+
+from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
+
+SOUND = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.5 + 0.5 * sin(iTime), 1.0); }\n"
+BROKEN = "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(p.x - 30.0)); }\n"
+# Endless once somebody clicks.
+SLOW = ("void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n    if (iMouse.x > 0.0)\n"
+        "        for (int i = 0; i < 60000; ++i)\n"
+        "            for (int k = 0; k < 60000; ++k) c += sin(c + p.x);\n}\n")
+# A fault in one frame only, which the frames before and after it do not show.
+FEEDBACK = ('#iChannel0 "self"\n'
+            "void mainImage(out vec4 c, in vec2 p) {\n"
+            "    c = 0.9 * texelFetch(iChannel0, ivec2(p), 0) + 0.1;\n    %s\n}\n")
+
+
+class CheckTest(ProgramTest):
+    def check(self, text: str, *options: str) -> subprocess.CompletedProcess:
+        return self.run_program("check", str(self.write("scene.glsl", text)), *options)
+
+    def entry(self, text: str, probe: str, *options: str) -> dict:
+        result = self.check(text, "--probe", probe, "--json", *options)
+        return json.loads(result.stdout)["probes"][0]
+
+
+class Report(CheckTest):
+    def test_each_reason_that_a_probe_does_not_apply_is_one_line(self):
+        lines = self.check(SOUND).stdout.decode().splitlines()
+        hits = [line for line in lines if line.endswith("  the scene has no mainHit")]
+        self.assertEqual(len(hits), 1, lines)
+        self.assertRegex(hits[0], r"^n/a   witnesses, budget, .*rays")
+        passed = [line for line in lines if line.startswith("pass")]
+        for line in passed:
+            self.assertRegex(line, r"^pass  [a-z]{4,10} +\S")
+            self.assertEqual(line[16:18], "  ")
+        self.assertRegex(lines[-1], rf"^{len(passed)} pass, \d+ n/a; \d+\.\d s: [a-z]+ \d+ %, ")
+
+    def test_a_fault_is_counted_in_pixels(self):
+        self.assertRegex(self.entry(BROKEN, "times")["found"],
+                         r"^1080 of 2304 pixels of Image \(NaN\), first at pixel 0,0; in 12 of 12 situations$")
+
+    def test_a_fault_of_the_picture_is_not_the_mouse_s(self):
+        entry = self.entry(BROKEN.replace("30.0", "4.0"), "camera")
+        self.assertEqual((entry["verdict"], entry["found"]), ("n/a", "not finite without the mouse either: see times"))
+
+    def test_pictures_and_commands_only_where_something_is_wrong(self):
+        self.write("scene.check.json", '{"time_horizon": 1}')
+        fast = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5 + 0.5 * sin(4000.0 * iTime + p.x)); }\n"
+        entry = self.entry(fast, "horizon", "-o", "pictures")
+        self.assertEqual(entry["verdict"], "pass")
+        self.assertNotIn("picture", entry)
+        self.assertNotIn("reproduction", entry)
+        self.assertFalse((self.folder / "pictures").exists())
+
+    def test_verdicts_come_in_one_by_one_and_control_c_is_130(self):
+        self.write("slow.glsl", SLOW)
+        for options in ([], ["--json"]):
+            with self.subTest(options):
+                running = subprocess.Popen([PROGRAM, "check", "slow.glsl", *options], cwd=self.folder,
+                                           env=environment(), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+                self.addCleanup(running.kill)
+                self.addCleanup(running.stdout.close)
+                if not options:
+                    self.assertEqual(running.stdout.readline(), b"pass  times       all numbers finite in 12 situations\n")
+                    self.assertIsNone(running.poll())
+                    running.send_signal(signal.SIGINT)
+                else:
+                    with self.assertRaises(subprocess.TimeoutExpired):
+                        running.wait(2)
+                    running.send_signal(signal.SIGTERM)
+                self.assertEqual(running.wait(TIME_LIMIT), 130)
+                self.assertEqual(running.stdout.read(), b"")
+
+    def test_what_was_not_answered_is_no_success(self):
+        result = self.check(SLOW, "--budget", "2")
+        self.assertEqual(result.returncode, 5)
+        text = result.stdout.decode()
+        self.assertRegex(text, r"(?m)^cut   mouse       --budget is spent: not finished$")
+        self.assertRegex(text, r"(?m)^cut   sizes, inputs, .*  --budget is spent: not asked$")
+        self.assertEqual(self.check(BROKEN + SLOW.replace("mainImage", "other"), "--budget", "30", "--probe", "times",
+                                    ).returncode, 1)
+
+    def test_options_that_would_change_nothing_are_refused(self):
+        for options in (("--time", "5"), ("--fps", "0"), ("--size", "4x4"), ("--pixel", "1,1"), ("--hidden",),
+                        ("--timeout", "1"), ("--frames", "0-3"), ("--mouse", "1,1"), ("--camera", "1,2,3"),
+                        ("--time", "5", "--portable")):
+            with self.subTest(options):
+                result = self.check(SOUND, *options)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(f"{options[0]} requires --trace", result.stderr)
+
+    def test_options_that_need_trace_stand_together_in_the_help(self):
+        text = self.succeed("check", "--help").stdout.decode()
+        tracing = text.split("With --trace")[1].split("\n\n")[0]
+        for option in ("--size", "--time", "--mouse", "--pixel", "--hidden"):
+            self.assertIn(option, tracing)
+        self.assertNotIn("--precision", text)
+
+
+class Frames(CheckTest):
+    def test_every_frame_of_a_feedback_scene_is_looked_at(self):
+        for frame in (1, 7, 59, 250):
+            text = FEEDBACK % f"if (iFrame == {frame}) c = log(c - 2.0 - iTime);"
+            with self.subTest(frame):
+                entry = self.entry(text, "frames")
+                self.assertEqual(entry["verdict"], "fail")
+                self.assertTrue(entry["found"].startswith(f"from frame {frame} on: 2304 of 2304 pixels of"),
+                                entry["found"])
+                self.assertEqual((entry["trace"]["frame"], entry["trace"]["first"]["operation"]),
+                                 (frame, "log(c - 2.0 - iTime)"))
+                self.assertIn(f"--frame {frame} ", entry["reproduction"])
+
+    def test_growth_without_end_is_found(self):
+        entry = self.entry(FEEDBACK % "c = c * 3.0 + 1.0;", "frames")
+        self.assertEqual(entry["verdict"], "fail")
+        self.assertRegex(entry["found"], r"^from frame \d+ on: 2304 of 2304 pixels of \S+ \(\+Inf\)")
+        self.assertEqual(entry["trace"]["first"]["line"], 4)
+
+    def test_what_stays_finite_passes(self):
+        entry = self.entry(FEEDBACK % "", "frames")
+        self.assertEqual((entry["verdict"], entry["found"]), ("pass", "all numbers finite in the first 600 frames"))
+        self.assertEqual(self.entry(SOUND, "frames")["verdict"], "n/a")
+
+
+class Jumps(CheckTest):
+    CUT = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(0.37 * floor(iTime / 8.0) + 0.01 * iTime)); }\n"
+
+    def test_a_cut_may_be_meant(self):
+        entry = self.entry(self.CUT, "jumps")
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertRegex(entry["found"], r"^the picture jumps at 8 s \(PSNR \d+\.\d dB between neighbouring instants, "
+                                         r'\d+\.\d dB elsewhere\); a scene that cuts may say so: "skip" in its ')
+
+    def test_a_scene_that_promises_none_is_held_to_it(self):
+        self.write("scene.check.json", '{"smoothest_jump": 10}')
+        self.assertEqual(self.entry(self.CUT, "jumps")["verdict"], "fail")
+
+    def test_a_clock_that_starts_again_is_a_fault(self):
+        entry = self.entry("void mainImage(out vec4 c, in vec2 p) {\n"
+                           "    c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x));\n}\n", "jumps", "-o", "pictures")
+        self.assertEqual(entry["verdict"], "fail")
+        self.assertTrue((self.folder / "pictures/jumps.png").exists())
+        self.assertIn("and is there what it was at 0 s", entry["found"])
+
+
+class Hashes(CheckTest):
+    def test_what_passes_share_is_named_once(self):
+        self.write("project/common.glsl", "float hash(vec2 p) {\n"
+                                          "    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);\n}\n")
+        self.write("project/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(hash(p)); }\n")
+        self.write("project/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p) {\n'
+                                         "    c = texelFetch(iChannel0, ivec2(p), 0) * hash(p);\n}\n")
+        result = self.run_program("check", "project", "--probe", "hashes", "--json")
+        found = json.loads(result.stdout)["probes"][0]["found"]
+        self.assertEqual(len(re.findall(r"common\.glsl:1 hash", found)), 1, found)
+
+
+if __name__ == "__main__":
+    main()
