@@ -2,13 +2,11 @@
 
 #include <glm/matrix.hpp>
 
-#include <variant>
-
 namespace tidemark::cli {
 
 using platform::Button;
 
-bool Controls::handle(const platform::InputEvent& event, double height) {
+bool Controls::handle(const ControlEvent& event, double height) {
     height_ = height;
     return std::visit([this](const auto& happened) { return take(happened); }, event);
 }
@@ -63,6 +61,11 @@ bool Controls::take(const platform::KeyPressed& event) {
 
 bool Controls::take(const platform::KeyReleased& event) {
     keyboard_.release(platform::js_key_code(event.key));
+    return true;
+}
+
+bool Controls::take(const CameraReset&) {
+    camera_ = initial_camera_;
     return true;
 }
 

@@ -8,15 +8,26 @@
 #include "render/mouse.hpp"
 #include "render/orbit_camera.hpp"
 
+#include <variant>
+
 namespace tidemark::cli {
+
+/// The orbit camera goes back to where it stood at first.
+struct CameraReset {
+    bool operator==(const CameraReset&) const = default;
+};
+
+/// What a scene may learn of.
+using ControlEvent =
+    std::variant<platform::PointerMoved, platform::ButtonPressed, platform::ButtonReleased,
+                 platform::WheelTurned, platform::KeyPressed, platform::KeyReleased, CameraReset>;
 
 class Controls {
 public:
     explicit Controls(const render::OrbitCamera& camera) : initial_camera_(camera), camera_(camera) {}
 
     /// `height` in pixels of what is drawn. True when a uniform may have changed.
-    bool handle(const platform::InputEvent& event, double height);
-    void reset_camera() { camera_ = initial_camera_; }
+    bool handle(const ControlEvent& event, double height);
 
     /// Sets iMouse, iMouseButton, the keyboard, iCamera and iViewMatrix.
     void fill(render::FrameInputs& inputs) const;
@@ -30,10 +41,7 @@ private:
     bool take(const platform::WheelTurned& event);
     bool take(const platform::KeyPressed& event);
     bool take(const platform::KeyReleased& event);
-    template <class Other>
-    bool take(const Other&) {
-        return false; // the window's own affairs
-    }
+    bool take(const CameraReset&);
 
     render::OrbitCamera initial_camera_;
     render::OrbitCamera camera_;

@@ -66,11 +66,11 @@ bool take_key(std::string_view& line, platform::Key& key) {
 struct Kind {
     std::string_view name;
     std::string_view form;
-    std::optional<platform::InputEvent> (*take)(std::string_view& line);
+    std::optional<ControlEvent> (*take)(std::string_view& line);
 };
 
 template <class Event, class Take>
-std::optional<platform::InputEvent> event_if(Take&& take) {
+std::optional<ControlEvent> event_if(Take&& take) {
     Event event;
     if (!take(event))
         return std::nullopt;
@@ -110,6 +110,10 @@ constexpr Kind k_kinds[] = {
          return event_if<platform::KeyReleased>(
              [&](platform::KeyReleased& event) { return take_key(line, event.key); });
      }},
+    {"camera", "camera reset",
+     [](std::string_view& line) {
+         return event_if<CameraReset>([&](CameraReset&) { return take_word(line) == "reset"; });
+     }},
 };
 
 tl::unexpected<Error> refuse(std::string message) {
@@ -125,8 +129,8 @@ Result<TimedEvent> parse_line(std::string_view line) {
     const auto* kind = std::find_if(std::begin(k_kinds), std::end(k_kinds),
                                     [&](const Kind& known) { return known.name == name; });
     if (kind == std::end(k_kinds))
-        return refuse(
-            fmt::format("unknown event '{}': give press, release, move, wheel, keydown or keyup", name));
+        return refuse(fmt::format(
+            "unknown event '{}': give press, release, move, wheel, keydown, keyup or camera", name));
     const auto event = kind->take(rest);
     if (!event || !take_word(rest).empty())
         return refuse(fmt::format("give it as `{} {}`", timed.frame, kind->form));
@@ -140,7 +144,7 @@ std::string_view name_of(Button button) {
         ->first;
 }
 
-/// Writes an event as its line has it; nothing for the window's own.
+/// Writes an event as its line has it.
 struct Wording {
     std::string operator()(const platform::ButtonPressed& event) const {
         return fmt::format("press {} {} {}", name_of(event.button), event.at.x, event.at.y);
@@ -155,15 +159,12 @@ struct Wording {
         return fmt::format("wheel {}", event.up);
     }
     std::string operator()(const platform::KeyPressed& event) const {
-        return event.repeat ? "" : fmt::format("keydown {}", platform::js_key_code(event.key));
+        return fmt::format("keydown {}", platform::js_key_code(event.key));
     }
     std::string operator()(const platform::KeyReleased& event) const {
         return fmt::format("keyup {}", platform::js_key_code(event.key));
     }
-    template <class Other>
-    std::string operator()(const Other&) const {
-        return {};
-    }
+    std::string operator()(const CameraReset&) const { return "camera reset"; }
 };
 
 } // namespace
@@ -201,16 +202,18 @@ Result<InputScript> load_input_script(const std::filesystem::path& file) {
 std::string to_string(const InputScript& script) {
     std::string text;
     for (const TimedEvent& timed : script)
-        if (const std::string words = std::visit(Wording{}, timed.event); !words.empty())
-            text += fmt::format("{} {}\n", timed.frame, words);
+        text += fmt::format("{} {}\n", timed.frame, std::visit(Wording{}, timed.event));
     return text;
 }
 
-void record(InputScript& script, int frame, const platform::InputEvent& event) {
-    while (!script.empty() && script.back().frame > frame)
-        script.pop_back();
-    if (!std::visit(Wording{}, event).empty())
-        script.push_back({frame, event});
+void Replay::go_back(int frame) {
+    while (!script_.empty() && script_.back().frame > frame)
+        script_.pop_back();
+}
+
+void Replay::note(int frame, const ControlEvent& event) {
+    go_back(frame);
+    script_.push_back({frame, event});
 }
 
 void Replay::fill(render::FrameInputs& inputs, double height) {

@@ -15,7 +15,7 @@ namespace tidemark::cli {
 /// Happens before `frame` is drawn.
 struct TimedEvent {
     int frame = 0;
-    platform::InputEvent event;
+    ControlEvent event;
 
     bool operator==(const TimedEvent&) const = default;
 };
@@ -27,6 +27,7 @@ using InputScript = std::vector<TimedEvent>;
 ///
 ///     FRAME press left|middle|right X Y       FRAME move X Y       FRAME keydown CODE
 ///     FRAME release left|middle|right         FRAME wheel UP       FRAME keyup CODE
+///     FRAME camera reset
 ///
 /// Errors (ErrorCode::load) have their place in `file`.
 Result<InputScript> parse_input_script(std::string_view text, const std::string& file);
@@ -35,11 +36,7 @@ Result<InputScript> load_input_script(const std::filesystem::path& file);
 /// The text that parses to that script.
 std::string to_string(const InputScript& script);
 
-/// Notes an event. What was noted of later frames is dropped: time went backwards. Events that a script
-/// cannot hold (of the window itself) are left out.
-void record(InputScript& script, int frame, const platform::InputEvent& event);
-
-/// A script under way. The frames that are asked for may be any, in any order.
+/// A script under way, which may still be written. The frames that are asked for may be any, in any order.
 class Replay {
 public:
     Replay(InputScript script, const render::OrbitCamera& camera)
@@ -48,6 +45,12 @@ public:
     /// Sets what the events up to inputs.frame make of the mouse, the keyboard and the camera. `height` in
     /// pixels of what is drawn.
     void fill(render::FrameInputs& inputs, double height);
+
+    /// Adds what happens before `frame`, after `go_back` to it.
+    void note(int frame, const ControlEvent& event);
+    /// Forgets what comes after `frame`, which is the next to be filled.
+    void go_back(int frame);
+    const InputScript& script() const { return script_; }
 
 private:
     InputScript script_;

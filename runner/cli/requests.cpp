@@ -63,15 +63,20 @@ bool take_range(std::string_view& text, std::vector<int>& frames) {
     return true;
 }
 
+void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Diagnostic>& said) {
+    for (const Diagnostic& warning : warnings)
+        if (std::ranges::find(said, warning) == said.end())
+            say(to_string(warning));
+}
+
 } // namespace
 
 Result<scene::Scene> load(const SceneRequest& request) {
     auto scene = scene::load_scene(request.path, request.files);
     if (!scene)
         return scene;
-    for (const Diagnostic& warning : scene->warnings)
-        if (std::find(request.said.begin(), request.said.end(), warning) == request.said.end())
-            say(to_string(warning));
+    say_warnings(scene->warnings, request.said);
+    const std::vector<Diagnostic> before = scene->warnings;
     using Override = Result<void> (*)(scene::Scene&, std::string_view);
     const std::pair<const std::vector<std::string>&, Override> overrides[] = {
         {request.defines, glsl::override_definition},
@@ -82,6 +87,7 @@ Result<scene::Scene> load(const SceneRequest& request) {
         for (const std::string& setting : settings)
             if (auto applied = apply(*scene, setting); !applied)
                 return fail(std::move(applied.error()));
+    say_warnings(scene->warnings, before);
     return scene;
 }
 

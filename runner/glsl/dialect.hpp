@@ -44,6 +44,9 @@ struct Dialect {
     /// gl_FragCoord counts from the corner of the whole picture, wherever in it the target lies: the host
     /// sets `vec2 tidemark_tile`, in pixels.
     bool tiled = false;
+    /// A pixel of Image that is not finite, which bytes cannot hold, has the alpha of
+    /// image::k_non_finite_alpha instead of 1.
+    bool marks_non_finite = false;
 
     bool operator==(const Dialect&) const = default;
 };

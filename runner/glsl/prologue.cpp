@@ -56,12 +56,18 @@ constexpr std::string_view k_paint_assertions =
                                                     : vec3(1.0, 1.0, 0.0);
 )";
 
+/// 51 of 255: image::k_non_finite_alpha. By the bits, which no optimiser takes for granted.
+constexpr const char* k_mark_non_finite =
+    R"(    if (any(equal(floatBitsToUint({0}.rgb) & uvec3(0x7f800000u), uvec3(0x7f800000u))))
+        {0}.a = 0.2;
+)";
+
 constexpr const char* k_image_main = R"(void main() {{
     vec4 tidemark_pixel = vec4(0.0, 0.0, 0.0, 1.0);
     vec2 tidemark_at = gl_FragCoord.xy;
     mainImage(tidemark_pixel, tidemark_at);
     tidemark_color = vec4(tidemark_pixel.rgb, 1.0);
-{}}}
+{}{}}}
 )";
 
 constexpr const char* k_buffer_main = R"(void main() {{
@@ -217,15 +223,19 @@ std::string site_prologue(const scene::Pass& pass, const Survey& survey, const D
 
 Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& dialect) {
     const bool image = pass.kind == scene::PassKind::image;
+    const auto mark = [&](std::string_view output) {
+        return dialect.marks_non_finite ? fmt::format(k_mark_non_finite, output) : std::string();
+    };
     if (dialect.main == MainPlace::author) {
         const bool own = !survey.own_output.empty();
         const std::string_view output = own ? survey.own_output : k_output;
         const bool has_alpha = !own || survey.own_output_type == "vec4";
+        const std::string end =
+            has_alpha && image ? fmt::format("    {}.a = 1.0;\n{}", output, mark(output)) : "";
         return {{},
                 fmt::format("void main() {{\n{}    {}();\n{}}}\n",
                             has_alpha ? fmt::format("    {} = vec4(0.0, 0.0, 0.0, 1.0);\n", output) : "",
-                            k_author_main,
-                            has_alpha && image ? fmt::format("    {}.a = 1.0;\n", output) : "")};
+                            k_author_main, end)};
     }
     const std::string_view out = initialises_colour(survey, dialect) ? "inout" : "out";
     switch (pass.kind) {
@@ -241,7 +251,8 @@ Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& di
                 std::string(k_cubemap_main)};
     default:
         return {fmt::format("void {}({} vec4 fragColor, in vec2 fragCoord);\n", entry_point(pass.kind), out),
-                image ? fmt::format(k_image_main, survey.wants("st_assert") ? k_paint_assertions : "")
+                image ? fmt::format(k_image_main, mark(k_output),
+                                    survey.wants("st_assert") ? k_paint_assertions : "")
                       : fmt::format(k_buffer_main, entry_point(pass.kind))};
     }
 }

@@ -28,6 +28,22 @@ SamplePlace place_of(size_t sample, const Image& image) {
             int(sample % size_t(image.channels))};
 }
 
+size_t pixels_not_finite(const Image& image) {
+    const auto channels = size_t(image.channels);
+    const std::byte* from = image.bytes.data();
+    size_t count = 0;
+    for (size_t pixel = 0; pixel < image.extent.pixels(); ++pixel) {
+        bool bad = false;
+        for (size_t channel = 0; channel < channels; ++channel, from += sizeof(uint32_t)) {
+            uint32_t bits;
+            std::memcpy(&bits, from, sizeof bits);
+            bad |= (bits & 0x7f800000u) == 0x7f800000u;
+        }
+        count += bad;
+    }
+    return count;
+}
+
 } // namespace
 
 FiniteCensus census(const Image& image) {
@@ -53,6 +69,21 @@ FiniteCensus census(const Image& image) {
             first = place_of(i, image);
     }
     return result;
+}
+
+size_t take_non_finite(Image& image) {
+    if (image.type != SampleType::u8)
+        return pixels_not_finite(image);
+    if (image.channels != 4)
+        return 0;
+    const std::span<uint8_t> samples = image.u8();
+    size_t count = 0;
+    for (size_t i = 3; i < samples.size(); i += 4)
+        count += samples[i] == k_non_finite_alpha;
+    for (size_t i = 3; count > 0 && i < samples.size(); i += 4) // rarely
+        if (samples[i] == k_non_finite_alpha)
+            samples[i] = 255;
+    return count;
 }
 
 } // namespace tidemark::image

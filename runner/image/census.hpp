@@ -35,4 +35,10 @@ struct FiniteCensus {
 
 FiniteCensus census(const Image& image);
 
+/// The alpha of a pixel of bytes that was no number when it was drawn: bytes have no NaN of their own.
+inline constexpr uint8_t k_non_finite_alpha = 51;
+
+/// How many pixels hold a NaN or an infinity: floats by their bits, bytes by that alpha, which becomes 1.
+size_t take_non_finite(Image& image);
+
 } // namespace tidemark::image

@@ -74,6 +74,7 @@ private:
     std::optional<LinkedPass> first_that_links(const std::vector<glsl::Dialect>& dialects) {
         for (glsl::Dialect dialect : dialects) {
             dialect.tiled = options_.tiled;
+            dialect.marks_non_finite = options_.marks_non_finite;
             auto assembly = reading_.assemble(dialect);
             if (!assembly) {
                 unpromotable_ = std::move(assembly.error());

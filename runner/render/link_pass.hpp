@@ -24,7 +24,8 @@ struct LinkedPass {
 struct LinkOptions {
     glsl::Precision precision = glsl::Precision::single;
     glsl::Specialise specialise = glsl::Specialise::nothing;
-    bool tiled = false; ///< as glsl::Dialect has it
+    bool tiled = false;            ///< as glsl::Dialect has it
+    bool marks_non_finite = false; ///< likewise
 };
 
 /// The error has the authors' own files and lines. A specialised text that does not link is not used.

@@ -33,13 +33,22 @@ void LiveClock::step(int frames, double fps, double now) {
     fresh_ = true;
 }
 
+double LiveClock::time_at(double now) const {
+    if (frames_per_second_)
+        return next_frame_ / *frames_per_second_;
+    return paused_ ? time_ : time_ + (now - resumed_at_);
+}
+
 FrameInputs LiveClock::next_frame(double now) {
     FrameInputs inputs;
+    inputs.frame = next_frame_;
     inputs.time = time_at(now);
     inputs.time_delta = fresh_ || paused_ ? k_usual_delta : now - drawn_at_;
-    inputs.frame = next_frame_++;
     measure_rate(now);
     inputs.frame_rate = frame_rate_;
+    if (frames_per_second_)
+        inputs = inputs_of_frame(next_frame_, *frames_per_second_);
+    ++next_frame_;
     drawn_at_ = now;
     fresh_ = false;
     return inputs;

@@ -1,8 +1,10 @@
-// Time in a window: iTime, iTimeDelta, iFrame and iFrameRate from the wall clock, with pause, step and
-// restart. Told what time it is by its caller, so that it can be tested without waiting.
+// Time in a window: iTime, iTimeDelta, iFrame and iFrameRate from the wall clock, or from the frames alone,
+// with pause, step and restart. Told what time it is by its caller, so that it can be tested without waiting.
 #pragma once
 
 #include "render/frame_inputs.hpp"
+
+#include <optional>
 
 namespace tidemark::render {
 
@@ -11,7 +13,10 @@ namespace tidemark::render {
 /// at least half a second and starts at 60. `now` is in seconds from any origin and never runs backwards.
 class LiveClock {
 public:
-    explicit LiveClock(double now) : resumed_at_(now), window_start_(now) {}
+    /// With `frames_per_second` every frame has the inputs of inputs_of_frame, one that is drawn in a pause
+    /// too: what is drawn can be drawn again.
+    explicit LiveClock(double now, std::optional<double> frames_per_second = {})
+        : frames_per_second_(frames_per_second), resumed_at_(now), window_start_(now) {}
 
     bool paused() const { return paused_; }
     void toggle_pause(double now);
@@ -30,11 +35,12 @@ public:
     double frame_rate() const { return frame_rate_; }
 
 private:
-    double time_at(double now) const { return paused_ ? time_ : time_ + (now - resumed_at_); }
+    double time_at(double now) const;
     void measure_rate(double now);
 
-    double time_ = 0;   ///< iTime at resumed_at_, or frozen
-    double resumed_at_; ///< wall clock
+    std::optional<double> frames_per_second_; ///< none: the wall clock
+    double time_ = 0;                         ///< iTime at resumed_at_, or frozen
+    double resumed_at_;                       ///< wall clock
     double drawn_at_ = 0;
     int next_frame_ = 0;
     bool paused_ = false;

@@ -37,6 +37,13 @@ void supply_other_kinds(scene::Scene& scene, size_t pass, const glsl::ChannelKin
     }
 }
 
+bool reads(const scene::Pass& reader, size_t pass) {
+    return std::ranges::any_of(reader.channels, [&](const scene::Channel& channel) {
+        const auto* output = std::get_if<scene::PassOutput>(&channel.input);
+        return output && output->pass == pass;
+    });
+}
+
 GLenum type_of(SampleType samples) {
     return samples == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
 }
@@ -58,6 +65,7 @@ Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& optio
     renderer.extras_ = options.extras;
     renderer.specialise_ = options.specialise;
     renderer.tile_ = options.tile;
+    renderer.marks_non_finite_ = options.marks_non_finite;
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
@@ -110,11 +118,7 @@ std::vector<bool> Renderer::reachable() const {
 bool Renderer::can_be_tiled() const {
     const std::vector<bool> drawn = reachable();
     for (size_t i = 0; i < drawn.size(); ++i) {
-        const auto reads_shown = [&](const scene::Channel& channel) {
-            const auto* output = std::get_if<scene::PassOutput>(&channel.input);
-            return output && output->pass == shown_;
-        };
-        if (drawn[i] && (i > shown_ || std::ranges::any_of(scene_.passes[i].channels, reads_shown)))
+        if (drawn[i] && (i > shown_ || reads(scene_.passes[i], shown_)))
             return false;
     }
     return scene_.passes[shown_].kind != PassKind::cubemap &&
@@ -128,10 +132,14 @@ Result<void> Renderer::compile() {
     std::vector<std::optional<gl::Reflection>> reflections(scene_.passes.size());
     std::vector<size_t> discarding;
     const std::vector<bool> wanted = reachable();
+    const bool marks =
+        marks_non_finite_ && format_of(shown_) == GL_RGBA8 &&
+        std::ranges::none_of(scene_.passes, [&](const auto& pass) { return reads(pass, shown_); });
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto linked = link_pass(scene_, scene_.passes[i], {precision_, specialise_, tile_ && i == shown_});
+        auto linked = link_pass(scene_, scene_.passes[i],
+                                {precision_, specialise_, tile_ && i == shown_, marks && i == shown_});
         if (!linked)
             return fail(std::move(linked.error()));
         supply_other_kinds(scene_, i, linked->dialect.channels);

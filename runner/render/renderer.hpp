@@ -40,6 +40,8 @@ struct RenderOptions {
     /// Draws the shown pass tile by tile into a target of this size, where nobody reads its picture: then
     /// `draw` leaves it out, and `draw_tile` draws it.
     std::optional<Extent> tile{};
+    /// Bytes of Image tell which pixels were not finite: image::take_non_finite. Not where a pass reads it.
+    bool marks_non_finite = false;
 };
 
 /// What a frame takes, in things that can be counted.
@@ -171,6 +173,7 @@ private:
     glsl::Specialise specialise_ = glsl::Specialise::nothing;
     size_t shown_ = 0;
     std::optional<Extent> tile_; ///< of the shown pass
+    bool marks_non_finite_ = false;
     gl::VertexArrayHandle no_vertices_;
     std::vector<CompiledPass> passes_; ///< one for each of the scene's
     FramePlan plan_;

@@ -38,6 +38,15 @@ Result<Scene> load_file_scene(const fs::path& path, const LoadOptions& options) 
     return scene;
 }
 
+bool in_range(const Knob& knob) {
+    if (!knob.range)
+        return true;
+    for (size_t i = 0; i < size_t(info(knob.type).components); ++i)
+        if (knob.value[i] < knob.range->low[i] || knob.value[i] > knob.range->high[i])
+            return false;
+    return true;
+}
+
 } // namespace
 
 std::string Scene::name() const {
@@ -163,6 +172,12 @@ Result<void> override_knob(Scene& scene, std::string_view setting) {
     if (!value)
         return fail(value.error());
     (*knob)->value = *value;
+    if (!in_range(**knob))
+        scene.warnings.push_back(
+            {(*knob)->where, Severity::warning,
+             fmt::format("--set {}: {} has the range {} to {}; the value is taken as it is", setting,
+                         (*knob)->name, to_string(**knob, (*knob)->range->low),
+                         to_string(**knob, (*knob)->range->high))});
     return {};
 }
 

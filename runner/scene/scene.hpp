@@ -60,7 +60,7 @@ Result<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& o
 /// Carries out `--channel [PASS:]N=WHAT`: a picture file, `noise`, `none`; sampled as ShaderToy's textures are.
 Result<void> override_channel(Scene& scene, std::string_view setting);
 
-/// Carries out `--set NAME=VALUE`.
+/// Carries out `--set NAME=VALUE`. A value outside of the knob's range is taken, with a warning.
 Result<void> override_knob(Scene& scene, std::string_view setting);
 
 /// NAME and VALUE of `NAME=VALUE`; the error names the option that wants this form.

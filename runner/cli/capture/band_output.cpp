@@ -1,6 +1,7 @@
 #include "cli/capture/band_output.hpp"
 
 #include "cli/console.hpp"
+#include "image/census.hpp"
 #include "image/colours.hpp"
 
 #include <algorithm>
@@ -49,6 +50,7 @@ Result<image::Image> BandOutput::take(image::Image band) {
 }
 
 Result<void> BandOutput::write() {
+    not_finite_ += image::take_non_finite(band_);
     if (hash_)
         add_rows(*hash_, band_);
     return stream_ ? stream_->add(band_) : put_raw(band_);

@@ -32,6 +32,8 @@ public:
 
     /// Of the pixels, after `finish`.
     std::string sha256() { return hash_ ? hash_->digits() : std::string(); }
+    /// Pixels, after `finish`.
+    size_t not_finite() const { return not_finite_; }
 
 private:
     Result<void> write();
@@ -39,6 +41,7 @@ private:
 
     std::optional<image::PictureStream> stream_;
     std::optional<Sha256> hash_;
+    size_t not_finite_ = 0;
     image::Image band_;                 ///< in hand
     std::future<Result<void>> writing_; ///< last: its end is waited for while all else is still there
 };

@@ -1,4 +1,5 @@
 #include "base/file.hpp"
+#include "base/shell_word.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
 #include "cli/commands.hpp"
@@ -171,7 +172,8 @@ Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions
          .pass = options.frames.pass,
          .precision = precision_of(options.scene),
          .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
-         .tile = *tile});
+         .tile = *tile,
+         .marks_non_finite = true});
     if (renderer && options.tile && !renderer->tiles())
         return fail(
             ErrorCode::usage,
@@ -189,6 +191,60 @@ void say_what_was_written(const std::vector<FrameRecord>& records, bool video) {
     else if (!records.empty())
         say(fmt::format("wrote {} frames, {} to {}", records.size(), records.front().file,
                         records.back().file));
+}
+
+/// The command that finds the line, in the words of the one that was given.
+std::string trace_command(const CaptureOptions& options, int frame) {
+    std::vector<std::string> words{"tidemark", "check", "--trace", options.scene.path.string()};
+    const auto add = [&](const char* option, const std::string& value) {
+        words.insert(words.end(), {option, value});
+    };
+    const auto add_given = [&](const char* option, const std::optional<std::string>& value) {
+        if (value)
+            add(option, *value);
+    };
+    const FrameOptions& frames = options.frames;
+    if (frames.time)
+        add("--time", fmt::format("{}", *frames.time));
+    else
+        add("--frame", fmt::format("{}", frame));
+    add("--size", frames.size);
+    if (frames.fps != FrameOptions{}.fps)
+        add("--fps", fmt::format("{}", frames.fps));
+    add_given("--mouse", frames.mouse);
+    add_given("--date", frames.date);
+    add_given("--camera", frames.camera);
+    add_given("--input", frames.input);
+    if (!frames.pass.empty())
+        add("--pass", frames.pass);
+    for (const std::string& setting : options.scene.sets)
+        add("--set", setting);
+    for (const std::string& setting : options.scene.defines)
+        add("--define", setting);
+    for (const std::string& setting : options.scene.channels)
+        add("--channel", setting);
+    if (options.scene.files.allow_outside)
+        words.emplace_back("--allow-outside");
+    if (!options.scene.files.media.empty())
+        add("--media", options.scene.files.media.string());
+    std::string command;
+    for (const std::string& word : words)
+        command += (command.empty() ? "" : " ") + shell_word(word);
+    return command;
+}
+
+/// One line for all frames: a file does not show what was no number.
+void say_what_is_not_finite(const CaptureOptions& options, const std::vector<FrameRecord>& records) {
+    const auto bad = [](const FrameRecord& record) { return record.not_finite > 0; };
+    const auto first = std::ranges::find_if(records, bad);
+    if (first == records.end())
+        return;
+    const auto others = std::ranges::count_if(first + 1, records.end(), bad);
+    say(fmt::format("warning: {} pixel{} of frame {} {} not finite{}; where from: {}", first->not_finite,
+                    first->not_finite > 1 ? "s" : "", first->frame, first->not_finite > 1 ? "are" : "is",
+                    others > 0 ? fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")
+                               : "",
+                    trace_command(options, first->frame)));
 }
 
 /// `-o x.wav` asks for the sound of a scene instead of its pictures.
@@ -251,6 +307,7 @@ Result<int> capture(const CaptureOptions& options) {
     if (options.json)
         if (auto printed = put(run.report().dump(2) + "\n"); !printed)
             return fail(std::move(printed.error()));
+    say_what_is_not_finite(options, run.records());
     const bool written = *complete || !plan->output.video(); // of a video nothing is kept but the whole
     if (written && !options.json && !plan->output.standard_output())
         say_what_was_written(run.records(), plan->output.video());

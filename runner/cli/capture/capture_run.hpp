@@ -39,6 +39,7 @@ struct FrameRecord {
     std::string file;
     std::string sha256;
     double milliseconds = 0;
+    size_t not_finite = 0;   ///< pixels
     size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
 };
 
@@ -70,6 +71,7 @@ private:
     Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
     render::FrameInputs inputs_at(int frame);
     image::Image read_back() const;
+    size_t count_non_finite(image::Image& image) const;
     Result<bool> deliver(const FrameRecord& record, image::Image image);
     image::PictureFormat format_of(const FrameRecord& record) const;
     Result<void> open_output();

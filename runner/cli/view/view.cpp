@@ -36,7 +36,8 @@ Result<int> view(const ViewOptions& options) {
     settings.pass = options.frames.pass;
     settings.record = options.record;
     settings.plain = options.plain;
-    if (options.frames.date)
+    // What is recorded can be drawn again: its date does not move on either.
+    if (options.frames.date || options.frames.input || !options.record.empty())
         settings.date = settings.frames.date;
     if (!options.record.empty())
         if (auto writable = check_writable(options.record); !writable)
@@ -64,8 +65,13 @@ void add_view(CLI::App& app, Action& chosen) {
     add_scene_options(*command, options->scene);
     add_precision_options(*command, options->scene);
     add_picture_options(*command, options->frames);
-    command->add_option("--record", options->record, "Writes what mouse and keyboard do, for --input")
-        ->type_name("FILE");
+    command
+        ->add_option("--record", options->record,
+                     "Writes what mouse and keyboard do, for --input; iTime goes by frames")
+        ->type_name("FILE")
+        ->excludes("--input");
+    command->get_option("--fps")->description(
+        "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
     command->add_flag("--plain", options->plain,
                       "Stays with the scene's text as it is when nobody touches it for a while");
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });

@@ -47,9 +47,17 @@ render::RenderOptions options_for(const platform::Window& window, const Viewer::
 
 Viewer::Viewer(Settings settings, platform::Window window, LiveScene scene)
     : settings_(std::move(settings)), window_(std::move(window)), scene_(std::move(scene)),
-      sound_(std::make_unique<SoundPlayer>()), clock_(now_seconds()), controls_(settings_.frames.camera) {
-    if (settings_.frames.input)
-        replay_.emplace(*settings_.frames.input, settings_.frames.camera);
+      sound_(std::make_unique<SoundPlayer>()), clock_(clock_from(now_seconds())),
+      controls_(settings_.frames.camera) {
+    // Somebody who records sees the recording: there is nothing that it could show otherwise.
+    if (settings_.frames.input || recording())
+        replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.camera);
+}
+
+/// Of frames where they are recorded or replayed: a wall clock never shows the same twice.
+render::LiveClock Viewer::clock_from(double now) const {
+    const bool by_frames = settings_.frames.input || recording();
+    return render::LiveClock(now, by_frames ? std::optional(settings_.frames.fps) : std::nullopt);
 }
 
 Result<Viewer> Viewer::open(Settings settings) {
@@ -68,10 +76,8 @@ Result<Viewer> Viewer::open(Settings settings) {
 
 Result<int> Viewer::run(const Interrupt& interrupt) {
     while (!closing_ && !interrupt.requested()) {
-        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds()))) {
-            let_the_scene_know(event);
+        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds())))
             std::visit([this](const auto& happened) { handle(happened); }, event);
-        }
         const double now = now_seconds();
         if (auto followed = follow_scene(now); !followed)
             return fail(std::move(followed.error()));
@@ -85,8 +91,8 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
 }
 
 Result<void> Viewer::finish() {
-    if (!settings_.record.empty())
-        if (auto written = write_file(settings_.record, to_string(recorded_)); !written)
+    if (recording())
+        if (auto written = write_file(settings_.record, to_string(replay_->script())); !written)
             return written;
     return writer_ ? writer_->finish() : Result<void>();
 }
@@ -139,7 +145,7 @@ void Viewer::draw(double now) {
     }
     controls_.frame_drawn();
     // Frames are counted on where somebody writes their numbers down, or reads them.
-    at_rest_ = !drawn && !renderer.follows_clock() && !replay_ && settings_.record.empty();
+    at_rest_ = !drawn && !renderer.follows_clock() && !replay_;
     if (at_rest_)
         clock_.rest();
     if (reloaded_)
@@ -172,29 +178,34 @@ void Viewer::show_title(double now) {
 }
 
 /// Uniforms follow the mouse and the keys; a paused picture is drawn anew when they do.
-void Viewer::let_the_scene_know(const platform::InputEvent& event) {
-    const bool key = std::holds_alternative<platform::KeyPressed>(event) ||
-                     std::holds_alternative<platform::KeyReleased>(event);
+void Viewer::control(const ControlEvent& event) {
     if (!controls_.handle(event, window_.framebuffer_extent().height))
         return;
     touched_at_ = now_seconds();
-    stale_ = stale_ || !key || scene_reads_keyboard();
-    if (!settings_.record.empty())
-        record(recorded_, clock_.next_frame_number(), event);
+    stale_ = true;
+    if (recording())
+        replay_->note(clock_.next_frame_number(), event);
 }
 
+/// A key is the scene's or ours, and goes as it came. Ctrl is the scene's: what follows it is ours.
 void Viewer::handle(const platform::KeyPressed& event) {
-    if (event.key == Key::control)
-        control_down_ = true;
-    const bool ours = control_down_ || event.key == Key::escape || !scene_reads_keyboard();
+    const bool is_control = event.key == Key::control;
+    const bool ours = (control_down_ && !is_control) || event.key == Key::escape || !scene_reads_keyboard();
+    control_down_ |= is_control;
     const bool repeats = event.key == Key::left || event.key == Key::right;
-    if (ours && (!event.repeat || repeats))
+    if (!event.repeat && ours)
+        obeyed_.insert(event.key);
+    if (obeyed_.contains(event.key) && (!event.repeat || repeats))
         obey(event.key, now_seconds());
+    else if (!event.repeat && !ours)
+        control(event);
 }
 
 void Viewer::handle(const platform::KeyReleased& event) {
     if (event.key == Key::control)
         control_down_ = false;
+    if (obeyed_.erase(event.key) == 0)
+        control(event);
 }
 
 /// Such a scene has the keys to itself; with Ctrl they are the viewer's again.
@@ -214,15 +225,19 @@ bool Viewer::scene_reads_keyboard() const {
 
 void Viewer::obey(Key key, double now) {
     switch (key) {
-    case Key::left: clock_.step(-1, settings_.frames.fps, now); break;
+    case Key::left:
+        clock_.step(-1, settings_.frames.fps, now);
+        forget_what_follows();
+        break;
     case Key::right: clock_.step(1, settings_.frames.fps, now); break;
     case Key::space: clock_.toggle_pause(now); break;
     case Key::home:
         if (stage_)
             stage_->renderer().reset();
         clock_.restart(now);
+        forget_what_follows();
         break;
-    case Key::r: controls_.reset_camera(); break;
+    case Key::r: return control(CameraReset{});
     case Key::f: window_.toggle_full_screen(); break;
     case Key::escape:
         if (stage_ && compiles_for_long(now))
@@ -235,6 +250,12 @@ void Viewer::obey(Key key, double now) {
     default: return;
     }
     stale_ = true;
+}
+
+/// Time went backwards: the recording ends at the frame that is next.
+void Viewer::forget_what_follows() {
+    if (recording())
+        replay_->go_back(clock_.next_frame_number());
 }
 
 void Viewer::handle(const platform::FramebufferResized& event) {
@@ -280,7 +301,7 @@ Result<void> Viewer::follow_scene(double now) {
 /// From now on. One that has settled draws what was drawn before: nothing else changes.
 Result<void> Viewer::show(Stage fresh, double now) {
     if (!stage_)
-        clock_ = render::LiveClock(now);
+        clock_ = clock_from(now);
     if (auto swapped = swap_in(std::move(fresh)); !swapped)
         return swapped;
     if (stage_->share()) {

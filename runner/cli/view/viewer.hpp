@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace tidemark::cli {
@@ -27,8 +28,9 @@ public:
         FrameRequest frames;                   ///< extent, fps, camera
         std::string pass = {};                 ///< the pass to show; empty: Image
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
-        std::filesystem::path record = {};     ///< where what people do is written; empty: nowhere
-        bool plain = false;                    ///< never settles
+        std::filesystem::path record =
+            {};             ///< where what people do is written; empty: nowhere. Excludes frames.input
+        bool plain = false; ///< never settles
     };
 
     /// Opens the window and begins to compile. Fails like `load` and Window do.
@@ -43,16 +45,19 @@ public:
 
 private:
     Viewer(Settings settings, platform::Window window, LiveScene scene);
+    bool recording() const { return !settings_.record.empty(); }
+    render::LiveClock clock_from(double now) const;
 
     // What people do
-    void handle(const platform::PointerMoved&) {}
-    void handle(const platform::ButtonPressed&) {}
-    void handle(const platform::ButtonReleased&) {}
-    void handle(const platform::WheelTurned&) {}
-    void let_the_scene_know(const platform::InputEvent& event);
+    void handle(const platform::PointerMoved& event) { control(event); }
+    void handle(const platform::ButtonPressed& event) { control(event); }
+    void handle(const platform::ButtonReleased& event) { control(event); }
+    void handle(const platform::WheelTurned& event) { control(event); }
+    void control(const ControlEvent& event);
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
+    void forget_what_follows();
     bool scene_reads_keyboard() const;
     void handle(const platform::FramebufferResized& event);
     void handle(const platform::RedrawNeeded&) { stale_ = true; }
@@ -83,14 +88,15 @@ private:
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;
     Controls controls_;
-    std::optional<Replay> replay_; ///< moves the scene instead of the controls
-    InputScript recorded_;
+    std::optional<Replay>
+        replay_; ///< moves the scene instead of the controls: of a recording, or of this one
     std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
     std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
     std::string title_;
     render::FrameInputs shown_; ///< inputs of the frame on show
     double next_draw_ = 0;
-    double touched_at_ = 0; ///< when somebody last changed what is drawn, or its size
+    double touched_at_ = 0;          ///< when somebody last changed what is drawn, or its size
+    std::set<platform::Key> obeyed_; ///< keys that are down and that the scene knows nothing of
     bool control_down_ = false;
     bool stale_ = true;    ///< the window does not show what it should
     bool at_rest_ = false; ///< the next frame is this one, until somebody does something

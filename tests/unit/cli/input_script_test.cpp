@@ -17,11 +17,12 @@ const InputScript k_script{
     {9, platform::KeyReleased{Key::a}},
     {9, platform::ButtonPressed{Button::middle, {0, 0}}},
     {9, platform::ButtonReleased{Button::middle}},
+    {12, CameraReset{}},
 };
 
 constexpr const char* k_text =
     "0 press left 10 20.5\n2 move -3 0.001\n2 release left\n5 keydown 65\n5 wheel -1\n"
-    "9 keyup 65\n9 press middle 0 0\n9 release middle\n";
+    "9 keyup 65\n9 press middle 0 0\n9 release middle\n12 camera reset\n";
 
 /// What is wrong with a text.
 std::string refusal(std::string_view text) {
@@ -47,28 +48,18 @@ TEST(InputScript, says_what_is_wrong_and_where) {
     EXPECT_EQ(refusal("\n# x\n-1 move 1 2"), "take.txt:3: error: " + number);
     EXPECT_EQ(refusal("100000001 move 1 2"), "take.txt:1: error: " + number);
     EXPECT_EQ(refusal("1 moves 1 2"), "take.txt:1: error: unknown event 'moves': give press, release, move, "
-                                      "wheel, keydown or keyup");
-    EXPECT_EQ(refusal("1"),
-              "take.txt:1: error: unknown event '': give press, release, move, wheel, keydown or "
-              "keyup");
+                                      "wheel, keydown, keyup or camera");
+    EXPECT_EQ(refusal("1"), "take.txt:1: error: unknown event '': give press, release, move, wheel, keydown, "
+                            "keyup or camera");
     EXPECT_EQ(refusal("1 move 1"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 move 1 nan"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 move 1 2 3"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 press west 1 2"), "take.txt:1: error: give it as `1 press left|middle|right X Y`");
     EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown CODE (1 to 255)`");
+    EXPECT_EQ(refusal("1 camera"), "take.txt:1: error: give it as `1 camera reset`");
     EXPECT_EQ(refusal("1 keyup 256"), "take.txt:1: error: give it as `1 keyup CODE (1 to 255)`");
     EXPECT_EQ(refusal("7 wheel 1\n6 wheel 1"),
               "take.txt:2: error: frame 6 comes after frame 7: frames do not go backwards");
-}
-
-TEST(Record, drops_what_comes_after_a_time_that_is_gone_back_to) {
-    InputScript script;
-    record(script, 3, platform::WheelTurned{0, 1});
-    record(script, 8, platform::WheelTurned{0, 2});
-    record(script, 8, platform::CloseRequested{});
-    record(script, 8, platform::KeyPressed{Key::a, true}); // a key that repeats
-    record(script, 4, platform::WheelTurned{0, 3});
-    EXPECT_EQ(to_string(script), "3 wheel 1\n4 wheel 3\n");
 }
 
 render::FrameInputs at(Replay& replay, int frame) {
@@ -90,6 +81,34 @@ TEST(Replay, shows_each_frame_what_a_person_would_have_done) {
     EXPECT_EQ(at(replay, 9).keyboard[65], 0);
     EXPECT_EQ(at(replay, 9).keyboard[3 * 256 + 65], 255);
     EXPECT_NE(at(replay, 9).camera, at(replay, 4).camera); // the wheel
+    EXPECT_EQ(at(replay, 12).camera, at(replay, 4).camera);
+}
+
+TEST(Replay, can_be_written_while_it_runs) {
+    Replay written({}, {});
+    for (int frame = 0; frame < 12; ++frame) {
+        for (const TimedEvent& timed : k_script)
+            if (timed.frame == frame)
+                written.note(frame, timed.event);
+        Replay read(k_script, {});
+        EXPECT_EQ(at(written, frame).mouse, at(read, frame).mouse) << frame;
+        EXPECT_EQ(at(written, frame).keyboard, at(read, frame).keyboard) << frame;
+        EXPECT_EQ(at(written, frame).camera, at(read, frame).camera) << frame;
+    }
+}
+
+TEST(Replay, forgets_what_comes_after_a_time_that_is_gone_back_to) {
+    Replay replay({}, {});
+    replay.note(3, platform::WheelTurned{0, 1});
+    replay.note(8, platform::WheelTurned{0, 2});
+    const glm::mat4 shown = at(replay, 7).camera;
+    EXPECT_NE(at(replay, 9).camera, shown);
+    replay.go_back(4);
+    EXPECT_EQ(to_string(replay.script()), "3 wheel 1\n");
+    EXPECT_EQ(at(replay, 4).camera, shown);
+    EXPECT_EQ(at(replay, 9).camera, shown);
+    replay.note(4, CameraReset{});
+    EXPECT_EQ(to_string(replay.script()), "3 wheel 1\n4 camera reset\n");
 }
 
 TEST(Replay, a_frame_asked_for_alone_equals_the_same_frame_of_a_sequence) {

@@ -1,7 +1,12 @@
 #include "image/census.hpp"
 #include "picture_support.hpp"
 
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <limits>
 
 namespace tidemark::image {
 namespace {
@@ -64,6 +69,29 @@ TEST(Census, the_place_counts_rows_from_the_bottom) {
 TEST(Census, bytes_are_always_finite) {
     const FiniteCensus found = census(patterned_u8({5, 4}, 3));
     EXPECT_EQ(found, (FiniteCensus{.samples = 60}));
+}
+
+TEST(TakeNonFinite, counts_pixels_of_floats_by_their_bits) {
+    Image image({3, 2}, 4, SampleType::f32);
+    const float nan = std::numeric_limits<float>::quiet_NaN(),
+                infinity = std::numeric_limits<float>::infinity();
+    image.f32()[1] = nan;
+    image.f32()[2] = infinity; // of the same pixel
+    image.f32()[11] = -infinity;
+    image.f32()[12] = std::numeric_limits<float>::max();
+    image.f32()[13] = std::numeric_limits<float>::denorm_min();
+    const Image before = image;
+    EXPECT_EQ(take_non_finite(image), 2U);
+    EXPECT_EQ(std::memcmp(image.bytes.data(), before.bytes.data(), image.bytes.size()), 0);
+}
+
+TEST(TakeNonFinite, takes_the_mark_from_bytes) {
+    Image image({2, 2}, 4, SampleType::u8);
+    const std::array<uint8_t, 16> marked{1, 2, 3, 255, 51, 51, 51, 51, 51, 0, 0, 0, 7, 8, 9, 51};
+    std::ranges::copy(marked, image.u8().begin());
+    EXPECT_EQ(take_non_finite(image), 2U);
+    EXPECT_THAT(image.u8(), testing::ElementsAre(1, 2, 3, 255, 51, 51, 51, 255, 51, 0, 0, 0, 7, 8, 9, 255));
+    EXPECT_EQ(take_non_finite(image), 0U);
 }
 
 } // namespace

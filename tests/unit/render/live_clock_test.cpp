@@ -25,6 +25,30 @@ TEST(LiveClock, runs_with_the_wall_clock) {
     EXPECT_EQ(second.time_delta, 0.5);
 }
 
+TEST(LiveClock, follows_frames_where_it_is_told_to) {
+    LiveClock clock(1000, 25.0);
+    (void)clock.next_frame(1000);
+    const auto expect_frame = [&](int number) {
+        const FrameInputs shown = clock.next_frame(1003.5 + number);
+        const FrameInputs wanted = inputs_of_frame(number, 25);
+        EXPECT_EQ(shown.frame, wanted.frame);
+        EXPECT_EQ(shown.time, wanted.time);
+        EXPECT_EQ(shown.time_delta, wanted.time_delta);
+        EXPECT_EQ(shown.frame_rate, wanted.frame_rate);
+    };
+    expect_frame(1);
+    expect_frame(2);
+    clock.toggle_pause(1010);
+    expect_frame(3); // drawn because somebody drags
+    clock.step(-1, 25, 1011);
+    expect_frame(2);
+    clock.step(1, 25, 1012);
+    EXPECT_EQ(clock.time(1020), 3 / 25.0);
+    expect_frame(3);
+    clock.restart(1020);
+    expect_frame(0);
+}
+
 TEST(LiveClock, pause_freezes_time) {
     LiveClock clock(0);
     (void)clock.next_frame(1);

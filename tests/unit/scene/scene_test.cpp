@@ -168,6 +168,17 @@ TEST_F(Overrides, a_channel_of_another_pass_is_named_with_it) {
               "--channel Buffer A:x=none: give it as N=FILE, N=noise or N=none, N from 0 to 9");
 }
 
+TEST_F(Overrides, a_value_outside_of_the_range_is_taken_with_a_warning) {
+    scene.knobs[0].range = KnobRange{{0}, {2}};
+    EXPECT_EQ(message(override_knob(scene, "k=2")), "");
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(message(override_knob(scene, "k=-5")), "");
+    EXPECT_EQ(scene.knobs[0].value[0], -5);
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_EQ(scene.warnings[0].message, "--set k=-5: k has the range 0 to 2; the value is taken as it is");
+    EXPECT_EQ(scene.warnings[0].where.line, 1);
+}
+
 TEST_F(Overrides, a_channel_reads_what_it_is_told) {
     EXPECT_EQ(message(override_channel(scene, "0=noise")), "");
     EXPECT_EQ(scene.image().channels[0].input, ChannelInput(Noise{}));
