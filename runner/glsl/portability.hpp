@@ -1,6 +1,6 @@
 // `tidemark check --portable`: what ShaderToy's own compiler (GLSL ES 3.00, in a browser) will refuse
-// although a desktop driver takes it. Reads the texts alone and speaks only when it is sure; a compiler for that
-// language (PassReading::site_source) finds the rest.
+// although a desktop driver takes it. Reads the texts alone and speaks only when it is sure; a compiler for
+// that language (PassReading::site_source) finds the rest.
 #pragma once
 
 #include "scene/scene.hpp"

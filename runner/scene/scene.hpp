@@ -57,7 +57,8 @@ struct LoadOptions {
 /// with file and line. Pictures and other media are named, not opened.
 Result<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// Carries out `--channel [PASS:]N=WHAT`: a picture file, `noise`, `none`; sampled as ShaderToy's textures are.
+/// Carries out `--channel [PASS:]N=WHAT`: a picture file, `noise`, `none`; sampled as ShaderToy's textures
+/// are.
 Result<void> override_channel(Scene& scene, std::string_view setting);
 
 /// Carries out `--set NAME=VALUE`. A value outside of the knob's range is taken, with a warning.

@@ -75,8 +75,7 @@ public:
     }
 
 private:
-    // ---- Lines
-    // ----------------------------------------------------------------------------------------------
+    // ---- Lines ----------------------------------------------------------------------------------
 
     /// What a macro would take for its own cannot be said again.
     bool can_be_said(size_t begin, size_t end) const {
@@ -145,8 +144,7 @@ private:
                    : nullptr;
     }
 
-    // ---- Expressions of calls
-    // ---------------------------------------------------------------------------------
+    // ---- Expressions of calls -------------------------------------------------------------------
 
     void pair_calls_in(const Global& function) {
         declarations_.clear();
@@ -208,8 +206,7 @@ private:
         return type.has_value();
     }
 
-    // ---- What is written
-    // ----------------------------------------------------------------------------------------
+    // ---- What is written ------------------------------------------------------------------------
 
     std::string own_name(size_t call, std::string_view name) const {
         return fmt::format("tidemark{}{}", call, name);

@@ -88,7 +88,8 @@ TEST(Resolve, the_option_at_fault_is_named) {
     EXPECT_EQ(refusal(options), "--frames 1-: give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29");
     options = {};
     options.mouse = "1";
-    EXPECT_EQ(refusal(options), "--mouse 1: give x,y after a click or x,y,from_x,from_y after a drag, and ,down before "
+    EXPECT_EQ(refusal(options),
+              "--mouse 1: give x,y after a click or x,y,from_x,from_y after a drag, and ,down before "
               "its end, in pixels from the bottom left");
     options = {};
     options.date = "today";

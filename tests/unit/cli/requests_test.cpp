@@ -88,14 +88,17 @@ TEST(ParseMouse, after_a_drag_and_before_its_end) {
 }
 
 TEST(ParseMouse, what_is_no_mouse) {
-    for (const std::string text : {"", "1", "1,", ",1", "1,2,", "1,2,up", "1,2,down,", "1,2,3", "1,2,3,", "1,2,down,3,4", "1,2,3,nan", "1,2,3,4,5", "1,2,3,4,", "1;2", " 1,2",
-                                   "nan,1", "1,inf", "1e300,1", "1,-1e300", "16777217,0"}) {
+    for (const std::string text :
+         {"",      "1",      "1,",           ",1",        "1,2,",      "1,2,up",    "1,2,down,",
+          "1,2,3", "1,2,3,", "1,2,down,3,4", "1,2,3,nan", "1,2,3,4,5", "1,2,3,4,",  "1;2",
+          " 1,2",  "nan,1",  "1,inf",        "1e300,1",   "1,-1e300",  "16777217,0"}) {
         const auto mouse = parse_mouse(text);
         ASSERT_FALSE(mouse) << text;
         EXPECT_EQ(mouse.error().code, ErrorCode::usage);
         EXPECT_EQ(mouse.error().message,
-                  "--mouse " + text + ": give x,y after a click or x,y,from_x,from_y after a drag, and ,down before its "
-                  "end, in pixels from the bottom left");
+                  "--mouse " + text +
+                      ": give x,y after a click or x,y,from_x,from_y after a drag, and ,down before its "
+                      "end, in pixels from the bottom left");
     }
 }
 
