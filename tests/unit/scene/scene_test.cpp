@@ -156,7 +156,10 @@ TEST_F(Overrides, a_knob_gets_its_value_and_keeps_its_default) {
 }
 
 TEST_F(Overrides, a_channel_of_another_pass_is_named_with_it) {
-    scene.passes.insert(scene.passes.begin(), Pass{.kind = PassKind::buffer, .name = "Buffer A"});
+    Pass buffer;
+    buffer.kind = PassKind::buffer;
+    buffer.name = "Buffer A";
+    scene.passes.insert(scene.passes.begin(), buffer);
     EXPECT_EQ(message(override_channel(scene, "Buffer A:1=a:b.png")), "");
     EXPECT_EQ(scene.passes[0].channels[1].input, ChannelInput(Picture{"a:b.png"}));
     EXPECT_EQ(scene.image().channels[1].input, ChannelInput(Noise{}));
