@@ -58,9 +58,9 @@ class Clock(Told):
         self.refused("--fps x", "--fps: give a number, not 'x'")
         self.refused("--fps 0", "--fps 0: give a number above 0")
         self.refused("--fps -24", "--fps -24: give a number above 0")
-        self.refused("--fps inf", "--fps inf: give a number above 0")
+        self.refused("--fps inf", "--fps: give a number, not 'inf'")
         self.refused("--time soon", "--time: give a number, not 'soon'")
-        self.refused("--time nan", "--time: give a finite number of seconds")
+        self.refused("--time nan", "--time: give a number, not 'nan'")
         self.refused("--frame 1 --time 2", "--frame excludes --time")
         self.refused("--frames 1-3 --time 2", "--frames excludes --time")
         for wrong in ("x", "-1", "1-", "1-2x0", "1-2x", "1,", "1;2", "1.5", "0-99999999999"):

@@ -186,7 +186,7 @@ class Json(CaptureTest):
         self.assertEqual([f["iTime"] for f in report["frames"]], [0, 2 / 30, 4 / 30])
         self.assertEqual([f["file"] for f in report["frames"]], ["f000.png", "f002.png", "f004.png"])
         for frame in report["frames"]:
-            self.assertEqual(list(frame), ["frame", "iTime", "file", "sha256", "passes_drawn", "milliseconds"])
+            self.assertEqual(list(frame), ["frame", "iTime", "file", "sha256", "not_finite", "passes_drawn", "milliseconds"])
             self.assertEqual(frame["sha256"], self.picture(frame["file"]).sha256())
             self.assertGreater(frame["milliseconds"], 0)
 
