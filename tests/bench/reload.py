@@ -38,7 +38,10 @@ void mainImage(out vec4 c, in vec2 p) {
 def a_screen():
     server = subprocess.Popen(["Xvfb", DISPLAY, "-screen", "0", "800x600x24", "-nolisten", "tcp"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(1)
+    ready = ["xdotool", "getdisplaygeometry"]
+    while server.poll() is None and subprocess.run(ready, env=os.environ | {"DISPLAY": DISPLAY}, stdout=subprocess.DEVNULL,
+                                                   stderr=subprocess.DEVNULL).returncode != 0:
+        time.sleep(0.1)
     try:
         yield
     finally:
@@ -75,7 +78,7 @@ def saves(program, scene, file, text, rounds):
         wait_for_picture(viewer)
         for i in range(rounds + 1):
             time.sleep(0.5)
-            file.write_text(f"// save {i}\n{text}")
+            file.write_text(f"// save {i} of {time.time()}\n{text}")  # no cache has seen that text
             rows.append(reloaded(viewer))
     finally:
         viewer.send_signal(signal.SIGTERM)

@@ -61,10 +61,10 @@ def by_frames(program, folder):
     return [{"frames": frames, "memory": run(capture(program, scene, (64, 36), frames))["memory"]} for frames in FRAMES]
 
 
-def specialised(program, shaders, rounds, frames=10):
-    """Every scene as it is captured against its text compiled whole."""
+def specialised(program, shaders, rounds, frames=120):
+    """Every scene as a sequence of it is captured, the trial of its programs included, against its text compiled whole."""
     for scene in sorted(pathlib.Path(shaders).glob("*.glsl")):
-        ours = capture(program, str(scene), (320, 180), frames)
+        ours = capture(program, str(scene), (160, 90), frames)
         yield against(f"{scene.stem}, specialised against plain", ours, [*ours, "--plain"], rounds)
 
 
