@@ -36,7 +36,7 @@ void mainImage(out vec4 c, in vec2 p) {
 
 @contextlib.contextmanager
 def a_screen():
-    server = subprocess.Popen(["Xvfb", DISPLAY, "-screen", "0", "800x600x24", "-nolisten", "tcp"],
+    server = subprocess.Popen(["Xvfb", DISPLAY, "-screen", "0", "800x600x24", "-nolisten", "tcp", "-noreset"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     ready = ["xdotool", "getdisplaygeometry"]
     while server.poll() is None and subprocess.run(ready, env=os.environ | {"DISPLAY": DISPLAY}, stdout=subprocess.DEVNULL,
