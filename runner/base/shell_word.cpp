@@ -13,4 +13,11 @@ std::string shell_word(std::string_view word) {
     return quoted + "'";
 }
 
+std::string shell_words(std::span<const std::string> words) {
+    std::string line;
+    for (const std::string& word : words)
+        line += (line.empty() ? "" : " ") + shell_word(word);
+    return line;
+}
+
 } // namespace tidemark

@@ -71,6 +71,22 @@ void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Dia
 
 } // namespace
 
+std::vector<std::string> option_words(const SceneRequest& request) {
+    std::vector<std::string> words;
+    const auto add = [&words](const char* option, const std::vector<std::string>& values) {
+        for (const std::string& value : values)
+            words.insert(words.end(), {option, value});
+    };
+    add("--set", request.sets);
+    add("--define", request.defines);
+    add("--channel", request.channels);
+    if (!request.files.media.empty())
+        add("--media", {request.files.media.string()});
+    if (request.files.allow_outside)
+        words.emplace_back("--allow-outside");
+    return words;
+}
+
 Result<scene::Scene> load(const SceneRequest& request) {
     auto scene = scene::load_scene(request.path, request.files);
     if (!scene)

@@ -34,6 +34,9 @@ struct SceneRequest {
 
 glsl::Precision precision_of(const SceneRequest& request);
 
+/// The words that ask for what the options change in the scene, as they are typed.
+std::vector<std::string> option_words(const SceneRequest& request);
+
 /// What is said of a scene in a file of its own: `waves.check.json` beside `waves.glsl`, `check.json` in a
 /// folder. It need not exist.
 std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name);

@@ -217,20 +217,8 @@ std::string trace_command(const CaptureOptions& options, int frame) {
     add_given("--input", frames.input);
     if (!frames.pass.empty())
         add("--pass", frames.pass);
-    for (const std::string& setting : options.scene.sets)
-        add("--set", setting);
-    for (const std::string& setting : options.scene.defines)
-        add("--define", setting);
-    for (const std::string& setting : options.scene.channels)
-        add("--channel", setting);
-    if (options.scene.files.allow_outside)
-        words.emplace_back("--allow-outside");
-    if (!options.scene.files.media.empty())
-        add("--media", options.scene.files.media.string());
-    std::string command;
-    for (const std::string& word : words)
-        command += (command.empty() ? "" : " ") + shell_word(word);
-    return command;
+    std::ranges::copy(option_words(options.scene), std::back_inserter(words));
+    return shell_words(words);
 }
 
 /// One line for all frames: a file does not show what was no number.

@@ -65,8 +65,7 @@ Result<lab::Promises> promises_of(const fs::path& path, const scene::Scene& scen
 }
 
 Result<void> keep_picture(const fs::path& folder, Asked& asked) {
-    const Verdict verdict = asked.answer.verdict;
-    if (folder.empty() || !asked.answer.picture || (verdict != Verdict::fail && verdict != Verdict::warn))
+    if (folder.empty() || !asked.answer.picture || !accuses(asked.answer))
         return {};
     if (auto made = make_folder(folder); !made)
         return made;

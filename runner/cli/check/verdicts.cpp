@@ -22,11 +22,6 @@ bool waits(const Asked& asked) {
     return asked.answer.verdict == Verdict::not_applicable || asked.answer.verdict == Verdict::cut;
 }
 
-/// Whether there is something to show again.
-bool accuses(const Asked& asked) {
-    return asked.answer.verdict == Verdict::fail || asked.answer.verdict == Verdict::warn;
-}
-
 size_t count(std::span<const Asked> all, Verdict verdict) {
     return size_t(std::ranges::count(all, verdict, [](const Asked& asked) { return asked.answer.verdict; }));
 }
@@ -39,21 +34,11 @@ double seconds_of(std::span<const Asked> all) {
 }
 
 std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
-    std::string options;
-    const auto add = [&options](const char* name, const std::vector<std::string>& values) {
-        for (const std::string& value : values)
-            options += fmt::format("{} {} ", name, shell_word(value));
-    };
-    add("--set", request.scene.sets);
-    add("--define", request.scene.defines);
-    add("--channel", request.scene.channels);
-    if (!request.scene.files.media.empty())
-        add("--media", {request.scene.files.media.string()});
-    if (request.scene.files.allow_outside)
-        options += "--allow-outside ";
-    return fmt::format("tidemark capture {} {}{} -o {}", shell_word(request.scene.path.string()), options,
-                       lab::capture_options(situation),
-                       shell_word(request.scene.path.stem().string() + ".exr"));
+    const std::filesystem::path& scene = request.scene.path;
+    std::vector<std::string> words{"tidemark", "capture", scene.string()};
+    std::ranges::copy(option_words(request.scene), std::back_inserter(words));
+    return fmt::format("{} {} -o {}", shell_words(words), lab::capture_options(situation),
+                       shell_word(scene.stem().string() + ".exr"));
 }
 
 std::string line(Verdict verdict, const std::string& probes, const std::string& sentence) {
@@ -92,12 +77,16 @@ std::string shares(std::span<const Asked> all) {
 
 } // namespace
 
+bool accuses(const lab::Answer& answer) {
+    return answer.verdict == Verdict::fail || answer.verdict == Verdict::warn;
+}
+
 std::string row(const ProbesRequest& request, const Asked& asked) {
     if (waits(asked))
         return {};
     std::string text = line(asked.answer.verdict, std::string(asked.probe->name), asked.answer.sentence) +
                        indented(asked.trace);
-    if (accuses(asked) && asked.answer.where)
+    if (accuses(asked.answer) && asked.answer.where)
         text += indented(reproduction(request, *asked.answer.where));
     if (!asked.picture.empty())
         text += indented(asked.picture.string());
@@ -133,7 +122,7 @@ std::string report(const ProbesRequest& request, std::span<const Asked> all) {
                       {"verdict", lab::to_string(asked.answer.verdict)},
                       {"found", asked.answer.sentence},
                       {"seconds", asked.seconds}};
-        if (accuses(asked) && asked.answer.where)
+        if (accuses(asked.answer) && asked.answer.where)
             entry["reproduction"] = reproduction(request, *asked.answer.where);
         if (!asked.picture.empty())
             entry["picture"] = asked.picture.string();

@@ -9,6 +9,9 @@
 
 namespace tidemark::cli {
 
+/// Whether there is something to show.
+bool accuses(const lab::Answer& answer);
+
 /// A verdict with all that belongs to it. Empty for those that wait for `rest`.
 std::string row(const ProbesRequest& request, const Asked& asked);
 

@@ -138,4 +138,17 @@ Variables find_variables(const ParsedText& text, NodeId first, NodeId last) {
     return variables;
 }
 
+Variables find_global_variables(const ParsedText& text, const std::vector<Global>& globals) {
+    Variables variables;
+    for (const Global& global : globals)
+        if (text.tree()[global.node].kind == NodeKind::declaration)
+            for (const auto& [name, variable] : find_variables(text, global.first, global.node)) {
+                Variable& known = variables[name];
+                const unsigned times = known.times + variable.times;
+                known = variable;
+                known.times = times;
+            }
+    return variables;
+}
+
 } // namespace tidemark::glsl

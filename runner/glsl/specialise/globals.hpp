@@ -37,4 +37,7 @@ using Variables = std::unordered_map<std::string_view, Variable>;
 /// The variables that the nodes [first, last] declare; members of structures are none.
 Variables find_variables(const ParsedText& text, NodeId first, NodeId last);
 
+/// Those of the outermost level, by the last of their declarations there.
+Variables find_global_variables(const ParsedText& text, const std::vector<Global>& globals);
+
 } // namespace tidemark::glsl

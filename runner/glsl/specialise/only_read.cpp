@@ -14,12 +14,6 @@ bool has_effects(std::string_view builtin) {
            builtin.starts_with("End");
 }
 
-bool is_change(const SyntaxTree& tree, const ParsedText& text, NodeId id) {
-    const std::string_view word = text.word_of(id);
-    return tree[id].kind == NodeKind::assign || tree[id].kind == NodeKind::postfix ||
-           (tree[id].kind == NodeKind::prefix && (word == "++" || word == "--"));
-}
-
 } // namespace
 
 /// In the order of the text: of what a function calls and is defined later, nothing is known.
@@ -67,9 +61,7 @@ void OnlyRead::look_at(const Global& function) {
 
 /// By name: a global variable may be meant outside the scope of the local one.
 bool OnlyRead::is_local(NodeId target, const Variables& locals) const {
-    while (tree_[target].kind == NodeKind::member || tree_[target].kind == NodeKind::index ||
-           tree_[target].kind == NodeKind::parenthesis)
-        target = tree_.child(target, 0);
+    target = base_of(tree_, target);
     return tree_[target].kind == NodeKind::name && locals.contains(text_.word_of(target)) &&
            !is_global_variable(text_.word_of(target));
 }
@@ -88,7 +80,7 @@ bool OnlyRead::may_call(NodeId call, const Variables& locals) const {
 
 bool OnlyRead::changes_only(NodeId first, NodeId last, const Variables& locals) const {
     for (NodeId id = first; id <= last; ++id) {
-        if (is_change(tree_, text_, id) && !is_local(tree_.child(id, 0), locals))
+        if (is_change(text_, id) && !is_local(tree_.child(id, 0), locals))
             return false;
         if (tree_[id].kind == NodeKind::call && !may_call(id, locals))
             return false;

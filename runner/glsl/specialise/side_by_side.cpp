@@ -49,17 +49,9 @@ class SideBySide {
 public:
     SideBySide(const ParsedText& text, WordEdits& edits)
         : text_(text), tree_(text.tree()), edits_(edits), globals_(find_globals(text)),
-          only_read_(text, globals_) {
+          only_read_(text, globals_), variables_(find_global_variables(text, globals_)) {
         for (const MacroLine& macro : text.preprocessed().macros)
             macros_.insert(macro.name);
-        for (const Global& global : globals_)
-            if (tree_[global.node].kind == NodeKind::declaration)
-                for (const auto& [name, variable] : find_variables(text, global.first, global.node)) {
-                    Variable& known = variables_[name];
-                    const unsigned times = known.times + variable.times;
-                    known = variable;
-                    known.times = times;
-                }
     }
 
     int run() {

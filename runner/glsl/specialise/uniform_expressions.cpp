@@ -20,16 +20,10 @@ UniformExpressions::UniformExpressions(const ParsedText& text, const std::vector
 
 /// Numbers among the uniforms, and constants; a name of several meanings is left alone.
 void UniformExpressions::read_globals(const std::vector<Global>& globals) {
+    globals_ = find_global_variables(text_, globals);
     for (const Global& global : globals)
         if (tree_[global.node].kind == NodeKind::function)
             functions_[text_.word_of(global.node)].push_back(&global);
-        else
-            for (const auto& [name, variable] : find_variables(text_, global.first, global.node)) {
-                Variable& known = globals_[name];
-                const unsigned times = known.times + variable.times;
-                known = variable;
-                known.times = times;
-            }
     for (const Global& global : globals) { // a constant may be made of those before it
         if (tree_[global.node].kind != NodeKind::declaration)
             continue;
@@ -70,14 +64,6 @@ auto UniformExpressions::alias(std::string_view name) const -> const Alias* {
     return found == aliases_.end() ? nullptr : &found->second;
 }
 
-/// The variable that an assignment to `target` changes.
-NodeId UniformExpressions::root_of(NodeId target) const {
-    while (tree_[target].kind == NodeKind::member || tree_[target].kind == NodeKind::index ||
-           tree_[target].kind == NodeKind::parenthesis)
-        target = tree_.child(target, 0);
-    return tree_[target].kind == NodeKind::name ? target : k_no_node;
-}
-
 bool UniformExpressions::writes_through_arguments(std::string_view name) const {
     const auto found = functions_.find(name);
     if (found == functions_.end())
@@ -94,19 +80,15 @@ bool UniformExpressions::writes_through_arguments(std::string_view name) const {
 
 void UniformExpressions::find_written(NodeId first, NodeId last) {
     const auto write = [&](NodeId target) {
-        if (const NodeId root = root_of(target); root != k_no_node)
-            written_.insert(text_.word_of(root));
+        if (const NodeId base = base_of(tree_, target); tree_[base].kind == NodeKind::name)
+            written_.insert(text_.word_of(base));
     };
-    for (NodeId id = first; id <= last; ++id) {
-        const std::string_view word = text_.word_of(id);
-        if (tree_[id].kind == NodeKind::assign || tree_[id].kind == NodeKind::postfix ||
-            (tree_[id].kind == NodeKind::prefix && (word == "++" || word == "--"))) {
+    for (NodeId id = first; id <= last; ++id)
+        if (is_change(text_, id))
             write(tree_.child(id, 0));
-        } else if (tree_[id].kind == NodeKind::call && writes_through_arguments(called_name(text_, id))) {
+        else if (tree_[id].kind == NodeKind::call && writes_through_arguments(called_name(text_, id)))
             for (const NodeId argument : tree_.children(id))
                 write(argument);
-        }
-    }
 }
 
 void UniformExpressions::find_aliases(NodeId declaration) {

@@ -58,7 +58,6 @@ private:
     std::optional<PureFunction> pure_function(std::string_view name) const;
     std::optional<PureFunction> examine(const Global& function) const;
     bool writes_through_arguments(std::string_view name) const;
-    NodeId root_of(NodeId target) const;
     bool is_callee(NodeId name) const;
 
     const ParsedText& text_;

@@ -205,6 +205,20 @@ TreeFacts find_facts(const ParsedText& text) {
     return Collector(text).run();
 }
 
+NodeId base_of(const SyntaxTree& tree, NodeId place) {
+    while (tree[place].kind == NodeKind::member || tree[place].kind == NodeKind::index ||
+           tree[place].kind == NodeKind::parenthesis)
+        place = tree.child(place, 0);
+    return place;
+}
+
+bool is_change(const ParsedText& text, NodeId expression) {
+    const NodeKind kind = text.tree()[expression].kind;
+    const std::string_view word = text.word_of(expression);
+    return kind == NodeKind::assign || kind == NodeKind::postfix ||
+           (kind == NodeKind::prefix && (word == "++" || word == "--"));
+}
+
 std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, const TreeFacts& facts) {
     const SyntaxTree& tree = text.tree();
     std::unordered_map<std::string_view, std::vector<std::string_view>> calls;

@@ -67,6 +67,10 @@ bool is_given(const ParsedText& text, NodeId type);
 bool is_bracket(const ParsedText& text, NodeId part);
 /// How many brackets a declarator or parameter has, those of its type included.
 size_t dimensions(const ParsedText& text, NodeId type, NodeId declared);
+/// The `a` of `a[i].x` and of `(a)`: what stands in the middle of brackets, members and parentheses.
+NodeId base_of(const SyntaxTree& tree, NodeId place);
+/// Whether an expression sets its first part: by `=`, `+=` and their kind, `++` and `--`.
+bool is_change(const ParsedText& text, NodeId expression);
 /// The name that a call calls, for functions and constructors alike; empty for an array's constructor and for
 /// `.length()`.
 std::string_view called_name(const ParsedText& text, NodeId call);

@@ -141,12 +141,12 @@ private:
         switch (tree_[id].kind) {
         case NodeKind::assign:
             if (differs_[id] || set_by_some(id))
-                add(names_, base_of(first));
+                add(names_, text_.word_of(base_of(tree_, first)));
             return;
         case NodeKind::prefix:
         case NodeKind::postfix:
             if ((text_.word_of(id) == "++" || text_.word_of(id) == "--") && set_by_some(id))
-                add(names_, base_of(first));
+                add(names_, text_.word_of(base_of(tree_, first)));
             return;
         case NodeKind::declarator:
             if (differs_[id] || (first != k_no_node && parted(id)))
@@ -176,7 +176,7 @@ private:
             return false;
         const auto locals = locals_.find(function);
         return text_.word_of(exit) == "continue" || locals == locals_.end() ||
-               !locals->second.contains(base_of(tree_.child(assignment, 0)));
+               !locals->second.contains(text_.word_of(base_of(tree_, tree_.child(assignment, 0))));
     }
 
     /// Arguments become parameters; what is written through one may be anything.
@@ -195,7 +195,7 @@ private:
         for (NodeId part = tree_[tree_.child(id, 0)].next; part != k_no_node;
              part = tree_[part].next, ++index) {
             if (!name.empty() && facts_.writes_argument(name, index) && (differs_[id] || function))
-                add(names_, base_of(part));
+                add(names_, text_.word_of(base_of(tree_, part)));
             if (function && differs_[part])
                 for (const NodeId definition : function->definitions)
                     if (const NodeId parameter = tree_.child(definition, index + 1);
@@ -263,14 +263,6 @@ private:
         return tree_.child(loop, tree_[loop].kind == NodeKind::loop_for     ? 3
                                  : tree_[loop].kind == NodeKind::loop_while ? 1
                                                                             : 0);
-    }
-
-    /// The variable that `a[i].x` is a part of.
-    std::string_view base_of(NodeId id) const {
-        while (tree_[id].kind == NodeKind::member || tree_[id].kind == NodeKind::index ||
-               tree_[id].kind == NodeKind::parenthesis)
-            id = tree_.child(id, 0);
-        return text_.word_of(id);
     }
 
     const ParsedText& text_;

@@ -138,9 +138,7 @@ private:
     }
 
     void note(NodeId place, bool writes) {
-        while (tree_[place].kind == NodeKind::index || tree_[place].kind == NodeKind::member ||
-               tree_[place].kind == NodeKind::parenthesis)
-            place = tree_.child(place, 0);
+        place = base_of(tree_, place);
         if (tree_[place].kind != NodeKind::name)
             return;
         for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
