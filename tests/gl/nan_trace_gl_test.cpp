@@ -62,7 +62,7 @@ Result<std::optional<NanTrace>> trace(const fs::path& file, bool hidden, int fra
     if (!renderer)
         return fail(std::move(renderer.error()));
     TraceRequest request;
-    request.inputs = [](int frame) { return render::inputs_of_frame(frame, 60); };
+    request.inputs = [](int at) { return render::inputs_of_frame(at, 60); };
     request.hidden = hidden;
     request.frame = frame;
     return trace_nan(*renderer, request);
