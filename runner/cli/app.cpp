@@ -1,5 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/limits.hpp"
+#include "cli/supervisor.hpp"
 #include "cli/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -26,7 +28,7 @@ constexpr AddCommand k_commands[] = {
 constexpr const char* k_footer =
     R"(`tidemark SCENE` is short for `tidemark view SCENE`. `tidemark COMMAND --help` lists the options.
 Exit codes: 0 ok, 1 a check failed, 2 usage, 3 scene does not load or compile, 4 output cannot be written,
-5 timed out, 77 no OpenGL context, 130 interrupted.)";
+5 timed out or more memory than --memory, 77 no OpenGL context, 130 interrupted.)";
 
 std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
@@ -160,6 +162,8 @@ int run(int argc, const char* const* argv) {
     Action chosen;
     for (const AddCommand add : k_commands)
         add(app, chosen);
+    LimitOptions limits;
+    add_limit_options(app, limits);
 
     std::vector<std::string> arguments(argv + 1, argv + argc);
     if (arguments.empty())
@@ -174,6 +178,13 @@ int run(int argc, const char* const* argv) {
 #endif
     if (const auto done = parse(app, std::move(arguments)))
         return *done;
+    const auto bounds = resolve(limits);
+    if (!bounds)
+        return report(bounds.error());
+    // A window's own process stays with it: what it does not know yet is tried in another.
+    if (called(app).get_name() != "view")
+        if (const auto ended = supervise(*bounds))
+            return *ended;
     const auto outcome = chosen();
     return outcome ? *outcome : report(outcome.error());
 }

@@ -1,5 +1,6 @@
 #include "platform/headless_context.hpp"
 
+#include "base/doing.hpp"
 #include "platform/device_order.hpp"
 
 #include <EGL/egl.h>
@@ -36,6 +37,7 @@ Function egl_function(const char* name) {
 }
 
 std::vector<EGLDeviceEXT> egl_devices() {
+    const Doing starting("starting OpenGL: listing its devices", Doing::Kind::start);
     const auto query = egl_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
     EGLint count = 0;
     if (!query || !query(0, nullptr, &count))
@@ -86,6 +88,7 @@ std::vector<Place> list_places() {
 /// The place's display, ready for use, or why there is none. A display belongs to the process, not to us:
 /// EGL gives the same one to everybody who asks, and eglTerminate would take their contexts with it.
 tl::expected<EGLDisplay, std::string> open_display(const Place& place) {
+    const Doing starting(fmt::format("starting OpenGL on '{}'", place.name), Doing::Kind::start);
     EGLDisplay display = place.platform == EGL_NONE
                              ? eglGetDisplay(EGL_DEFAULT_DISPLAY)
                              : eglGetPlatformDisplay(place.platform, place.device, nullptr);
@@ -116,6 +119,7 @@ struct CurrentContext {
 using ContextOrReason = tl::expected<std::unique_ptr<CurrentContext>, std::string>;
 
 ContextOrReason make_context(const Place& place, DebugContext debug) {
+    const Doing starting(fmt::format("starting OpenGL on '{}'", place.name), Doing::Kind::start);
     const auto display = open_display(place);
     if (!display)
         return tl::unexpected(display.error());

@@ -1,5 +1,6 @@
 #include "render/link_pass.hpp"
 
+#include "base/doing.hpp"
 #include "gl/program_cache.hpp"
 #include "glsl/assemble.hpp"
 #include "glsl/driver_log.hpp"
@@ -121,6 +122,7 @@ private:
 } // namespace
 
 Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options) {
+    const Doing doing(fmt::format("compiling {} of '{}'", pass.name, scene.file.string()));
     return Linker(scene, pass, options).link();
 }
 

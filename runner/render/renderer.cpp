@@ -1,5 +1,6 @@
 #include "render/renderer.hpp"
 
+#include "base/doing.hpp"
 #include "glsl/pass_reading.hpp"
 #include "render/link_pass.hpp"
 
@@ -46,6 +47,13 @@ bool reads(const scene::Pass& reader, size_t pass) {
 
 GLenum type_of(SampleType samples) {
     return samples == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
+}
+
+/// Reading back, too: what was drawn is finished there.
+constexpr std::string_view k_drawing = "drawing a frame";
+
+Doing doing(std::string_view what, const scene::Scene& scene) {
+    return Doing(fmt::format("{} of '{}'", what, scene.file.string()));
 }
 
 /// Which face of a cube a program draws.
@@ -249,6 +257,7 @@ void Renderer::continue_from(const Renderer& before) {
 }
 
 void Renderer::warm_up(const FrameInputs& inputs) {
+    const Doing preparing = doing("preparing the first frame", scene_);
     // Nothing passes an empty scissor box, but the driver must have its code ready before it knows.
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 0, 0, 0);
@@ -261,6 +270,7 @@ void Renderer::warm_up(const FrameInputs& inputs) {
 }
 
 void Renderer::draw(const FrameInputs& inputs) {
+    const Doing drawing = doing(k_drawing, scene_);
     assert(!within_frame_ || !plan_.feedback);
     draws_in_frame_ = 0;
     textures_.update(inputs);
@@ -274,6 +284,7 @@ std::optional<TileGrid> Renderer::tiles() const {
 }
 
 void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile) const {
+    const Doing drawing = doing(k_drawing, scene_);
     const gl::Program& program = *passes_[shown_].program;
     const gl::RenderTarget& into = targets_[shown_].latest();
     const CompiledPass& pass = passes_[shown_];
@@ -285,6 +296,7 @@ void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile) const {
 }
 
 void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile, Image& band) const {
+    const Doing drawing = doing(k_drawing, scene_);
     draw_tile(inputs, tile);
     const size_t pixel = 4 * image::size_of(samples_);
     gl::read_corner(targets_[shown_].latest(), tile.extent, GL_RGBA, type_of(samples_), band.extent.width,
@@ -412,6 +424,7 @@ FrameWork Renderer::work() const {
 }
 
 Image Renderer::read_back(size_t pass) const {
+    const Doing drawing = doing(k_drawing, scene_);
     const gl::RenderTarget& target = targets_[pass].latest();
     Image image(target.extent(), 4, samples_);
     gl::read_pixels(target, GL_RGBA, type_of(samples_), image.bytes);
@@ -419,6 +432,7 @@ Image Renderer::read_back(size_t pass) const {
 }
 
 Image Renderer::read_floats(size_t pass, int face) const {
+    const Doing drawing = doing(k_drawing, scene_);
     const gl::RenderTarget& from = targets_[pass].latest();
     if (scene_.passes[pass].kind == PassKind::cubemap)
         gl::select_face(from, face);

@@ -160,7 +160,7 @@ Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions
                                  const CapturePlan& plan, Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     Watchdog watchdog;
-    const Watchdog::Watch watch(watchdog, "compiling", std::nullopt);
+    const Watchdog::Watch watch(watchdog, "compiling", plan.timeout);
     const SampleType samples = plan.depth == SampleDepth::u8 ? SampleType::u8 : SampleType::f32;
     const auto tile = choose_tile(options, plan, samples);
     if (!tile)
@@ -332,7 +332,7 @@ void add_capture(CLI::App& app, Action& chosen) {
         ->capture_default_str();
     command
         ->add_option("--timeout", options->timeout,
-                     "Give up on a frame that takes longer (compiling not counted)")
+                     "Give up where compiling takes longer, or getting ready to draw, or a frame")
         ->type_name("SECONDS")
         ->check(number<double>("a number of seconds"));
     command->add_option("--duration", options->duration, "Length of a .wav")

@@ -98,7 +98,7 @@ Result<void> Capture::close_output() {
 /// What the driver puts off until the first draw, so that no frame pays for it, in time or against its limit.
 void Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
-    const Watchdog::Watch watch(watchdog_, "preparing the first frame", std::nullopt);
+    const Watchdog::Watch watch(watchdog_, "preparing the first frame", plan_.timeout);
     const auto start = Clock::now();
     renderer_.warm_up(inputs_at(plan_.frames.frames.front()));
     prepare_milliseconds_ = milliseconds_since(start);

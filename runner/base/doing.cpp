@@ -1,0 +1,66 @@
+#include "base/doing.hpp"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <new>
+
+namespace tidemark {
+namespace {
+
+/// Of the process: a crash is the whole process's end, whichever thread it happens on.
+std::atomic<DoingPage*> the_page = nullptr;
+
+int64_t now_nanoseconds() {
+    return std::chrono::steady_clock::now().time_since_epoch().count();
+}
+
+} // namespace
+
+DoingPage* DoingPage::make() {
+    void* memory =
+        ::mmap(nullptr, sizeof(DoingPage), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    return memory == MAP_FAILED ? nullptr : new (memory) DoingPage{};
+}
+
+/// Words that change while they are read come out mixed, which a person can live with.
+DoingPage::Seen DoingPage::seen() const {
+    const size_t size = std::min<size_t>(size_, k_longest);
+    if (size == 0)
+        return {};
+    return {std::string(what_, size), double(now_nanoseconds() - since_) / 1e9, starting_};
+}
+
+void DoingPage::note(std::string_view what, int64_t since, bool starting) {
+    size_ = 0;
+    std::memcpy(what_, what.data(), std::min(what.size(), k_longest));
+    since_ = since;
+    starting_ = starting;
+    size_ = uint32_t(std::min(what.size(), k_longest));
+}
+
+Doing::Doing(std::string_view what, Kind kind) {
+    DoingPage* page = the_page;
+    if (!page)
+        return;
+    before_ = page->seen();
+    since_before_ = page->since_;
+    page->note(what, now_nanoseconds(), kind == Kind::start);
+}
+
+Doing::~Doing() {
+    if (DoingPage* page = the_page)
+        page->note(before_.what, since_before_, before_.starting);
+}
+
+void Doing::note_on(DoingPage* page) {
+    the_page = page;
+}
+
+bool Doing::noted() {
+    return the_page != nullptr;
+}
+
+} // namespace tidemark

@@ -1,0 +1,36 @@
+#include "cli/limits.hpp"
+
+#include "cli/memory_limit.hpp"
+#include "cli/value_check.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace tidemark::cli {
+
+void add_limit_options(CLI::App& app, LimitOptions& options) {
+    for (CLI::App* command : app.get_subcommands({})) {
+        if (!command->get_option_no_throw("SCENE") || !command->get_option_no_throw("--set"))
+            continue;
+        command->add_option("--memory", options.memory, "What compiling and drawing may take, as in 2G [50%]")
+            ->type_name("SIZE");
+        if (!command->get_option_no_throw("--timeout") && command->get_name() != "view")
+            command
+                ->add_option("--timeout", options.timeout,
+                             "Give up where the driver takes longer to compile a pass or to draw")
+                ->type_name("SECONDS")
+                ->check(number<double>("a number of seconds"));
+    }
+}
+
+Result<Limits> resolve(const LimitOptions& options) {
+    if (options.timeout && !(*options.timeout > 0))
+        return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
+    const uint64_t machine = machine_memory();
+    if (!options.memory)
+        return Limits{machine / 2, options.timeout};
+    return parse_memory(*options.memory, machine).map([&](uint64_t bytes) {
+        return Limits{bytes, options.timeout};
+    });
+}
+
+} // namespace tidemark::cli

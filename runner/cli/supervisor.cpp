@@ -1,0 +1,215 @@
+#include "cli/supervisor.hpp"
+
+#include "base/doing.hpp"
+#include "base/error.hpp"
+#include "cli/console.hpp"
+#include "cli/memory_limit.hpp"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <vector>
+
+namespace tidemark::cli {
+namespace {
+
+/// So often memory is looked at: a process grows by some hundred MiB meanwhile at most.
+constexpr double k_look_seconds = 0.05;
+/// Which processes there are takes a hundred times as long to ask as what they take.
+constexpr unsigned k_looks_at_one_family = 20;
+/// A driver that has not started until now never does.
+constexpr double k_longest_start = 60;
+/// A defect of ours, as sysexits.h has it.
+constexpr int k_internal_error = 70;
+
+constexpr int k_handed_on[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGCONT};
+
+sigset_t signals_of_interest() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : k_handed_on)
+        sigaddset(&set, signal);
+    sigaddset(&set, SIGTSTP);
+    sigaddset(&set, SIGCHLD);
+    return set;
+}
+
+/// What somebody else started in its name: a program that encodes a video.
+void end_orphans() {
+    for (const pid_t process : descendants_of(::getpid()))
+        ::kill(process, SIGKILL);
+    while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
+    }
+}
+
+/// Ends as the child did, so that whoever started us sees the same.
+[[noreturn]] void end_by(int signal) {
+    std::signal(signal, SIG_DFL);
+    sigset_t only;
+    sigemptyset(&only);
+    sigaddset(&only, signal);
+    ::sigprocmask(SIG_UNBLOCK, &only, nullptr);
+    ::raise(signal);
+    ::_exit(128 + signal);
+}
+
+std::string name_of(int signal) {
+    const char* name = ::sigabbrev_np(signal);
+    return name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal);
+}
+
+int refuse(ErrorCode code, std::string message) {
+    say(to_string(Error{code, std::move(message), {}}));
+    return exit_code(code);
+}
+
+class Supervisor {
+public:
+    Supervisor(pid_t child, const Limits& limits, const DoingPage* page)
+        : child_(child), limits_(limits), page_(page) {}
+
+    int run() {
+        const sigset_t signals = signals_of_interest();
+        for (;;) {
+            const timespec look{0, long(k_look_seconds * 1e9)};
+            siginfo_t info{};
+            const int signal = ::sigtimedwait(&signals, &info, &look);
+            if (signal == SIGCHLD || signal < 0) {
+                int status = 0;
+                if (has_ended(status))
+                    return after(status);
+            } else if (signal == SIGTSTP) {
+                ::kill(-child_, SIGSTOP);
+                ::raise(SIGSTOP);
+            } else {
+                ::kill(signal == SIGCONT ? -child_ : child_, signal);
+            }
+            if (const auto ended = beyond_limits())
+                return *ended;
+        }
+    }
+
+private:
+    /// Also reaps what was started in the child's name and lost its parent.
+    bool has_ended(int& status) const {
+        for (int of_one = 0;;) {
+            const pid_t process = ::waitpid(-1, &of_one, WNOHANG);
+            if (process == child_) {
+                status = of_one;
+                return true;
+            }
+            if (process == 0 || (process < 0 && errno != EINTR))
+                return false;
+        }
+    }
+
+    void end_child() const {
+        ::kill(-child_, SIGKILL);
+        end_orphans();
+    }
+
+    std::optional<int> beyond_limits() {
+        if (limits_.memory > 0) {
+            if (++looks_ % k_looks_at_one_family == 0)
+                family_ = descendants_of(child_);
+            uint64_t taken = memory_of(child_);
+            for (const pid_t process : family_)
+                taken += memory_of(process);
+            if (taken > limits_.memory)
+                return give_up(fmt::format("more than {} of memory (--memory)", memory_text(limits_.memory)));
+        }
+        if (!page_)
+            return std::nullopt;
+        const DoingPage::Seen seen = page_->seen();
+        if (seen.what.empty())
+            return std::nullopt;
+        if (seen.starting && seen.seconds > k_longest_start) {
+            end_child();
+            return refuse(ErrorCode::no_context,
+                          fmt::format("{}: the driver hangs; --device names another", seen.what));
+        }
+        if (limits_.seconds && seen.seconds > *limits_.seconds)
+            return give_up(fmt::format("more than {:.3g} s (--timeout)", *limits_.seconds));
+        return std::nullopt;
+    }
+
+    int give_up(const std::string& limit) const {
+        const std::string what = page_ ? page_->seen().what : std::string();
+        end_child();
+        return refuse(ErrorCode::timed_out,
+                      fmt::format("{} takes {}", what.empty() ? "the command" : what, limit));
+    }
+
+    int after(int status) const {
+        end_orphans();
+        if (WIFEXITED(status))
+            return WEXITSTATUS(status);
+        const int signal = WTERMSIG(status);
+        const DoingPage::Seen seen = page_ ? page_->seen() : DoingPage::Seen{};
+        if (signal == SIGKILL)
+            return refuse(ErrorCode::timed_out,
+                          fmt::format("{} was ended from outside (SIGKILL), which is what a system does "
+                                      "that has no memory left: --memory ends it before",
+                                      seen.what.empty() ? "the command" : seen.what));
+        if (!is_crash(signal))
+            end_by(signal);
+        if (!seen.what.empty())
+            return refuse(seen.starting ? ErrorCode::no_context : ErrorCode::load,
+                          crash_text(signal, seen.what) + (seen.starting ? "; --device names another" : ""));
+        say(fmt::format("tidemark: error: tidemark itself crashed ({}), which is a defect of its own",
+                        name_of(signal)));
+        return k_internal_error;
+    }
+
+    pid_t child_;
+    Limits limits_;
+    const DoingPage* page_;
+    unsigned looks_ = 0;
+    std::vector<pid_t> family_; ///< what the child has started, as it was a while ago
+};
+
+} // namespace
+
+bool is_crash(int signal) {
+    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGFPE, SIGTRAP, SIGSYS})
+        if (signal == crash)
+            return true;
+    return false;
+}
+
+std::string crash_text(int signal, const std::string& doing) {
+    return fmt::format("the driver crashed ({}){}{}", name_of(signal), doing.empty() ? "" : " ", doing);
+}
+
+std::optional<int> supervise(const Limits& limits) {
+    DoingPage* page = DoingPage::make();
+    sigset_t before;
+    const sigset_t signals = signals_of_interest();
+    ::sigprocmask(SIG_BLOCK, &signals, &before);
+    std::signal(SIGCHLD, SIG_DFL); // where it is ignored nobody can wait for a child
+    const pid_t parent = ::getpid();
+    const pid_t child = ::fork();
+    if (child > 0) {
+        ::setpgid(child, child); // whoever of the two comes first
+        ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+        return Supervisor(child, limits, page).run();
+    }
+    if (child == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (::getppid() != parent)
+            ::_exit(128 + SIGKILL);
+        ::setpgid(0, 0);
+        std::signal(SIGTTOU, SIG_IGN); // it writes to the terminal as before
+        Doing::note_on(page);
+    }
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
+    return std::nullopt;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,185 @@
+"""A driver at the edge: texts that crash it, eat the memory or never end; a signal and a kill on the way."""
+import os
+import pathlib
+import signal
+import subprocess
+import time
+
+from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
+
+MAIN = "void mainImage(out vec4 c, in vec2 p) { %s }\n"
+PLAIN = MAIN % "c = vec4(p.x / 640.0, 0.0, 0.0, 1.0);"
+ENDLESS = MAIN % ("float s = 0.0; for (int i = 0; i < 2000000000; ++i) for (int j = 0; j < 2000000000; ++j) "
+                  "s += fract(sin(p.x + float(i ^ j))); c = vec4(s);")
+MEMORY = "300M"
+
+
+def sum_of(terms: int) -> str:
+    """Deep enough for the driver's recursions to leave their stack."""
+    return MAIN % ("float x = p.x; c = vec4(" + " + ".join(f"x * {i}.0" for i in range(terms)) + ");")
+
+
+def doubling_macros(count: int) -> str:
+    lines = ["#define A0 x"] + [f"#define A{i} A{i - 1} + A{i - 1}" for i in range(1, count + 1)]
+    return "\n".join(lines) + "\n" + MAIN % f"float x = p.x; c = vec4(A{count});"
+
+
+def doubling_functions(count: int) -> str:
+    lines = ["float f0(float x) { return sin(x) + x; }"]
+    lines += [f"float f{i}(float x) {{ return f{i - 1}(x) + f{i - 1}(x + 1.0); }}" for i in range(1, count + 1)]
+    return "\n".join(lines) + "\n" + MAIN % f"c = vec4(f{count}(p.x));"
+
+
+MEMORY_EATERS = {
+    "macros": doubling_macros(40),
+    "functions": doubling_functions(25),
+    "local": MAIN % "float a[100000000]; a[int(p.x)] = 1.0; c = vec4(a[int(p.y)]);",
+    "global": "float a[2147483647];\n" + MAIN % "a[int(p.x)] = 1.0; c = vec4(a[int(p.y)]);",
+    "two": "vec4 a[1000][1000][100];\n" + MAIN % "a[int(p.x)][3][1] = p.xyxy; c = a[int(p.y)][3][1];",
+    "structures": "struct A { float x[1000]; }; struct B { A a[1000]; }; struct C { B b[100]; };\n"
+                  + MAIN % "C s; s.b[0].a[int(p.x)].x[0] = 1.0; c = vec4(s.b[0].a[int(p.y)].x[3]);",
+}
+
+
+def gone(process: int) -> bool:
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def children(process: int) -> list[int]:
+    """Of that process, and of them, as far down as they go."""
+    found = []
+    for file in pathlib.Path(f"/proc/{process}/task").glob("*/children"):
+        for child in map(int, file.read_text().split()):
+            found += [child, *children(child)]
+    return found
+
+
+class Crash(ProgramTest):
+    def test_is_said_with_what_the_driver_was_at(self):
+        self.write("sum.glsl", sum_of(20000))
+        for command in (["capture", "sum.glsl"], ["inspect", "sum.glsl"]):
+            self.expect_failure_like(
+                command, 3,
+                r"tidemark: error: the driver crashed \(SIG[A-Z]+\) compiling Image of 'sum\.glsl'")
+
+    def test_of_a_pass_names_the_pass(self):
+        self.write("folder/image.glsl", '#iChannel0 "buffer_a.glsl"\n' + MAIN % "c = texelFetch(iChannel0, ivec2(p), 0);")
+        self.write("folder/buffer_a.glsl", sum_of(20000))
+        done = self.run_program("capture", "folder")
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"\Atidemark: error: the driver crashed \(SIG[A-Z]+\) compiling Buffer A of 'folder'\n\Z")
+
+
+class Memory(ProgramTest):
+    def test_ends_a_text_that_takes_too_much(self):
+        for name, text in MEMORY_EATERS.items():
+            with self.subTest(name):
+                self.write(f"{name}.glsl", text)
+                self.expect_failure_like(
+                    ["capture", f"{name}.glsl", "--size", "16x16", "--memory", MEMORY], 5,
+                    rf"(still .*\n)*tidemark: error: (compiling Image|preparing the first frame|drawing a frame) of "
+                    rf"'{name}\.glsl' takes more than 300 MiB of memory \(--memory\)")
+
+    def test_in_every_command_that_draws(self):
+        self.write("macros.glsl", "#iUniform float k = 1.0 in { 0.0, 2.0 }\n" + doubling_macros(40))
+        for command in (["inspect", "macros.glsl"], ["study", "macros.glsl", "--vary", "k=1,2"]):
+            with self.subTest(command[0]):
+                done = self.run_program(*command, "--memory", MEMORY)
+                self.assertEqual(done.returncode, 5, done.stderr)
+                self.assertRegex(done.stderr, r"takes more than 300 MiB of memory \(--memory\)\n\Z")
+
+    def test_that_suffices_says_nothing(self):
+        self.write("plain.glsl", PLAIN)
+        done = self.succeed("capture", "plain.glsl", "--memory", "50%")
+        self.assertEqual(done.stderr, "wrote plain.png\n")
+
+    def test_no_size(self):
+        self.write("plain.glsl", PLAIN)
+        self.expect_failure(["capture", "plain.glsl", "--memory", "much"], 2,
+                            "tidemark: error: --memory much: give a size as in 512M, 2G or 50%")
+
+
+class Timeout(ProgramTest):
+    def test_of_compiling(self):
+        self.write("switch.glsl", MAIN % ("c = vec4(0.0); switch (int(p.x)) { "
+                                          + "".join(f"case {i}: c.x = {i}.0; break; " for i in range(30000)) + "}"))
+        for command in ("capture", "inspect"):
+            with self.subTest(command):
+                self.expect_failure_like([command, "switch.glsl", "--timeout", "1"], 5,
+                                         r"tidemark: error: (gave up compiling after 1 s|compiling Image of "
+                                         r"'switch\.glsl' takes more than 1 s) \(--timeout\)")
+
+    def test_of_a_first_draw_that_never_ends(self):
+        self.write("endless.glsl", ENDLESS)
+        self.expect_failure_like(["capture", "endless.glsl", "--timeout", "2"], 5,
+                                 r"tidemark: error: gave up drawing frame 0 after 2(\.\d+)? s \(--timeout\)")
+
+
+class Supervised(ProgramTest):
+    """A command and the process that watches it."""
+
+    def start(self, *arguments: str) -> subprocess.Popen:
+        running = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=environment(),
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(running.stderr.close)
+        self.addCleanup(running.kill)
+        return running
+
+    def wait_for(self, condition):
+        deadline = time.monotonic() + TIME_LIMIT
+        while not (found := condition()):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        return found
+
+    def start_endless(self) -> tuple[subprocess.Popen, list[int]]:
+        """A frame that takes for ever, and the processes that draw it."""
+        self.write("endless.glsl", ENDLESS)
+        running = self.start("capture", "endless.glsl")
+        below = self.wait_for(lambda: children(running.pid))
+        return running, below
+
+    def test_nothing_outlives_a_kill(self):
+        running, below = self.start_endless()
+        running.kill()
+        running.wait(timeout=TIME_LIMIT)
+        self.wait_for(lambda: all(gone(child) for child in below))
+
+    def test_second_ctrl_c_ends_at_once(self):
+        running, below = self.start_endless()
+        def stopped():  # the first may come before anybody listens
+            running.send_signal(signal.SIGINT)
+            time.sleep(0.1)
+            return running.poll() is not None
+        self.wait_for(stopped)
+        self.assertIn(running.returncode, (130, -signal.SIGINT))
+        self.wait_for(lambda: all(gone(child) for child in below))
+
+    def test_one_ctrl_c_at_a_terminal_is_one(self):
+        """The whole foreground group gets it: the frame in hand is finished all the same."""
+        self.write("plain.glsl", PLAIN)
+        running = subprocess.Popen([PROGRAM, "capture", "plain.glsl", "--size", "64x64", "--frames", "0-9999999"],
+                                   cwd=self.folder, env=environment(), stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True)
+        self.addCleanup(running.stderr.close)
+        self.addCleanup(running.kill)
+        self.wait_for(lambda: (self.folder / "plain.0002.png").exists())
+        os.killpg(running.pid, signal.SIGINT)
+        _, stderr = running.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(running.returncode, 130)
+        self.assertRegex(stderr, r"interrupted after \d+ of 10000000 frames\n\Z")
+
+    def test_ended_by_a_signal_as_before(self):
+        running, below = self.start_endless()
+        running.send_signal(signal.SIGQUIT)
+        running.wait(timeout=TIME_LIMIT)
+        self.assertEqual(running.returncode, -signal.SIGQUIT)
+        self.wait_for(lambda: all(gone(child) for child in below))
+
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,58 @@
+#include "base/doing.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tidemark {
+namespace {
+
+class DoingTest : public testing::Test {
+protected:
+    void SetUp() override { Doing::note_on(page_); }
+    void TearDown() override { Doing::note_on(nullptr); }
+
+    DoingPage* page_ = DoingPage::make();
+};
+
+TEST_F(DoingTest, WhatIsAroundGoesOn) {
+    EXPECT_EQ(page_->seen().what, "");
+    {
+        const Doing compiling("compiling Image");
+        EXPECT_EQ(page_->seen().what, "compiling Image");
+        EXPECT_FALSE(page_->seen().starting);
+        {
+            const Doing starting("starting", Doing::Kind::start);
+            EXPECT_EQ(page_->seen().what, "starting");
+            EXPECT_TRUE(page_->seen().starting);
+        }
+        EXPECT_EQ(page_->seen().what, "compiling Image");
+        EXPECT_FALSE(page_->seen().starting);
+    }
+    EXPECT_EQ(page_->seen().what, "");
+}
+
+TEST_F(DoingTest, OutlivesTheProcessThatCrashes) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const Doing compiling("compiling Buffer A");
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(page_->seen().what, "compiling Buffer A");
+}
+
+TEST_F(DoingTest, WordsWithoutEndAreCut) {
+    const Doing compiling(std::string(100000, 'x'));
+    EXPECT_EQ(page_->seen().what.find_first_not_of('x'), std::string::npos);
+    EXPECT_GT(page_->seen().what.size(), 100U);
+}
+
+TEST_F(DoingTest, NowhereToNote) {
+    Doing::note_on(nullptr);
+    const Doing compiling("compiling");
+    EXPECT_EQ(page_->seen().what, "");
+}
+
+} // namespace
+} // namespace tidemark
