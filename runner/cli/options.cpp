@@ -104,8 +104,9 @@ Result<FrameRequest> resolve(const FrameOptions& options) {
     if (!(options.fps > 0) || !std::isfinite(options.fps))
         return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", options.fps));
     request.fps = options.fps;
-    if (options.frame && (*options.frame < 0))
-        return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0", *options.frame));
+    if (options.frame && (*options.frame < 0 || *options.frame > render::k_last_frame))
+        return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0 to {}", *options.frame,
+                                                  render::k_last_frame));
     if (options.frame)
         request.frames = {*options.frame};
     if (options.time && !std::isfinite(*options.time))

@@ -54,8 +54,10 @@ void Progress::advance() {
         show(k_clear_line + line());
         shown_ = now;
         on_terminal_ = true;
-    } else if (!terminal_ && done_ * 10 / total_ > (done_ - 1) * 10 / total_) {
+    } else if (!terminal_ && (done_ * 10 / total_ > (done_ - 1) * 10 / total_ ||
+                              seconds_between(shown_, now) > manner_.between)) {
         say(line());
+        shown_ = now;
     }
 }
 

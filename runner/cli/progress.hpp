@@ -11,7 +11,8 @@ namespace tidemark::cli {
 class Progress {
 public:
     struct Manner {
-        double silent = 2; ///< seconds at first
+        double silent = 2;   ///< seconds at first
+        double between = 10; ///< seconds between two lines at most, where tenths take longer
         /// Of pieces that take as long as they take no rate is made: all that is known is when it ends at the
         /// latest, in seconds from its start.
         std::optional<double> limit{};

@@ -149,9 +149,9 @@ Result<std::vector<int>> parse_frames(std::string_view text) {
     while (good && take(rest, ','))
         good = take_range(rest, frames);
     if (!good || !rest.empty())
-        return fail(
-            ErrorCode::usage,
-            fmt::format("--frames {}: give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29", text));
+        return fail(ErrorCode::usage,
+                    fmt::format("--frames {}: give frames from 0 to {} as in 7, 0-29, 0-120x10 or 0-9,20-29",
+                                text, render::k_last_frame));
     return frames;
 }
 

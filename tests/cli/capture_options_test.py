@@ -54,7 +54,8 @@ class Clock(Told):
         self.refused("--frame x", "--frame: give a whole number, not 'x'")
         self.refused("--frame 1.5", "--frame: give a whole number, not '1.5'")
         self.refused("--frame 99999999999", "--frame: give a whole number, not '99999999999'")
-        self.refused("--frame -1", "--frame -1: frames count from 0")
+        self.refused("--frame -1", "--frame -1: frames count from 0 to 100000000")
+        self.refused("--frame 2147483647", "--frame 2147483647: frames count from 0 to 100000000")
         self.refused("--fps x", "--fps: give a number, not 'x'")
         self.refused("--fps 0", "--fps 0: give a number above 0")
         self.refused("--fps -24", "--fps -24: give a number above 0")
@@ -64,7 +65,7 @@ class Clock(Told):
         self.refused("--frame 1 --time 2", "--frame excludes --time")
         self.refused("--frames 1-3 --time 2", "--frames excludes --time")
         for wrong in ("x", "-1", "1-", "1-2x0", "1-2x", "1,", "1;2", "1.5", "0-99999999999"):
-            self.refused(f"--frames {wrong}", f"--frames {wrong}: give frames from 0 as in 7, 0-29, 0-120x10 or "
+            self.refused(f"--frames {wrong}", f"--frames {wrong}: give frames from 0 to 100000000 as in 7, 0-29, 0-120x10 or "
                                               "0-9,20-29")
 
 

@@ -117,6 +117,31 @@ class Timeout(ProgramTest):
         self.expect_failure_like(["capture", "endless.glsl", "--timeout", "2"], 5,
                                  r"tidemark: error: gave up drawing frame 0 after 2(\.\d+)? s \(--timeout\)")
 
+    def test_counts_the_frames_that_lead_to_one(self):
+        self.write("feedback.glsl", '#iChannel0 "self"\n' + MAIN % "c = texelFetch(iChannel0, ivec2(p), 0) + 0.001;")
+        self.expect_failure_like(["capture", "feedback.glsl", "--size", "8x8", "--frame", "100000000", "--timeout", "4"], 5,
+                                 r"(\d+/100000000 frames stepped, .* a second, \d+ s left\n)*"
+                                 r"tidemark: error: gave up drawing frame [1-9]\d* after 4(\.\d+)? s \(--timeout\)")
+
+
+class LastFrames(ProgramTest):
+    """The largest numbers there are: nothing goes round, nothing is stepped that need not be."""
+
+    def test_a_scene_without_feedback_jumps(self):
+        self.write("last.glsl", MAIN % "c = vec4(iFrame == 100000000 ? 1.0 : 0.0);")
+        for option in (["--frame", "100000000"], ["--frames", "100000000"], ["--frames", "99999999-100000000"],
+                       ["--time", "1e30"]):
+            with self.subTest(option):
+                self.succeed("capture", "last.glsl", "--size", "4x4", "-o", "o%09d.png" if "-" in option[1][1:] else "o.png",
+                             *option)
+        self.assertEqual(self.files(), {"last.glsl", "o.png", "o099999999.png", "o100000000.png"})
+
+    def test_traced(self):
+        self.write("last.glsl", MAIN % "c = vec4(iFrame == 100000000 ? sqrt(-1.0 - p.x) : 0.0);")
+        done = self.run_program("check", "--trace", "last.glsl", "--size", "4x4", "--frame", "100000000")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn(b"frame 100000000", done.stdout)
+
 
 class Supervised(ProgramTest):
     """A command and the process that watches it."""

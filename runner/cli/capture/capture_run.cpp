@@ -111,6 +111,7 @@ bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record
     record.time = inputs_of(plan_.frames, frame).time;
     record.file = plan_.output.of_frame(frame).string();
     const size_t drawn_before = renderer_.passes_drawn();
+    const auto begun = Clock::now(); // the limit is on the frame and on all that lead to it
     const bool drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
@@ -119,7 +120,7 @@ bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record
         else if (steps)
             steps->advance();
         work.start = Clock::now();
-        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout);
+        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout, begun);
         return true;
     });
     record.passes_drawn = renderer_.passes_drawn() - drawn_before;

@@ -73,7 +73,7 @@ TEST(Resolve, rates_that_are_none) {
 TEST(Resolve, frames_and_times_that_are_none) {
     FrameOptions options;
     options.frame = -1;
-    EXPECT_EQ(refusal(options), "--frame -1: frames count from 0");
+    EXPECT_EQ(refusal(options), "--frame -1: frames count from 0 to 100000000");
     options.frame.reset();
     options.time = std::numeric_limits<double>::infinity();
     EXPECT_EQ(refusal(options), "--time: give a finite number of seconds");
@@ -85,7 +85,8 @@ TEST(Resolve, the_option_at_fault_is_named) {
     EXPECT_EQ(refusal(options), "--size 0x5: give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360");
     options = {};
     options.frames = "1-";
-    EXPECT_EQ(refusal(options), "--frames 1-: give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29");
+    EXPECT_EQ(refusal(options),
+              "--frames 1-: give frames from 0 to 100000000 as in 7, 0-29, 0-120x10 or 0-9,20-29");
     options = {};
     options.mouse = "1";
     EXPECT_EQ(refusal(options),

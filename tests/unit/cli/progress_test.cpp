@@ -34,6 +34,12 @@ TEST(Progress, a_line_for_each_of_a_few) {
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
 }
 
+TEST(Progress, tenths_that_take_long_are_not_waited_for) {
+    const std::string lines = printed(100'000'000, 3, {.silent = 0, .between = 0});
+    EXPECT_THAT(lines, testing::StartsWith("1/100000000 frames, "));
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
+}
+
 TEST(Progress, a_short_job_needs_none) {
     EXPECT_EQ(printed(100, 100, {}), "");
 }

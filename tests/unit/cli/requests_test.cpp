@@ -67,7 +67,8 @@ TEST(ParseFrames, what_is_no_range) {
         ASSERT_FALSE(parsed) << text;
         EXPECT_EQ(parsed.error().code, ErrorCode::usage);
         EXPECT_EQ(parsed.error().message,
-                  "--frames " + text + ": give frames from 0 as in 7, 0-29, 0-120x10 or 0-9,20-29");
+                  "--frames " + text +
+                      ": give frames from 0 to 100000000 as in 7, 0-29, 0-120x10 or 0-9,20-29");
     }
 }
 
