@@ -59,8 +59,13 @@ void Doing::note_on(DoingPage* page) {
     the_page = page;
 }
 
-bool Doing::noted() {
-    return the_page != nullptr;
+std::string Doing::left_behind() {
+    DoingPage* page = the_page;
+    if (!page)
+        return {};
+    std::string what = page->seen().what;
+    page->note({}, 0, false);
+    return what;
 }
 
 } // namespace tidemark

@@ -46,7 +46,8 @@ public:
 
     /// Where everything of this process is noted from now on; nullptr: nowhere.
     static void note_on(DoingPage* page);
-    static bool noted();
+    /// What a process that noted on the same page, and has crashed since, was at; it is at nothing any more.
+    static std::string left_behind();
 
 private:
     DoingPage::Seen before_;

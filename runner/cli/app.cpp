@@ -3,6 +3,7 @@
 #include "cli/limits.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/version.hpp"
+#include "platform/driver_cache.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -185,6 +186,7 @@ int run(int argc, const char* const* argv) {
     if (called(app).get_name() != "view")
         if (const auto ended = supervise(*bounds))
             return *ended;
+    platform::do_without_full_driver_cache();
     const auto outcome = chosen();
     return outcome ? *outcome : report(outcome.error());
 }

@@ -1,5 +1,7 @@
 #include "cli/forked.hpp"
 
+#include "base/doing.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -47,8 +49,10 @@ std::optional<std::string> read_line(int fd) {
     }
 }
 
-[[noreturn]] void be_child(int questions, int answers, const ForkedHelper::Work& work) {
+[[noreturn]] void be_child(pid_t parent, int questions, int answers, const ForkedHelper::Work& work) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL); // Ctrl-C at the parent ends us too
+    if (::getppid() != parent)
+        ::_exit(128 + SIGKILL);
     if (const auto question = read_line(questions))
         work(*question, [answers](std::string_view line) { write_line(answers, line); });
     ::_exit(0); // no destructors of a driver that may hang in them
@@ -102,6 +106,7 @@ Result<ForkedHelper> ForkedHelper::start(const Work& work) {
         return fail(ErrorCode::load, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
     }
     ForkedHelper helper;
+    const pid_t parent = ::getpid();
     helper.child_ = ::fork();
     if (helper.child_ < 0) {
         close_both(questions);
@@ -111,7 +116,7 @@ Result<ForkedHelper> ForkedHelper::start(const Work& work) {
     if (helper.child_ == 0) {
         ::close(questions[1]);
         ::close(answers[0]);
-        be_child(questions[0], answers[1], work);
+        be_child(parent, questions[0], answers[1], work);
     }
     ::close(questions[0]);
     ::close(answers[1]);
@@ -146,6 +151,8 @@ Result<ForkedResult> ForkedHelper::ask(std::string_view question, double seconds
     const int status = status_of(std::exchange(child_, -1));
     if (!result.timed_out && WIFSIGNALED(status))
         result.signal = WTERMSIG(status);
+    if (result.timed_out || result.signal != 0)
+        result.doing = Doing::left_behind();
     result.output.resize(result.output.rfind('\n') + 1);
     return result;
 }

@@ -14,6 +14,7 @@ struct ForkedResult {
     std::string output;     ///< all that the work told, whole lines only
     bool timed_out = false; ///< it was ended after `seconds`
     int signal = 0;         ///< that ended it otherwise; 0: it came to its end
+    std::string doing{};    ///< where it did not come to its end: what a driver was at, if one was
 };
 
 /// Tells one line to the parent; what was told survives the end of the work.

@@ -184,7 +184,9 @@ bool is_crash(int signal) {
 }
 
 std::string crash_text(int signal, const std::string& doing) {
-    return fmt::format("the driver crashed ({}){}{}", name_of(signal), doing.empty() ? "" : " ", doing);
+    const char* hint = signal == SIGBUS ? ": is the disk full that its cache is on?" : "";
+    return fmt::format("the driver crashed ({}){}{}{}", name_of(signal), doing.empty() ? "" : " ", doing,
+                       hint);
 }
 
 std::optional<int> supervise(const Limits& limits) {

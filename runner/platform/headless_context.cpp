@@ -259,11 +259,27 @@ const std::string& HeadlessContext::device() const {
 }
 
 std::vector<HeadlessDevice> list_headless_devices() {
-    const CurrentKeeper keeper;
     std::vector<HeadlessDevice> devices;
-    for (const Place& place : list_places())
-        devices.push_back(describe(place));
+    list_headless_devices(
+        [&](const HeadlessDevice& device, bool tried) {
+            if (tried)
+                devices.push_back(device);
+        },
+        0);
     return devices;
+}
+
+void list_headless_devices(const std::function<void(const HeadlessDevice&, bool tried)>& seen,
+                           size_t skipped) {
+    const CurrentKeeper keeper;
+    for (const Place& place : list_places()) {
+        if (skipped > 0) {
+            --skipped;
+            continue;
+        }
+        seen({place.name, place.kind, {}, {}, {}}, false);
+        seen(describe(place), true);
+    }
 }
 
 } // namespace tidemark::platform

@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -50,5 +51,9 @@ struct HeadlessDevice {
 
 /// Every place, in EGL's order, each tried by making a context. What was current stays current.
 std::vector<HeadlessDevice> list_headless_devices();
+/// Likewise, but for the first few; `seen` is called with each twice: with its name before it is tried, and
+/// with what came of it.
+void list_headless_devices(const std::function<void(const HeadlessDevice&, bool tried)>& seen,
+                           size_t skipped);
 
 } // namespace tidemark::platform

@@ -1,6 +1,9 @@
 """A driver at the edge: texts that crash it, eat the memory or never end; a signal and a kill on the way."""
+import json
 import os
 import pathlib
+import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -141,6 +144,82 @@ class LastFrames(ProgramTest):
         done = self.run_program("check", "--trace", "last.glsl", "--size", "4x4", "--frame", "100000000")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn(b"frame 100000000", done.stdout)
+
+
+class DriverThatDoesNotStart(ProgramTest):
+    """A library of another vendor's, found by libEGL, that crashes or hangs where it is asked to start."""
+
+    def vendor(self, statement: str) -> dict[str, str]:
+        if not shutil.which("cc"):
+            self.skipTest("needs a C compiler")
+        self.write("vendor.c", "#include <stdlib.h>\n#include <unistd.h>\n"
+                               f"int __egl_Main(void) {{ {statement} return 0; }}\n")
+        subprocess.run(["cc", "-shared", "-fPIC", "vendor.c", "-o", "vendor.so"], cwd=self.folder, check=True)
+        self.write("vendor.json", json.dumps({"file_format_version": "1.0.0",
+                                              "ICD": {"library_path": str(self.folder / "vendor.so")}}))
+        return environment(__EGL_VENDOR_LIBRARY_FILENAMES=str(self.folder / "vendor.json"))
+
+    def test_a_crash_is_said(self):
+        env = self.vendor("abort();")
+        self.write("plain.glsl", PLAIN)
+        self.expect_failure_like(["capture", "plain.glsl"], 77,
+                                 r"tidemark: error: the driver crashed \(SIGABRT\) starting OpenGL.*", env=env)
+        self.expect_failure_like(["inspect", "--devices"], 77,
+                                 r"tidemark: error: listing OpenGL's devices: the driver crashed \(SIGABRT\) starting "
+                                 r"OpenGL.*", env=env)
+
+    def test_one_that_hangs_is_given_up(self):
+        env = self.vendor("for (;;) pause();")
+        self.write("plain.glsl", PLAIN)
+        self.expect_failure_like(["inspect", "plain.glsl", "--timeout", "1"], 5,
+                                 r"tidemark: error: starting OpenGL.* takes more than 1 s \(--timeout\)", env=env)
+
+
+class FullDisk(ProgramTest):
+    """Of the driver's own cache, whose files it maps into memory."""
+
+    def mount(self, size: str) -> pathlib.Path:
+        folder = self.folder / "cache"
+        folder.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)],
+                          stderr=subprocess.DEVNULL).returncode:
+            self.skipTest("needs the right to mount")
+        self.addCleanup(subprocess.run, ["umount", "-l", str(folder)])
+        return folder
+
+    def capture(self, **variables: str) -> None:
+        done = self.succeed("capture", "plain.glsl", "-o", "o.png", env=environment(**variables))
+        self.assertEqual(done.stderr, "wrote o.png\n")
+        (self.folder / "o.png").unlink()
+
+    def test_the_driver_does_without(self):
+        self.write("plain.glsl", PLAIN)
+        folder = str(self.mount("8k"))
+        self.capture(MESA_SHADER_CACHE_DIR=folder)
+        self.capture(XDG_CACHE_HOME=folder)
+        self.capture(HOME=folder, XDG_CACHE_HOME=None)
+        self.assertEqual(self.succeed("inspect", "plain.glsl", env=environment(TMPDIR=folder)).stderr, "")
+
+    def test_with_room_it_is_used(self):
+        self.write("plain.glsl", PLAIN)
+        folder = self.mount("16m")
+        self.capture(MESA_SHADER_CACHE_DIR=str(folder))
+        self.assertIn("cache/mesa_shader_cache/index", self.files())
+
+    def test_no_home(self):
+        self.write("plain.glsl", PLAIN)
+        self.capture(HOME=None, XDG_CACHE_HOME=None)
+        self.capture(HOME="/nowhere", XDG_CACHE_HOME=None)
+        self.capture(HOME="/proc", XDG_CACHE_HOME=None)
+
+    def test_a_limit_of_the_size_of_files(self):
+        self.write("plain.glsl", PLAIN)
+        self.mount("16m")
+        for size in (4096, 1 << 20, 3 << 20):
+            with self.subTest(size):
+                self.succeed("capture", "plain.glsl", "-o", "-", "--size", "8x8",
+                             env=environment(MESA_SHADER_CACHE_DIR=str(self.folder / "cache")),
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
 
 class Supervised(ProgramTest):

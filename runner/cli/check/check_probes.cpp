@@ -7,6 +7,7 @@
 #include "cli/console.hpp"
 #include "cli/forked.hpp"
 #include "cli/progress.hpp"
+#include "cli/supervisor.hpp"
 #include "glsl/overrides.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/headless_context.hpp"
@@ -164,7 +165,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             break;
         Asked last{probes.front(), {Verdict::cut, k_not_finished}};
         if (run->signal != 0)
-            last.answer = {Verdict::fail, fmt::format("the driver crashed (signal {})", run->signal)};
+            last.answer = {Verdict::fail, crash_text(run->signal, run->doing)};
         last.seconds = seconds_since(began) - seconds;
         if (auto taken = take(std::move(last)); !taken)
             return taken;

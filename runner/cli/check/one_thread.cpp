@@ -1,6 +1,7 @@
 #include "cli/check/one_thread.hpp"
 
 #include "cli/check/asked.hpp"
+#include "cli/supervisor.hpp"
 #include "gl/capabilities.hpp"
 #include "platform/headless_context.hpp"
 
@@ -50,7 +51,7 @@ Result<image::Image> drawn_by(ForkedHelper& painter, const lab::Situation& situa
     if (run->timed_out)
         return fail(ErrorCode::timed_out, fmt::format("one thread gave up after {:.3g} s", seconds));
     if (run->output.empty())
-        return fail(ErrorCode::load, fmt::format("the driver crashed (signal {})", run->signal));
+        return fail(ErrorCode::load, crash_text(run->signal, run->doing));
     const Json bits = Json::parse(run->output);
     if (auto error = told_error(bits))
         return fail(*std::move(error));

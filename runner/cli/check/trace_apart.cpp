@@ -2,6 +2,7 @@
 
 #include "cli/check/trace_text.hpp"
 #include "cli/forked.hpp"
+#include "cli/supervisor.hpp"
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +54,7 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
     TraceFound result;
     result.found = line.contains("trace");
     result.ended = run->timed_out     ? fmt::format("gave up after {:.3g} s", seconds)
-                   : run->signal != 0 ? fmt::format("the driver crashed (signal {})", run->signal)
+                   : run->signal != 0 ? crash_text(run->signal, run->doing)
                                       : "";
     if (!result.ended.empty() && !result.found)
         return fail(run->timed_out ? ErrorCode::timed_out : ErrorCode::load,

@@ -1,6 +1,7 @@
 #include "cli/inspect/driver_code.hpp"
 
 #include "gl/compiler_messages.hpp"
+#include "platform/driver_cache.hpp"
 #include "render/link_pass.hpp"
 
 #include <fmt/format.h>
@@ -87,6 +88,7 @@ FreshDriverCache::FreshDriverCache() {
         return;
     ::setenv(k_cache_variable, name.c_str(), 1);
     folder_ = std::move(name);
+    platform::do_without_full_driver_cache();
 }
 
 FreshDriverCache::~FreshDriverCache() {

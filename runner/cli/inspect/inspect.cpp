@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/inspect/device_list.hpp"
 #include "cli/inspect/driver_code.hpp"
 #include "cli/inspect/inspect_savings.hpp"
 #include "cli/omissions.hpp"
@@ -69,10 +70,12 @@ std::string to_line(const platform::HeadlessDevice& device) {
 }
 
 Result<int> inspect_devices(bool as_json) {
-    const auto devices = platform::list_headless_devices();
+    const auto devices = list_devices_apart();
+    if (!devices)
+        return fail(devices.error());
     std::string text;
     Json json = {{"tidemark", k_version}, {"devices", Json::array()}};
-    for (const platform::HeadlessDevice& device : devices) {
+    for (const platform::HeadlessDevice& device : *devices) {
         text += to_line(device);
         json["devices"].push_back(to_json(device));
     }

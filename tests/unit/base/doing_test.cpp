@@ -42,6 +42,18 @@ TEST_F(DoingTest, OutlivesTheProcessThatCrashes) {
     EXPECT_EQ(page_->seen().what, "compiling Buffer A");
 }
 
+TEST_F(DoingTest, LeftBehindOnce) {
+    if (const pid_t child = ::fork(); child == 0) {
+        const Doing compiling("compiling Buffer A");
+        ::_exit(0);
+    } else {
+        ::waitpid(child, nullptr, 0);
+    }
+    EXPECT_EQ(Doing::left_behind(), "compiling Buffer A");
+    EXPECT_EQ(Doing::left_behind(), "");
+    EXPECT_EQ(page_->seen().what, "");
+}
+
 TEST_F(DoingTest, WordsWithoutEndAreCut) {
     const Doing compiling(std::string(100000, 'x'));
     EXPECT_EQ(page_->seen().what.find_first_not_of('x'), std::string::npos);

@@ -1,3 +1,4 @@
+#include "base/doing.hpp"
 #include "cli/forked.hpp"
 
 #include <gtest/gtest.h>
@@ -33,6 +34,20 @@ TEST(Forked, AHelperAnswersItsQuestion) {
     const auto run = helper->ask("how deep?", 60);
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "asked: how deep?\ndone\n");
+}
+
+TEST(Forked, WhatTheDriverWasAtIsKnown) {
+    Doing::note_on(DoingPage::make());
+    const auto run = run_forked(
+        [](const Tell&) {
+            const Doing compiling("compiling Image");
+            ::raise(SIGKILL);
+        },
+        60);
+    Doing::note_on(nullptr);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->signal, SIGKILL);
+    EXPECT_EQ(run->doing, "compiling Image");
 }
 
 TEST(Forked, AHelperThatCrashesIsSaid) {

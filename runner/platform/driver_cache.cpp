@@ -1,0 +1,66 @@
+#include "platform/driver_cache.hpp"
+
+#include <fcntl.h>
+#include <pwd.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tidemark::platform {
+namespace fs = std::filesystem;
+namespace {
+
+/// Mesa's index takes 1.3 MiB; programs lie in files beside it.
+constexpr off_t k_room = off_t{4} << 20;
+
+/// Where Mesa looks, in its order; of the last two, versions differ in which they ask.
+std::vector<fs::path> folders() {
+    for (const char* name : {"MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "XDG_CACHE_HOME"})
+        if (const char* value = std::getenv(name); value && *value)
+            return {fs::path(value) / "mesa_shader_cache"};
+    std::vector<fs::path> found;
+    if (const char* home = std::getenv("HOME"); home && *home)
+        found.push_back(fs::path(home) / ".cache/mesa_shader_cache");
+    if (const passwd* user = ::getpwuid(::getuid()); user && user->pw_dir && *user->pw_dir)
+        found.push_back(fs::path(user->pw_dir) / ".cache/mesa_shader_cache");
+    return found;
+}
+
+/// The folder, or the one in which it would be made.
+fs::path existing(fs::path folder) {
+    std::error_code ignored;
+    while (!fs::is_directory(folder, ignored) && folder.has_relative_path())
+        folder = folder.parent_path();
+    return folder.empty() ? "." : folder;
+}
+
+/// Tried with a file without a name where the file system has such, for quotas and limits count too.
+bool has_room(const fs::path& folder) {
+    const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (file >= 0) {
+        const int error = ::posix_fallocate(file, 0, k_room);
+        ::close(file);
+        if (error != EOPNOTSUPP && error != EINVAL)
+            return error == 0;
+    } else if (errno == ENOSPC || errno == EDQUOT) {
+        return false;
+    }
+    struct statvfs disk {};
+    return ::statvfs(folder.c_str(), &disk) != 0 ||
+           uint64_t(disk.f_bavail) * disk.f_frsize >= uint64_t(k_room);
+}
+
+} // namespace
+
+void do_without_full_driver_cache() {
+    for (const fs::path& folder : folders())
+        if (!has_room(existing(folder)))
+            ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+}
+
+} // namespace tidemark::platform
