@@ -1,5 +1,7 @@
 #include "base/file.hpp"
 
+#include "base/descriptor.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,40 +17,6 @@ namespace {
 
 std::string reason(int error_number) {
     return std::generic_category().message(error_number);
-}
-
-/// Owns a POSIX file descriptor.
-class Descriptor {
-public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (fd_ >= 0)
-            ::close(fd_);
-    }
-    int get() const { return fd_; }
-    /// Closes now and reports the error that a destructor could only swallow (0: none).
-    int close() {
-        const int fd = std::exchange(fd_, -1);
-        return ::close(fd) == 0 ? 0 : errno;
-    }
-
-private:
-    int fd_;
-};
-
-/// 0, or the errno of the first write that failed.
-int write_all(int fd, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written < 0)
-            return errno;
-        bytes = bytes.subspan(size_t(written));
-    }
-    return 0;
 }
 
 tl::unexpected<Error> cannot_write(const fs::path& path, int error_number) {
@@ -74,6 +42,22 @@ Result<void> write_bytes(const fs::path& path, const fs::path& name, std::span<c
     return {};
 }
 
+/// Of a path at which there is nothing: the link on the way that leads nowhere is named.
+std::string why_missing(const fs::path& path) {
+    fs::path way;
+    for (const fs::path& part : path) {
+        way /= part;
+        std::error_code ignored;
+        if (!fs::is_symlink(way, ignored) || fs::exists(way, ignored))
+            continue;
+        const std::string target = fs::read_symlink(way, ignored).string();
+        return way == path
+                   ? fmt::format("it is a link to '{}', where there is nothing", target)
+                   : fmt::format("'{}' is a link to '{}', where there is nothing", way.string(), target);
+    }
+    return "no such file";
+}
+
 /// Where a link leads, so that the file is replaced and not the link.
 fs::path behind_links(fs::path path) {
     std::error_code error;
@@ -83,37 +67,34 @@ fs::path behind_links(fs::path path) {
 
 } // namespace
 
+std::string why_unreadable(const fs::path& path) {
+    if (path.native().find('\0') != std::string::npos)
+        return "there is a zero byte in its name";
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    switch (status.type()) {
+    case fs::file_type::regular: return {};
+    case fs::file_type::not_found: return why_missing(path);
+    case fs::file_type::directory: return "it is a directory";
+    default: return error ? error.message() : "it is not a regular file";
+    }
+}
+
 Result<std::string> read_file(const fs::path& path, size_t largest) {
     const auto refuse = [&](std::string_view why) {
         return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", path.string(), why));
     };
-    std::error_code status_error;
-    const fs::file_status status = fs::status(path, status_error);
-    if (status.type() == fs::file_type::not_found)
-        return refuse("no such file");
-    if (status.type() == fs::file_type::directory)
-        return refuse("it is a directory");
-    if (status_error)
-        return refuse(status_error.message());
-    if (status.type() != fs::file_type::regular)
-        return refuse("it is not a regular file");
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (const std::string why = why_unreadable(path); !why.empty())
+        return refuse(why);
+    // Without waiting: it may have become a pipe since, and files of /proc may never have anything to say.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (file.get() < 0)
         return refuse(reason(errno));
-    std::string bytes;
-    char block[1 << 16];
-    for (;;) {
-        const ssize_t count = ::read(file.get(), block, sizeof block);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return refuse(reason(errno));
-        if (count == 0)
-            return bytes;
-        bytes.append(block, size_t(count));
-        if (bytes.size() > largest)
-            return refuse(fmt::format("it is larger than {} MiB", largest >> 20));
-    }
+    auto bytes = read_all(file.get(), largest);
+    if (bytes)
+        return *std::move(bytes);
+    return refuse(bytes.error() == EFBIG ? fmt::format("it is larger than {} MiB", largest >> 20)
+                                         : reason(bytes.error()));
 }
 
 Result<std::string> read_text_file(const fs::path& path) {

@@ -15,8 +15,12 @@ namespace tidemark {
 /// fifty times as much memory.
 inline constexpr size_t k_largest_text = size_t{16} << 20;
 
-/// The bytes of a regular file. Fails (ErrorCode::load) on a missing file, a directory, an unreadable or
-/// over-large file; the message names the path.
+/// Why there is no regular file at that path, as "it is a directory" or "Too many levels of symbolic links";
+/// empty where there is one, which may still not be ours to read. Opens nothing.
+std::string why_unreadable(const std::filesystem::path& path);
+
+/// The bytes of a regular file. Fails (ErrorCode::load) on a missing file, a directory, an unreadable file
+/// or one larger than `largest` bytes, which is not read; the message names the path. Never waits.
 Result<std::string> read_file(const std::filesystem::path& path, size_t largest = k_largest_text);
 
 /// As read_file, but the bytes must be text: a NUL byte means that the file is binary.

@@ -1,10 +1,19 @@
 #include "base/file_cache.hpp"
 
+#include "base/descriptor.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
 
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <memory>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -15,9 +24,49 @@ namespace {
 
 constexpr size_t k_digest_size = 64;
 
-std::string digest_of(std::string_view bytes) {
-    return sha256(std::as_bytes(std::span(bytes)));
+/// Of the key too: what was kept under another one is not what is asked for.
+std::string digest_of(std::string_view key, std::string_view bytes) {
+    Sha256 hash;
+    hash.add(std::as_bytes(std::span(key)));
+    hash.add(std::as_bytes(std::span(bytes)));
+    return hash.digits();
 }
+
+bool is_key(std::string_view name) {
+    return name.size() == k_digest_size &&
+           name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+/// While it is written: a dot, its key, and which writer's it is.
+constexpr std::string_view k_half_written = ".part-";
+
+bool is_ours_by_name(std::string_view name) {
+    const bool half = name.starts_with('.');
+    name.remove_prefix(half ? 1 : 0);
+    return is_key(name.substr(0, k_digest_size)) &&
+           (half ? name.substr(k_digest_size).starts_with(k_half_written) : name.size() == k_digest_size);
+}
+
+bool is_ours(const struct stat& facts) {
+    return facts.st_uid == ::geteuid() && (facts.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+/// The file of that name in the folder; nothing where it is no regular file of this user's. Never waits.
+std::optional<std::string> read_entry(int folder, const std::string& name, uint64_t largest) {
+    const Descriptor file(::openat(folder, name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    struct stat facts {};
+    if (file.get() < 0 || ::fstat(file.get(), &facts) != 0 || !S_ISREG(facts.st_mode) || !is_ours(facts))
+        return std::nullopt;
+    auto bytes = read_all(file.get(), largest);
+    if (!bytes)
+        return std::nullopt;
+    ::futimens(file.get(), nullptr); // it was asked for
+    return *std::move(bytes);
+}
+
+struct CloseFolder {
+    void operator()(DIR* folder) const { ::closedir(folder); }
+};
 
 /// An absolute path that the environment names; the XDG rules want others ignored.
 std::optional<fs::path> folder_in(const char* variable) {
@@ -35,56 +84,84 @@ std::optional<fs::path> user_cache_folder() {
         return std::nullopt;
     if (const auto folder = folder_in("XDG_CACHE_HOME"))
         return *folder / "tidemark";
-    if (const auto home = folder_in("HOME"))
+    std::error_code ignored;
+    if (const auto home = folder_in("HOME"); home && fs::is_directory(*home, ignored))
         return *home / ".cache" / "tidemark";
     return std::nullopt;
 }
 
+/// -1 where it is not this user's alone to write to, or a link to somewhere else.
+int FileCache::open_folder() const {
+    Descriptor folder(::open(folder_.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY | O_NOFOLLOW));
+    struct stat facts {};
+    if (folder.get() < 0 || ::fstat(folder.get(), &facts) != 0 || !is_ours(facts))
+        return -1;
+    return folder.release();
+}
+
 std::optional<std::string> FileCache::find(const std::string& key) const {
-    const fs::path path = folder_ / key;
-    auto file = read_file(path, most_bytes_);
-    if (!file || file->size() < k_digest_size)
+    const Descriptor folder(open_folder());
+    if (folder.get() < 0 || !is_key(key))
         return std::nullopt;
-    std::string bytes = file->substr(k_digest_size);
-    if (file->compare(0, k_digest_size, digest_of(bytes)) != 0)
+    auto entry = read_entry(folder.get(), key, most_bytes_);
+    if (!entry || entry->size() < k_digest_size)
         return std::nullopt;
-    std::error_code ignored;
-    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored); // it was asked for
-    return bytes;
+    const std::string digest = entry->substr(0, k_digest_size);
+    entry->erase(0, k_digest_size);
+    if (digest != digest_of(key, *entry))
+        return std::nullopt;
+    return entry;
 }
 
 void FileCache::keep(const std::string& key, std::string_view bytes) const {
-    if (bytes.size() > most_bytes_ / 2 || !make_folder(folder_))
+    if (bytes.size() > most_bytes_ / 2 || !is_key(key) || !make_folder(folder_.parent_path()))
         return;
-    if (write_file(folder_ / key, digest_of(bytes).append(bytes)))
-        make_room();
+    ::mkdir(folder_.c_str(), 0700);
+    const Descriptor folder(open_folder());
+    if (folder.get() < 0)
+        return;
+    static std::atomic<unsigned> count = 0; // two threads may keep the same
+    const std::string half = fmt::format(".{}{}{}-{}", key, k_half_written, ::getpid(), ++count);
+    Descriptor file(
+        ::openat(folder.get(), half.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
+    if (file.get() < 0)
+        return;
+    const std::string entry = digest_of(key, bytes).append(bytes);
+    const bool whole = write_all(file.get(), std::as_bytes(std::span(entry))) == 0 && file.close() == 0;
+    if (whole && ::renameat(folder.get(), half.c_str(), folder.get(), key.c_str()) == 0)
+        make_room(folder.get());
+    else
+        ::unlinkat(folder.get(), half.c_str(), 0);
 }
 
-/// Files that a process left half-written go like all others.
-void FileCache::make_room() const {
+/// Files that a process left half-written go like all others; what is not ours stays.
+void FileCache::make_room(int folder) const {
     struct Kept {
-        fs::file_time_type asked_for;
+        int64_t asked_for;
+        int64_t nanoseconds;
+        std::string name;
         uint64_t size;
-        fs::path path;
     };
+    const std::unique_ptr<DIR, CloseFolder> entries(
+        ::fdopendir(::openat(folder, ".", O_RDONLY | O_CLOEXEC | O_DIRECTORY)));
     std::vector<Kept> files;
     uint64_t total = 0;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
-        std::error_code gone; // by another process
-        const uint64_t size = entry->file_size(gone);
-        const auto time = gone ? fs::file_time_type() : entry->last_write_time(gone);
-        if (gone)
+    for (const dirent* entry = nullptr; entries && (entry = ::readdir(entries.get()));) {
+        struct stat facts {};
+        if (!is_ours_by_name(entry->d_name) ||
+            ::fstatat(folder, entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(facts.st_mode) ||
+            !is_ours(facts))
             continue;
-        files.push_back({time, size, entry->path()});
-        total += size;
+        files.push_back(
+            {facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, entry->d_name, uint64_t(facts.st_size)});
+        total += files.back().size;
     }
-    std::ranges::sort(files, {}, [](const Kept& kept) { return std::tie(kept.asked_for, kept.path); });
+    std::ranges::sort(files, {},
+                      [](const Kept& kept) { return std::tie(kept.asked_for, kept.nanoseconds, kept.name); });
     for (const Kept& oldest : files) {
         if (total <= most_bytes_)
             return;
-        std::error_code ignored;
-        fs::remove(oldest.path, ignored);
+        ::unlinkat(folder, oldest.name.c_str(), 0);
         total -= oldest.size;
     }
 }

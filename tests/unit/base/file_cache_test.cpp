@@ -1,7 +1,10 @@
 #include "base/file_cache.hpp"
+#include "base/hash.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -17,6 +20,11 @@ using namespace std::chrono_literals;
 
 constexpr uint64_t k_plenty = 1 << 20;
 
+/// A key by a short name.
+std::string key(std::string_view name) {
+    return sha256(std::as_bytes(std::span(name)));
+}
+
 size_t files_in(const fs::path& folder) {
     return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
@@ -24,76 +32,77 @@ size_t files_in(const fs::path& folder) {
 TEST(FileCache, gives_back_what_was_kept) {
     const TemporaryFolder folder;
     const FileCache cache(folder / "made/when/needed", k_plenty);
-    EXPECT_EQ(cache.find("a"), std::nullopt);
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
     const std::string bytes("a\0b\xff\n", 5);
-    cache.keep("a", bytes);
-    cache.keep("b", "");
-    EXPECT_EQ(cache.find("a"), bytes);
-    EXPECT_EQ(cache.find("b"), "");
-    EXPECT_EQ(FileCache(folder / "made/when/needed", k_plenty).find("a"), bytes) << "in the next run";
-    cache.keep("a", "other");
-    EXPECT_EQ(cache.find("a"), "other");
+    cache.keep(key("a"), bytes);
+    cache.keep(key("b"), "");
+    EXPECT_EQ(cache.find(key("a")), bytes);
+    EXPECT_EQ(cache.find(key("b")), "");
+    EXPECT_EQ(FileCache(folder / "made/when/needed", k_plenty).find(key("a")), bytes) << "in the next run";
+    cache.keep(key("a"), "other");
+    EXPECT_EQ(cache.find(key("a")), "other");
 }
 
 TEST(FileCache, what_is_damaged_is_not_there) {
     const TemporaryFolder folder;
     const FileCache cache(folder.path(), k_plenty);
-    cache.keep("a", "some bytes of a program");
-    const std::string whole = bytes_of(folder / "a");
+    cache.keep(key("a"), "some bytes of a program");
+    const std::string whole = bytes_of(folder / key("a"));
     for (size_t i = 0; i < whole.size(); ++i) {
         std::string turned = whole;
         turned[i] = char(turned[i] ^ 1);
-        save_in_place(folder / "a", turned);
-        EXPECT_EQ(cache.find("a"), std::nullopt) << "bit turned in byte " << i;
-        save_in_place(folder / "a", whole.substr(0, i));
-        EXPECT_EQ(cache.find("a"), std::nullopt) << "cut to " << i << " bytes";
+        save_in_place(folder / key("a"), turned);
+        EXPECT_EQ(cache.find(key("a")), std::nullopt) << "bit turned in byte " << i;
+        save_in_place(folder / key("a"), whole.substr(0, i));
+        EXPECT_EQ(cache.find(key("a")), std::nullopt) << "cut to " << i << " bytes";
     }
-    save_in_place(folder / "a", whole + "x");
-    EXPECT_EQ(cache.find("a"), std::nullopt);
-    save_in_place(folder / "a", whole);
-    EXPECT_EQ(cache.find("a"), "some bytes of a program");
+    save_in_place(folder / key("a"), whole + "x");
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+    save_in_place(folder / key("a"), whole);
+    EXPECT_EQ(cache.find(key("a")), "some bytes of a program");
 }
 
 TEST(FileCache, no_folder_to_write_to_is_nobodys_business) {
     const TemporaryFolder folder;
     save_in_place(folder / "file");
     const FileCache cache(folder / "file/below", k_plenty);
-    cache.keep("a", "bytes");
-    EXPECT_EQ(cache.find("a"), std::nullopt);
-    fs::create_directory(folder / "taken");
+    cache.keep(key("a"), "bytes");
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+    fs::create_directory(folder / key("taken"));
     const FileCache with_folder(folder.path(), k_plenty);
-    with_folder.keep("taken", "bytes");
-    EXPECT_EQ(with_folder.find("taken"), std::nullopt);
+    with_folder.keep(key("taken"), "bytes");
+    EXPECT_EQ(with_folder.find(key("taken")), std::nullopt);
 }
 
 TEST(FileCache, what_was_not_asked_for_the_longest_goes_first) {
     const TemporaryFolder folder;
     const FileCache cache(folder.path(), 1000);
     const std::string bytes(100, 'x'); // 164 with its digest: six of them fit
-    for (const char* key : {"a", "b", "c", "d", "e", "f"})
-        cache.keep(key, bytes);
+    for (const char* name : {"a", "b", "c", "d", "e", "f"})
+        cache.keep(key(name), bytes);
     const auto now = fs::file_time_type::clock::now();
     int age = 100;
-    for (const char* key : {"a", "b", "c", "d", "e", "f"})
-        fs::last_write_time(folder / key, now - std::chrono::seconds(age--));
-    EXPECT_EQ(cache.find("a"), bytes); // and is young again
-    cache.keep("g", bytes);
-    EXPECT_EQ(cache.find("b"), std::nullopt);
-    for (const char* key : {"a", "c", "d", "e", "f", "g"})
-        EXPECT_EQ(cache.find(key), bytes) << key;
-    cache.keep("huge", std::string(501, 'x'));
-    EXPECT_EQ(cache.find("huge"), std::nullopt) << "it would push out most others";
+    for (const char* name : {"a", "b", "c", "d", "e", "f"})
+        fs::last_write_time(folder / key(name), now - std::chrono::seconds(age--));
+    EXPECT_EQ(cache.find(key("a")), bytes); // and is young again
+    cache.keep(key("g"), bytes);
+    EXPECT_EQ(cache.find(key("b")), std::nullopt);
+    for (const char* name : {"a", "c", "d", "e", "f", "g"})
+        EXPECT_EQ(cache.find(key(name)), bytes) << name;
+    cache.keep(key("huge"), std::string(501, 'x'));
+    EXPECT_EQ(cache.find(key("huge")), std::nullopt) << "it would push out most others";
     EXPECT_EQ(files_in(folder.path()), 6u);
 }
 
 TEST(FileCache, half_written_files_of_the_dead_go_too) {
     const TemporaryFolder folder;
-    save_in_place(folder / ".a.part-1-1", std::string(900, 'x'));
-    fs::last_write_time(folder / ".a.part-1-1", fs::file_time_type::clock::now() - 1h);
+    const fs::path half = folder / ("." + key("a") + ".part-1-1");
+    save_in_place(half, std::string(900, 'x'));
+    fs::last_write_time(half, fs::file_time_type::clock::now() - 1h);
     const FileCache cache(folder.path(), 1000);
-    cache.keep("a", std::string(200, 'y'));
-    EXPECT_FALSE(fs::exists(folder / ".a.part-1-1"));
-    EXPECT_EQ(cache.find("a"), std::string(200, 'y'));
+    cache.keep(key("a"), std::string(200, 'y'));
+    EXPECT_FALSE(fs::exists(half));
+    EXPECT_EQ(cache.find(key("a")), std::string(200, 'y'));
 }
 
 TEST(FileCache, writers_at_once_leave_something_whole) {
@@ -104,9 +113,9 @@ TEST(FileCache, writers_at_once_leave_something_whole) {
     for (char name = 'a'; name < 'e'; ++name)
         writers.emplace_back([&, name] {
             for (int i = 0; i < 50; ++i) {
-                const std::string key = std::to_string(i % 7);
-                cache.keep(key, std::string(500, name));
-                if (const auto found = cache.find(key))
+                const std::string wanted = key(std::to_string(i % 7));
+                cache.keep(wanted, std::string(500, name));
+                if (const auto found = cache.find(wanted))
                     wrong += *found != std::string(500, found->front());
             }
         });
@@ -114,6 +123,99 @@ TEST(FileCache, writers_at_once_leave_something_whole) {
         writer.join();
     EXPECT_EQ(wrong, 0);
     EXPECT_LE(files_in(folder.path()), 7u);
+}
+
+TEST(FileCache, an_entry_under_another_name_is_not_that_one) {
+    const TemporaryFolder folder;
+    const FileCache cache(folder.path(), k_plenty);
+    cache.keep(key("a"), "the one");
+    cache.keep(key("b"), "the other");
+    fs::copy_file(folder / key("a"), folder / key("b"), fs::copy_options::overwrite_existing);
+    EXPECT_EQ(cache.find(key("b")), std::nullopt);
+    EXPECT_EQ(cache.find(key("a")), "the one");
+}
+
+TEST(FileCache, a_link_is_replaced_and_what_it_leads_to_neither_read_nor_written) {
+    const TemporaryFolder folder, elsewhere;
+    const FileCache cache(folder / "cache", k_plenty);
+    FileCache(elsewhere.path(), k_plenty).keep(key("a"), "somebody's");
+    const std::string before = bytes_of(elsewhere / key("a"));
+    cache.keep(key("b"), "makes the folder");
+    fs::create_symlink(elsewhere / key("a"), folder.path() / "cache" / key("a"));
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+    cache.keep(key("a"), "ours");
+    EXPECT_EQ(cache.find(key("a")), "ours");
+    EXPECT_EQ(bytes_of(elsewhere / key("a")), before);
+    EXPECT_FALSE(fs::is_symlink(folder.path() / "cache" / key("a")));
+}
+
+TEST(FileCache, a_pipe_is_not_waited_for) {
+    const TemporaryFolder folder;
+    const FileCache cache(folder.path(), k_plenty);
+    ASSERT_EQ(::mkfifo((folder / key("a")).c_str(), 0600), 0);
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+    cache.keep(key("a"), "ours");
+    EXPECT_EQ(cache.find(key("a")), "ours");
+}
+
+TEST(FileCache, a_folder_that_is_a_link_is_left_alone) {
+    const TemporaryFolder folder, elsewhere;
+    save_in_place(elsewhere / "letter", std::string(5000, 'x'));
+    fs::create_directory_symlink(elsewhere.path(), folder / "cache");
+    const FileCache cache(folder / "cache", 1000);
+    cache.keep(key("a"), "ours");
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+    EXPECT_EQ(files_in(elsewhere.path()), 1u);
+}
+
+TEST(FileCache, a_folder_that_others_may_write_to_is_left_alone) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "cache");
+    const FileCache cache(folder / "cache", k_plenty);
+    cache.keep(key("a"), "ours");
+    EXPECT_EQ(cache.find(key("a")), "ours");
+    fs::permissions(folder / "cache", fs::perms::all);
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+    cache.keep(key("b"), "ours");
+    EXPECT_EQ(files_in(folder / "cache"), 1u);
+}
+
+TEST(FileCache, a_folder_of_its_own_is_made_for_its_user_alone) {
+    const TemporaryFolder folder;
+    FileCache(folder / "cache", k_plenty).keep(key("a"), "ours");
+    EXPECT_EQ(fs::status(folder / "cache").permissions(), fs::perms::owner_all);
+}
+
+TEST(FileCache, another_users_folder_and_entries_are_left_alone) {
+    if (::geteuid() != 0)
+        GTEST_SKIP() << "only root gives files away";
+    const TemporaryFolder folder;
+    const FileCache cache(folder / "cache", k_plenty);
+    cache.keep(key("a"), "ours");
+    ASSERT_EQ(::chown((folder.path() / "cache" / key("a")).c_str(), 65534, 65534), 0);
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+    cache.keep(key("a"), "ours");
+    ASSERT_EQ(::chown((folder / "cache").c_str(), 65534, 65534), 0);
+    EXPECT_EQ(cache.find(key("a")), std::nullopt);
+}
+
+TEST(FileCache, what_is_not_ours_is_not_thrown_away) {
+    const TemporaryFolder folder, elsewhere;
+    const std::string large(5000, 'x');
+    save_in_place(folder / "letter", large);
+    save_in_place(folder / (key("a") + ".txt"), large);
+    fs::create_directory(folder / key("folder"));
+    save_in_place(elsewhere / "kept", large);
+    fs::create_symlink(elsewhere / "kept", folder / key("link"));
+    const FileCache cache(folder.path(), 1000);
+    for (const char* name : {"a", "b", "c", "d", "e", "f", "g"})
+        cache.keep(key(name), std::string(200, 'y')); // three of them fit
+    EXPECT_EQ(bytes_of(folder / "letter"), large);
+    EXPECT_EQ(bytes_of(folder / (key("a") + ".txt")), large);
+    EXPECT_TRUE(fs::is_directory(folder / key("folder")));
+    EXPECT_TRUE(fs::is_symlink(folder / key("link")));
+    EXPECT_EQ(bytes_of(elsewhere / "kept"), large);
+    EXPECT_EQ(files_in(folder.path()), 4u + 3u);
 }
 
 /// Sets variables for a test and puts them back.
@@ -144,13 +246,16 @@ private:
 };
 
 TEST_F(UserCache, is_where_the_desktop_wants_it) {
-    EXPECT_EQ(folder(nullptr, "/var/cache/me", "/home/me"), "/var/cache/me/tidemark");
-    EXPECT_EQ(folder(nullptr, nullptr, "/home/me"), "/home/me/.cache/tidemark");
-    EXPECT_EQ(folder(nullptr, "", "/home/me"), "/home/me/.cache/tidemark");
-    EXPECT_EQ(folder(nullptr, "not/absolute", "/home/me"), "/home/me/.cache/tidemark");
+    const TemporaryFolder home;
+    const char* me = home.path().c_str();
+    EXPECT_EQ(folder(nullptr, "/var/cache/me", me), "/var/cache/me/tidemark");
+    EXPECT_EQ(folder(nullptr, nullptr, me), home / ".cache/tidemark");
+    EXPECT_EQ(folder(nullptr, "", me), home / ".cache/tidemark");
+    EXPECT_EQ(folder(nullptr, "not/absolute", me), home / ".cache/tidemark");
     EXPECT_EQ(folder(nullptr, nullptr, nullptr), std::nullopt);
-    EXPECT_EQ(folder("off", "/var/cache/me", "/home/me"), std::nullopt);
-    EXPECT_EQ(folder("on", "/var/cache/me", "/home/me"), "/var/cache/me/tidemark");
+    EXPECT_EQ(folder(nullptr, nullptr, (home / "none").c_str()), std::nullopt) << "nobody lives there";
+    EXPECT_EQ(folder("off", "/var/cache/me", me), std::nullopt);
+    EXPECT_EQ(folder("on", "/var/cache/me", me), "/var/cache/me/tidemark");
 }
 
 } // namespace

@@ -83,6 +83,36 @@ TEST(ReadFile, larger_than_allowed) {
     EXPECT_EQ(read_file(path, 1u << 20)->size(), 1u << 20);
 }
 
+TEST(ReadFile, what_is_too_large_is_not_read) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "sparse";
+    save_in_place(path, "");
+    fs::resize_file(path, uintmax_t{1} << 40);
+    EXPECT_EQ(refusal(read_file(path)), "cannot read '" + path + "': it is larger than 16 MiB");
+}
+
+TEST(ReadFile, a_file_without_a_size_is_read) {
+    EXPECT_EQ(read_file("/proc/self/comm"), "unit_base\n");
+}
+
+TEST(ReadFile, a_link_that_leads_nowhere_says_where) {
+    const TemporaryFolder folder;
+    fs::create_symlink("none", folder / "a");
+    fs::create_symlink("/none", folder / "b");
+    const std::string a = folder / "a", below = folder / "b/c.glsl", b = folder / "b";
+    EXPECT_EQ(refusal(read_file(a)),
+              "cannot read '" + a + "': it is a link to 'none', where there is nothing");
+    EXPECT_EQ(refusal(read_file(below)),
+              "cannot read '" + below + "': '" + b + "' is a link to '/none', where there is nothing");
+}
+
+TEST(ReadFile, names_that_no_file_has) {
+    using namespace std::string_literals;
+    EXPECT_EQ(refusal(read_file("a\0b"s)), "cannot read 'a\0b': there is a zero byte in its name"s);
+    const std::string longest(256, 'x');
+    EXPECT_EQ(refusal(read_file(longest)), "cannot read '" + longest + "': File name too long");
+}
+
 TEST(ReadTextFile, a_binary_file_is_no_text) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.glsl";
