@@ -1,6 +1,7 @@
 #include "sound/sound_file.hpp"
 
 #include "base/file.hpp"
+#include "sound/sound_check.hpp"
 #include "sound/sound_library.hpp"
 
 #include <fmt/format.h>
@@ -111,6 +112,9 @@ Result<SoundData> read_sound(const std::filesystem::path& path) {
     const Result<SoundLibrary>& library = sound_library();
     if (!library)
         return fail(library.error());
+    constexpr std::string_view cut_short = "the file is damaged or cut short";
+    if (!is_whole(*bytes))
+        return refuse(cut_short);
     MemoryFile memory{*bytes};
     SF_VIRTUAL_IO calls{length_of, seek, read, no_write, tell};
     SF_INFO info{};
@@ -129,6 +133,8 @@ Result<SoundData> read_sound(const std::filesystem::path& path) {
         return refuse("there is no sound in it, or it is damaged");
     if (sound.frames() > size_t(sound.rate) * size_t{k_longest_sound})
         return refuse(fmt::format("it is longer than {} minutes", k_longest_sound / 60));
+    if (sound.frames() < promised_frames(*bytes).value_or(0))
+        return refuse(cut_short);
     return sound;
 }
 

@@ -1,6 +1,7 @@
 #include "image/files/file_check.hpp"
 
 #include "image/byte_order.hpp"
+#include "image/files/tiff_check.hpp"
 
 #include <fmt/format.h>
 
@@ -232,11 +233,13 @@ std::optional<std::string> size_objection(int64_t width, int64_t height) {
 
 std::optional<FileFormat> format_of(std::string_view file, const std::filesystem::path& path) {
     using namespace std::string_view_literals;
-    static constexpr std::array<Signature, 8> signatures = {{
+    static constexpr std::array<Signature, 10> signatures = {{
         {FileFormat::png, "\x89PNG\r\n\x1a\n"sv},
         {FileFormat::jpeg, "\xff\xd8\xff"sv},
         {FileFormat::tiff, "II*\0"sv},
         {FileFormat::tiff, "MM\0*"sv},
+        {FileFormat::tiff, "II+\0"sv}, // BigTIFF
+        {FileFormat::tiff, "MM\0+"sv},
         {FileFormat::exr, "v/1\x01"sv},
         {FileFormat::hdr, "#?RADIANCE"sv},
         {FileFormat::hdr, "#?RGBE"sv},
@@ -262,6 +265,8 @@ Checked checked_file(FileFormat format, std::string file) {
         objection = jpeg_objection(file);
     if (format == FileFormat::exr)
         objection = exr_objection(file);
+    if (format == FileFormat::tiff)
+        objection = tiff_objection(file);
     if (objection)
         return refuse(std::move(*objection));
     return file;

@@ -2,6 +2,7 @@
 #include "image/files/picture_file.hpp"
 #include "picture_support.hpp"
 
+#include <array>
 #include <functional>
 #include <random>
 
@@ -61,7 +62,7 @@ TEST_F(PictureDamage, what_is_no_picture_is_said) {
 }
 
 TEST_F(PictureDamage, a_file_cut_anywhere_is_no_picture) {
-    for (const std::string name : {"a.png", "a.jpg", "a.exr", "a.hdr"}) {
+    for (const std::string name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"}) {
         const std::string whole = written(name);
         ASSERT_EQ(outcome(name, whole), "");
         const size_t step = std::max<size_t>(1, whole.size() / 150);
@@ -75,13 +76,74 @@ TEST_F(PictureDamage, a_file_cut_anywhere_is_no_picture) {
     }
 }
 
-TEST_F(PictureDamage, a_tiff_without_its_directory_is_no_picture) {
-    const std::string whole = written("a.tif"); // the directory comes last
-    const std::string printed = printed_by([&] {
-        for (size_t length = 0; length < whole.size() * 3 / 4; length += 7)
-            EXPECT_NE(outcome("a.tif", whole.substr(0, length)), "") << length;
-    });
-    EXPECT_EQ(printed, "");
+std::string little_endian(uint64_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i)
+        text += char(value >> (8 * i) & 0xff);
+    return text;
+}
+
+/// Of bytes, in two strips; the directory stands in front, so that a cut takes pixels and nothing else.
+std::string hand_made_tiff(bool big) {
+    constexpr uint64_t width = 16, height = 8;
+    const int offset = big ? 8 : 4;
+    const std::vector<std::array<uint64_t, 4>> entries = {
+        {256, 3, 1, width}, {257, 3, 1, height}, {258, 3, 1, 8},          {259, 3, 1, 1}, {262, 3, 1, 1},
+        {273, 4, 2, 0},     {277, 3, 1, 1},      {278, 3, 1, height / 2}, {279, 4, 2, 0}};
+    const uint64_t directory = big ? 16 : 8;
+    const uint64_t behind =
+        directory + uint64_t(big ? 8 : 2) + entries.size() * uint64_t(big ? 20 : 12) + uint64_t(offset);
+    const uint64_t sizes = behind + 8, pixels = sizes + 8;
+    using namespace std::string_literals;
+    std::string file = big ? "II+\0\x08\0\0\0"s : "II*\0"s;
+    file += little_endian(directory, offset) + little_endian(entries.size(), big ? 8 : 2);
+    for (auto [tag, type, count, value] : entries) {
+        file += little_endian(tag, 2) + little_endian(type, 2) + little_endian(count, offset);
+        if (big && count == 2) // which fit into the entry
+            file += tag == 273 ? little_endian(pixels, 4) + little_endian(pixels + 64, 4)
+                               : little_endian(64, 4) + little_endian(64, 4);
+        else
+            file += little_endian(tag == 273 ? behind : tag == 279 ? sizes : value, offset);
+    }
+    file += little_endian(0, offset) + little_endian(pixels, 4) + little_endian(pixels + 64, 4);
+    file += little_endian(64, 4) + little_endian(64, 4);
+    for (uint64_t i = 0; i < width * height; ++i)
+        file += char(i * 2);
+    return file;
+}
+
+TEST_F(PictureDamage, a_tiff_of_either_size_is_whole_or_no_picture) {
+    for (const bool big : {false, true}) {
+        const std::string whole = hand_made_tiff(big);
+        const Result<Image> read = read_picture(put("a.tif", whole));
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->extent, (Extent{16, 8}));
+        EXPECT_EQ(read->u8()[0], 224) << "the bottom left";
+        for (size_t length = 4; length < whole.size(); ++length)
+            EXPECT_EQ(outcome("a.tif", whole.substr(0, length)), "the file is damaged or cut short")
+                << length;
+    }
+}
+
+/// One of each format that we read and do not write, uncompressed.
+TEST_F(PictureDamage, a_cut_file_of_the_simpler_formats_is_no_picture) {
+    using namespace std::string_literals;
+    const std::string pixels(4 * 3 * 3, 'x');
+    const std::pair<std::string, std::string> files[] = {
+        {"a.ppm", "P6 4 3 255\n" + pixels},
+        {"a.pgm", "P5 4 9 255\n" + pixels},
+        {"text.ppm", "P3 2 2 255\n1 2 3 4 5 6 7 8 9 10 11 7\n"},
+        {"a.pfm", "PF\n3 1\n-1.0\n" + pixels},
+        {"a.tga", "\0\0\2\0\0\0\0\0\0\0\0\0\4\0\3\0\x18\0"s + pixels},
+        {"a.bmp", "BM" + little_endian(54 + 36, 4) + little_endian(0, 4) + little_endian(54, 4) +
+                      little_endian(40, 4) + little_endian(4, 4) + little_endian(3, 4) + little_endian(1, 2) +
+                      little_endian(24, 2) + std::string(24, '\0') + pixels},
+    };
+    for (const auto& [name, whole] : files) {
+        EXPECT_EQ(outcome(name, whole), "") << name;
+        for (size_t length = 0; length < whole.size() - 1; ++length)
+            EXPECT_NE(outcome(name, whole.substr(0, length)), "") << name << " cut to " << length;
+    }
 }
 
 TEST_F(PictureDamage, the_words_for_a_cut_file) {
