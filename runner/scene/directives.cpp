@@ -64,7 +64,13 @@ private:
     bool next_is(std::string_view wanted) const { return peek() && peek()->is(wanted); }
     bool accept(std::string_view wanted) { return next_is(wanted) && ++position_; }
     SourceLocation here() const;
+    SourceLocation place_of(const Token& token) const {
+        return text_.lines().locate(token.line, token.column);
+    }
+    bool at_end() const;
     tl::unexpected<Error> wanted(std::string_view what) const;
+    Status open_bracket(std::string_view open, std::string_view close);
+    Status close_bracket(std::string_view close);
     Status expect(std::string_view wanted_text);
     Result<std::string> expect_string();
 
@@ -88,20 +94,54 @@ private:
     int depth_ = 0; ///< of #if
     std::vector<Token> tokens_;
     size_t position_ = 0;
+    int brackets_ = 0; ///< open
     Directives directives_;
     std::array<SamplingWishes, k_channel_count> wishes_;
     std::vector<text::Edit> edits_;
 };
 
+/// A directive ends with its line, but for what stands in brackets.
+bool DirectiveReader::at_end() const {
+    return !peek() || (peek()->first_on_line && brackets_ == 0);
+}
+
+/// Of the next token; at the end, behind the last one.
 SourceLocation DirectiveReader::here() const {
-    // At the end of the text the last token is the best place there is to point at.
-    const Token& token = tokens_[std::min(position_, tokens_.size() - 1)];
-    return text_.lines().locate(token.line);
+    if (!at_end())
+        return place_of(*peek());
+    const Token& last = tokens_[position_ - 1];
+    return text_.lines().locate(last.line, last.column + int(last.text.size()));
 }
 
 tl::unexpected<Error> DirectiveReader::wanted(std::string_view what) const {
-    const std::string found = peek() ? fmt::format("'{}'", peek()->text) : "the end of the file";
+    const std::string found = !peek()    ? "the end of the file"
+                              : at_end() ? "the end of the line"
+                                         : fmt::format("'{}'", peek()->text);
     return fail(error_at(here(), fmt::format("expected {} but found {}", what, found)));
+}
+
+/// Looks for its end first: without one, what is missed would be missed lines later.
+Result<void> DirectiveReader::open_bracket(std::string_view open, std::string_view close) {
+    const Token* bracket = peek();
+    if (auto opened = expect(open); !opened)
+        return opened;
+    const auto ends_it = [&](const Token& token) {
+        return token.is(close) || token.is(open) || token.is("{") || token.is(";") || token.is("#");
+    };
+    const auto end = std::find_if(tokens_.begin() + std::ptrdiff_t(position_), tokens_.end(), ends_it);
+    const bool closed = end != tokens_.end() && end->is(close);
+    if (!closed && (end != tokens_.end() ? *end : tokens_.back()).line > bracket->line)
+        return fail(
+            error_at(place_of(*bracket), fmt::format("'{}' is not closed: '{}' is missing", open, close)));
+    ++brackets_;
+    return {};
+}
+
+Result<void> DirectiveReader::close_bracket(std::string_view close) {
+    if (auto closed = expect(close); !closed)
+        return closed;
+    --brackets_;
+    return {};
 }
 
 Result<void> DirectiveReader::expect(std::string_view wanted_text) {
@@ -163,7 +203,7 @@ Result<Directives> DirectiveReader::read_all() {
 }
 
 Result<void> DirectiveReader::read_directive() {
-    const SourceLocation where = here();
+    const SourceLocation where = text_.lines().locate(peek()->line);
     ++position_;
     const std::string_view keyword = tokens_[position_++].text;
     if (keyword.starts_with("iChannel"))
@@ -240,9 +280,10 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
     constexpr std::pair<std::string_view, Wrap> k_wraps[] = {
         {"Repeat", Wrap::repeat}, {"Clamp", Wrap::clamp}, {"Mirror", Wrap::mirror}};
 
+    if (!peek())
+        return wanted("MinFilter, MagFilter, WrapMode or Type");
     const SourceLocation where = here();
-    const std::string parameter(peek() ? peek()->text : std::string_view{});
-    ++position_;
+    const std::string parameter(tokens_[position_++].text);
     auto value = expect_string();
     if (!value)
         return fail(std::move(value.error()));
@@ -352,9 +393,11 @@ Result<void> DirectiveReader::read_knob_values(Knob& knob) {
 
 Result<KnobRange> DirectiveReader::read_range(const Knob& knob) {
     const SourceLocation where = here();
-    const std::string_view close = next_is("[") ? "]" : "}";
-    if (!accept("[") && !accept("{"))
+    const bool square = next_is("[");
+    if (!square && !next_is("{"))
         return wanted("'{' or '['");
+    if (auto open = open_bracket(square ? "[" : "{", square ? "]" : "}"); !open)
+        return fail(open.error());
     const auto low = read_value(knob);
     if (!low)
         return fail(low.error());
@@ -363,7 +406,7 @@ Result<KnobRange> DirectiveReader::read_range(const Knob& knob) {
     const auto high = read_value(knob);
     if (!high)
         return fail(high.error());
-    if (auto closed = expect(close); !closed)
+    if (auto closed = close_bracket(square ? "]" : "}"); !closed)
         return fail(closed.error());
     for (size_t i = 0; i < size_t(info(knob.type).components); ++i)
         if ((*low)[i] > (*high)[i])
@@ -401,7 +444,7 @@ Result<Value> DirectiveReader::read_literal() {
     const bool constructor = peek() && find_knob_type(peek()->text) != nullptr;
     if (constructor) {
         ++position_;
-        if (auto open = expect("("); !open)
+        if (auto open = open_bracket("(", ")"); !open)
             return fail(open.error());
     }
     do {
@@ -411,8 +454,8 @@ Result<Value> DirectiveReader::read_literal() {
         value.numbers.push_back(*number);
     } while (constructor && accept(","));
     if (constructor)
-        if (auto close = expect(")"); !close)
-            return fail(close.error());
+        if (auto closed = close_bracket(")"); !closed)
+            return fail(closed.error());
     return value;
 }
 

@@ -74,7 +74,7 @@ class BadScene(ProgramTest):
 
     def test_directive_that_is_wrong(self):
         self.write("a.glsl", f"\n#iUniform flaot speed = 1.0\n{GOOD}")
-        self.expect_refusal("a.glsl", "a.glsl:2: error: expected a type (float, vec2, vec3, vec4, color3, int, "
+        self.expect_refusal("a.glsl", "a.glsl:2:11: error: expected a type (float, vec2, vec3, vec4, color3, int, "
                                       "ivec2, ivec3 or ivec4) but found 'flaot'")
 
     def test_channel_that_does_not_exist(self):

@@ -138,7 +138,7 @@ class Broken(ReloadTest):
         view = self.start()
         self.write("new.glsl", "#define MARK 6.0\n#iUniform flaot x = 1.0\n")
         self.write("a.glsl", probe.shader(MARK, '#include "new.glsl"'))
-        view.wait_for_title(r"\Anew\.glsl:2: error: expected a type")
+        view.wait_for_title(r"\Anew\.glsl:2:11: error: expected a type")
         self.write("new.glsl", "#define MARK 6.0\n")
         self.expect_mark(view, 6)
 

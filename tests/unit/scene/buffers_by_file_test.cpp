@@ -92,7 +92,8 @@ TEST_F(BuffersByFile, that_cannot_be_read_are_placed_where_they_are_named) {
     save("b.glsl", "// empty");
     EXPECT_EQ(refusal("a.glsl"), "tidemark: error: 'b.glsl' is empty: a scene defines mainImage");
     save("b.glsl", "#iUniform float");
-    EXPECT_THAT(refusal("a.glsl"), testing::StartsWith("b.glsl:1: error: expected the name of the uniform"));
+    EXPECT_THAT(refusal("a.glsl"),
+                testing::StartsWith("b.glsl:1:16: error: expected the name of the uniform"));
 }
 
 TEST_F(BuffersByFile, knobs_of_the_same_name_are_one_knob) {

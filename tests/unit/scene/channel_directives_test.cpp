@@ -112,7 +112,7 @@ TEST(ChannelDirectives, the_type_is_a_plain_texture_or_a_cubemap) {
     for (const std::string& text : {type + "#iChannel0 \"a_*.png\"", "#iChannel0 \"a_*.png\"\n" + type})
         EXPECT_EQ(channel_0(text).input, ChannelInput(Cubemap{{"dir/a_*.png"}}));
     EXPECT_EQ(refusal("#iChannel0::Type \"Cubemap\""),
-              "dir/a.glsl:1: error: Type \"Cubemap\": give Texture2D or CubeMap");
+              "dir/a.glsl:1:13: error: Type \"Cubemap\": give Texture2D or CubeMap");
 }
 
 TEST(ChannelDirectives, a_file_is_what_its_extension_says) {
@@ -143,14 +143,15 @@ TEST(ChannelDirectives, may_run_over_lines_and_around_comments) {
 
 TEST(ChannelDirectives, values_that_there_are_not) {
     EXPECT_EQ(refusal("#iChannel0::MinFilter \"nearest\""),
-              "dir/a.glsl:1: error: MinFilter \"nearest\": give Nearest, Linear, or one of the two with "
+              "dir/a.glsl:1:13: error: MinFilter \"nearest\": give Nearest, Linear, or one of the two with "
               "MipMapNearest or MipMapLinear behind it");
     EXPECT_EQ(refusal("#iChannel0::MagFilter \"NearestMipMapLinear\""),
-              "dir/a.glsl:1: error: MagFilter \"NearestMipMapLinear\": give Nearest or Linear");
+              "dir/a.glsl:1:13: error: MagFilter \"NearestMipMapLinear\": give Nearest or Linear");
     EXPECT_EQ(refusal("#iChannel0::WrapMode \"Border\""),
-              "dir/a.glsl:1: error: WrapMode \"Border\": give Repeat, Clamp or Mirror");
-    EXPECT_EQ(refusal("\n#iChannel0::Filter \"Linear\""),
-              "dir/a.glsl:2: error: unknown parameter 'Filter': give MinFilter, MagFilter, WrapMode or Type");
+              "dir/a.glsl:1:13: error: WrapMode \"Border\": give Repeat, Clamp or Mirror");
+    EXPECT_EQ(
+        refusal("\n#iChannel0::Filter \"Linear\""),
+        "dir/a.glsl:2:13: error: unknown parameter 'Filter': give MinFilter, MagFilter, WrapMode or Type");
 }
 
 TEST(ChannelDirectives, channels_that_there_are_not) {
@@ -161,17 +162,17 @@ TEST(ChannelDirectives, channels_that_there_are_not) {
 
 TEST(ChannelDirectives, what_is_missing_is_said) {
     EXPECT_EQ(refusal("#iChannel0 noise\n"),
-              "dir/a.glsl:1: error: expected a name in quotes but found 'noise'");
+              "dir/a.glsl:1:12: error: expected a name in quotes but found 'noise'");
     EXPECT_EQ(refusal("#iChannel0"),
-              "dir/a.glsl:1: error: expected a name in quotes but found the end of the file");
+              "dir/a.glsl:1:11: error: expected a name in quotes but found the end of the file");
     EXPECT_EQ(refusal("#iChannel0 \"a.png\nfloat x;"),
-              "dir/a.glsl:1: error: expected a name in quotes but found '\"'");
+              "dir/a.glsl:1:12: error: expected a name in quotes but found '\"'");
     EXPECT_EQ(refusal("#iChannel0:WrapMode \"Clamp\""),
-              "dir/a.glsl:1: error: expected ':' but found 'WrapMode'");
+              "dir/a.glsl:1:12: error: expected ':' but found 'WrapMode'");
     EXPECT_EQ(refusal("#iChannel0::WrapMode Clamp"),
-              "dir/a.glsl:1: error: expected a name in quotes but found 'Clamp'");
-    EXPECT_EQ(refusal("#iChannel0::"),
-              "dir/a.glsl:1: error: expected a name in quotes but found the end of the file");
+              "dir/a.glsl:1:22: error: expected a name in quotes but found 'Clamp'");
+    EXPECT_EQ(refusal("#iChannel0::"), "dir/a.glsl:1:13: error: expected MinFilter, MagFilter, WrapMode or "
+                                       "Type but found the end of the file");
     EXPECT_EQ(refusal("#iChannel0 \"\""), "dir/a.glsl:1: error: the name of the picture is empty");
 }
 

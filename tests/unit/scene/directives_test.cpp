@@ -45,7 +45,7 @@ TEST(Directives, we_do_not_have_are_said_and_left_out) {
         to_string(directives->warnings[1]),
         "dir/a.glsl:3: warning: #iFirstPersonControls: mouse and wheel move iViewMatrix, around what is in "
         "front; keys do not");
-    EXPECT_EQ(refusal("#iVertex 1"), "dir/a.glsl:1: error: expected a name in quotes but found '1'");
+    EXPECT_EQ(refusal("#iVertex 1"), "dir/a.glsl:1:10: error: expected a name in quotes but found '1'");
 }
 
 TEST(Directives, the_keyboard_asks_for_helpers) {

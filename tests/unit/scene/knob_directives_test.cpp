@@ -112,10 +112,11 @@ TEST(KnobDirectives, a_name_once) {
 
 TEST(KnobDirectives, types_that_there_are_not) {
     for (const std::string type : {"bool", "mat4", "uint", "Float", "7"})
-        EXPECT_EQ(refusal("#iUniform " + type + " a = 1"),
-                  "dir/a.glsl:1: error: expected a type (float, vec2, vec3, vec4, color3, int, ivec2, ivec3 "
-                  "or ivec4) but found '" +
-                      type + "'");
+        EXPECT_EQ(
+            refusal("#iUniform " + type + " a = 1"),
+            "dir/a.glsl:1:11: error: expected a type (float, vec2, vec3, vec4, color3, int, ivec2, ivec3 "
+            "or ivec4) but found '" +
+                type + "'");
 }
 
 TEST(KnobDirectives, without_default_and_range) {
@@ -127,16 +128,16 @@ TEST(KnobDirectives, without_default_and_range) {
 
 TEST(KnobDirectives, values_of_another_type) {
     EXPECT_EQ(refusal("#iUniform float a = vec2(1.0, 2.0)"),
-              "dir/a.glsl:1: error: 'a' is a float: it takes one number");
+              "dir/a.glsl:1:21: error: 'a' is a float: it takes one number");
     EXPECT_EQ(refusal("#iUniform vec3 a = vec2(1.0, 2.0)"),
-              "dir/a.glsl:1: error: 'a' is a vec3: it takes 3 numbers or one for all");
+              "dir/a.glsl:1:20: error: 'a' is a vec3: it takes 3 numbers or one for all");
     for (const std::string number : {"1.0", "1e3", ".5"})
         EXPECT_EQ(refusal("#iUniform int a = " + number),
-                  "dir/a.glsl:1: error: 'a' is an int: it takes whole numbers");
+                  "dir/a.glsl:1:19: error: 'a' is an int: it takes whole numbers");
     EXPECT_EQ(refusal("#iUniform ivec2 a = ivec2(1, 2.5)"),
-              "dir/a.glsl:1: error: 'a' is an ivec2: it takes whole numbers");
+              "dir/a.glsl:1:21: error: 'a' is an ivec2: it takes whole numbers");
     EXPECT_EQ(refusal("#iUniform int a = 1 in { 0, 2.0 }"),
-              "dir/a.glsl:1: error: 'a' is an int: it takes whole numbers");
+              "dir/a.glsl:1:29: error: 'a' is an int: it takes whole numbers");
 }
 
 TEST(KnobDirectives, whole_numbers_fit_an_int) {
@@ -144,41 +145,60 @@ TEST(KnobDirectives, whole_numbers_fit_an_int) {
     EXPECT_EQ(knob("#iUniform int a = -2147483648").value[0], -2147483648.0);
     for (const std::string number : {"2147483648", "-2147483649", "100000000000000000000"})
         EXPECT_EQ(refusal("#iUniform int a = " + number),
-                  "dir/a.glsl:1: error: 'a' is an int: " + number + " does not fit");
+                  "dir/a.glsl:1:19: error: 'a' is an int: " + number + " does not fit");
 }
 
 TEST(KnobDirectives, numbers_that_are_none) {
-    EXPECT_EQ(refusal("#iUniform float a = b"), "dir/a.glsl:1: error: expected a number but found 'b'");
+    EXPECT_EQ(refusal("#iUniform float a = b"), "dir/a.glsl:1:21: error: expected a number but found 'b'");
     EXPECT_EQ(refusal("#iUniform float a = -"),
-              "dir/a.glsl:1: error: expected a number but found the end of the file");
+              "dir/a.glsl:1:22: error: expected a number but found the end of the file");
     for (const std::string number : {"1.0f", "0x10", "7u", "1e999"})
         EXPECT_EQ(refusal("#iUniform float a = " + number),
-                  "dir/a.glsl:1: error: expected a decimal number but found '" + number + "'");
+                  "dir/a.glsl:1:21: error: expected a decimal number but found '" + number + "'");
 }
 
 TEST(KnobDirectives, ranges_that_are_none) {
     EXPECT_EQ(refusal("#iUniform float a in 1.0"),
-              "dir/a.glsl:1: error: expected '{' or '[' but found '1.0'");
-    EXPECT_EQ(refusal("#iUniform float a in { 1.0 }"), "dir/a.glsl:1: error: expected ',' but found '}'");
+              "dir/a.glsl:1:22: error: expected '{' or '[' but found '1.0'");
+    EXPECT_EQ(refusal("#iUniform float a in { 1.0 }"), "dir/a.glsl:1:28: error: expected ',' but found '}'");
     EXPECT_EQ(refusal("#iUniform float a in { 1.0, 2.0, 3.0 }"),
-              "dir/a.glsl:1: error: expected '}' but found ','");
+              "dir/a.glsl:1:32: error: expected '}' but found ','");
     EXPECT_EQ(refusal("#iUniform float a in { 1.0, 2.0 ]"),
-              "dir/a.glsl:1: error: expected '}' but found ']'");
+              "dir/a.glsl:1:33: error: expected '}' but found ']'");
     EXPECT_EQ(refusal("#iUniform float a in [ 1.0, 2.0 }"),
-              "dir/a.glsl:1: error: expected ']' but found '}'");
+              "dir/a.glsl:1:33: error: expected ']' but found '}'");
     EXPECT_EQ(refusal("#iUniform vec2 a in {\n vec2(0.0, 2.0), 1.0 }"),
-              "dir/a.glsl:1: error: the range of 'a' runs backwards");
+              "dir/a.glsl:1:21: error: the range of 'a' runs backwards");
+}
+
+TEST(KnobDirectives, a_bracket_that_is_not_closed_is_said_where_it_stands) {
+    const std::string rest = "\n\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(a[0]); }\n";
+    for (const char* open : {"in { 0.0, 2.0", "in { 0.0,", "in { 0.0", "in {"})
+        EXPECT_EQ(refusal("\n#iUniform float a = 1.0 " + std::string(open) + rest),
+                  "dir/a.glsl:2:28: error: '{' is not closed: '}' is missing")
+            << open;
+    EXPECT_EQ(refusal("#iUniform float a in [ 0.0, 2.0" + rest),
+              "dir/a.glsl:1:22: error: '[' is not closed: ']' is missing");
+    EXPECT_EQ(refusal("#iUniform vec2 a = vec2(1.0, 2.0" + rest),
+              "dir/a.glsl:1:24: error: '(' is not closed: ')' is missing");
+    EXPECT_EQ(refusal("#iUniform float a in { 0.0, 2.0\n#iUniform float b in { 0.0, 2.0 }\n"),
+              "dir/a.glsl:1:22: error: '{' is not closed: '}' is missing");
+    EXPECT_EQ(refusal("#iUniform float a in {\n0.0,\n  two\n}\n"),
+              "dir/a.glsl:3:3: error: expected a number but found 'two'")
+        << "one that is closed may take several lines";
 }
 
 TEST(KnobDirectives, what_is_missing_is_said) {
     EXPECT_EQ(refusal("#iUniform float = 1"),
-              "dir/a.glsl:1: error: expected the name of the uniform but found '='");
-    EXPECT_EQ(refusal("#iUniform"),
-              "dir/a.glsl:1: error: expected a type (float, vec2, vec3, vec4, color3, int, ivec2, ivec3 or "
-              "ivec4) but found the end of the file");
-    EXPECT_EQ(refusal("#iUniform vec2 a = vec2 1"), "dir/a.glsl:1: error: expected '(' but found '1'");
-    EXPECT_EQ(refusal("#iUniform vec2 a = vec2(1, 2;"), "dir/a.glsl:1: error: expected ')' but found ';'");
-    EXPECT_EQ(refusal("#iUniform float a =\n\n;"), "dir/a.glsl:3: error: expected a number but found ';'");
+              "dir/a.glsl:1:17: error: expected the name of the uniform but found '='");
+    EXPECT_EQ(
+        refusal("#iUniform"),
+        "dir/a.glsl:1:10: error: expected a type (float, vec2, vec3, vec4, color3, int, ivec2, ivec3 or "
+        "ivec4) but found the end of the file");
+    EXPECT_EQ(refusal("#iUniform vec2 a = vec2 1"), "dir/a.glsl:1:25: error: expected '(' but found '1'");
+    EXPECT_EQ(refusal("#iUniform vec2 a = vec2(1, 2;"), "dir/a.glsl:1:29: error: expected ')' but found ';'");
+    EXPECT_EQ(refusal("#iUniform float a =\n\n;"),
+              "dir/a.glsl:1:20: error: expected a number but found the end of the line");
 }
 
 } // namespace
