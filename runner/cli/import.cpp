@@ -46,7 +46,8 @@ Receipt read_receipt(const fs::path& folder) {
     while (!rest.empty()) {
         const std::string_view line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-        if (line.size() > k_digits + 2)
+        // A name, for what it tells of is deleted when it is no more: never a path that leads elsewhere.
+        if (line.size() > k_digits + 2 && line.find('/', k_digits) == line.npos)
             receipt[std::string(line.substr(k_digits + 2))] = std::string(line.substr(0, k_digits));
     }
     return receipt;

@@ -12,6 +12,7 @@
 #include "lab/study/report.hpp"
 #include "lab/study/report_data.hpp"
 #include "platform/headless_context.hpp"
+#include "scene/bounds.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -36,8 +37,7 @@ struct StudyOptions {
     bool json = false;
 };
 
-Result<lab::Study> read_study(const fs::path& path) {
-    const auto text = read_text_file(path);
+Result<lab::Study> parse(const fs::path& path, const Result<std::string>& text) {
     if (!text)
         return fail(text.error());
     return lab::parse_study(*text, path.string());
@@ -47,7 +47,7 @@ Result<lab::Study> read_study(const fs::path& path) {
 Result<lab::Study> base_study(const StudyOptions& options) {
     std::error_code ignored;
     if (!options.file.empty())
-        return read_study(options.file);
+        return parse(options.file, read_text_file(options.file));
     const fs::path beside = file_beside(options.scene.path, "study.json");
     const bool exists = fs::exists(beside, ignored);
     if (!exists && options.vary.empty())
@@ -55,7 +55,8 @@ Result<lab::Study> base_study(const StudyOptions& options) {
                                                   beside.string()));
     if (!exists)
         return lab::Study{};
-    auto study = read_study(beside);
+    const scene::Bounds bounds(beside.parent_path(), options.scene.files.allow_outside);
+    auto study = parse(beside, bounds.read_text(beside));
     if (study && !options.vary.empty()) {
         study->series.clear();
         study->about.clear();

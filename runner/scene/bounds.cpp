@@ -40,10 +40,19 @@ Bounds::Bounds(const fs::path& folder, bool allow_outside)
 Result<void> Bounds::check(const fs::path& file) const {
     if (everything_)
         return {};
+    const auto cannot_read = [&](std::string_view why) {
+        return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", file.string(), why));
+    };
+    if (file.native().find('\0') != std::string::npos) // what the system sees ends there
+        return cannot_read(why_unreadable(file));
     std::error_code error;
-    const fs::path real = fs::weakly_canonical(fs::absolute(file), error);
-    if (!error && std::any_of(roots_.begin(), roots_.end(),
-                              [&](const fs::path& root) { return is_inside(real, root); }))
+    fs::path real = fs::absolute(file, error);
+    if (!error)
+        real = fs::weakly_canonical(real, error);
+    if (error)
+        return cannot_read(error.message());
+    if (std::any_of(roots_.begin(), roots_.end(),
+                    [&](const fs::path& root) { return is_inside(real, root); }))
         return {};
     return fail(
         ErrorCode::load,

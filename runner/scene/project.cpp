@@ -76,9 +76,16 @@ private:
         const auto code = json.find("code");
         if (code != json.end() && code->is_string())
             pass.code = code->get<std::string>();
-        else if (code != json.end() && code->is_object() && code->contains("file"))
-            pass.file = as_text(*code, "file");
-        else if (code_in_ == CodeIn::json || (code != json.end() && !code->is_null()))
+        else if (const std::string named =
+                     code != json.end() && code->is_object() ? as_text(*code, "file") : "";
+                 !named.empty()) {
+            if (code_in_ == CodeIn::json)
+                return refuse(
+                    fmt::format("the code of {} stands in the file '{}': so it may in the scene.json "
+                                "of a folder, as `import` makes one; elsewhere it is a string",
+                                called, named));
+            pass.file = named;
+        } else if (code_in_ == CodeIn::json || (code != json.end() && !code->is_null()))
             return refuse(fmt::format("{} has no code", called));
         else
             pass.file.emplace(); // named below, when all passes are known

@@ -30,11 +30,6 @@ Result<std::vector<ProjectFile>> split_project(std::string_view text, const std:
     std::vector<ProjectFile> files;
     for (size_t i = 0; i < names.size(); ++i) {
         ProjectPass& pass = project->passes[i];
-        if (pass.file)
-            return fail(
-                error_at({file}, fmt::format("the code of '{}' stands in the file '{}': this was imported "
-                                             "already",
-                                             names[i], *pass.file)));
         files.push_back({file_name_of(names[i]), std::move(pass.code)});
         (**passes)[i]["code"] = Json{{"file", files.back().name}};
     }

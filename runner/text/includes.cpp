@@ -109,7 +109,8 @@ private:
             return refuse(fmt::format("includes are nested more than {} deep", k_deepest));
         if (++followed_ > k_most)
             return refuse(fmt::format("there are more than {} includes to follow", k_most));
-        auto pasted = expand(target);
+        auto pasted =
+            include.name.empty() ? fail(ErrorCode::load, "#include \"\" names no file") : expand(target);
         if (pasted || !pasted.error().diagnostics.empty())
             return pasted;
         if (include.conditional) { // perhaps for another host: whether it counts is the driver's to say

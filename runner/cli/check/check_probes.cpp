@@ -11,6 +11,7 @@
 #include "glsl/overrides.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/headless_context.hpp"
+#include "scene/bounds.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -53,12 +54,12 @@ Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::stri
     return chosen;
 }
 
-Result<lab::Promises> promises_of(const fs::path& path, const scene::Scene& scene) {
-    const fs::path file = file_beside(path, "check.json");
+Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scene& scene) {
+    const fs::path file = file_beside(request.path, "check.json");
     std::error_code ignored;
     if (!fs::exists(file, ignored))
         return lab::Promises{};
-    const auto text = read_text_file(file);
+    const auto text = scene::Bounds(file.parent_path(), request.files.allow_outside).read_text(file);
     if (!text)
         return fail(text.error());
     return lab::parse_promises(*text, file.string(),
@@ -217,7 +218,7 @@ Result<int> check_probes(const ProbesRequest& request) {
     auto scene = load(request.scene);
     if (!scene)
         return fail(std::move(scene.error()));
-    const auto promises = promises_of(request.scene.path, *scene);
+    const auto promises = promises_of(request.scene, *scene);
     if (!promises)
         return fail(promises.error());
     const bool verdicts_tell = !request.json && ::isatty(STDERR_FILENO) != 1;

@@ -1,5 +1,6 @@
 #include "image/files/video_frames.hpp"
 
+#include "base/file.hpp"
 #include "image/files/child_process.hpp"
 #include "image/files/video_times.hpp"
 
@@ -207,14 +208,8 @@ Result<void> VideoFrames::State::advance_to(size_t index) {
 }
 
 Result<VideoFrames> VideoFrames::open(const std::filesystem::path& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
-        return refuse(path, "no such file");
-    if (std::filesystem::is_directory(status))
-        return refuse(path, "it is a directory");
-    if (!std::filesystem::is_regular_file(status))
-        return refuse(path, "it is not a regular file");
+    if (const std::string why = why_unreadable(path); !why.empty())
+        return refuse(path, why);
     const Result<std::string> text = output_of(video_times_arguments(path), k_most_text);
     if (!text) {
         std::string why = text.error().message;

@@ -98,7 +98,8 @@ TEST_F(Export, what_cannot_be_taken_apart) {
               "x.json: error: this is no ShaderToy project: there is no list named renderpass");
     EXPECT_EQ(
         refused(R"([{"type":"image","code":{"file":"image.glsl"}}])"),
-        "x.json: error: the code of 'Image' stands in the file 'image.glsl': this was imported already");
+        "x.json: error: the code of pass 1 stands in the file 'image.glsl': so it may in the scene.json of "
+        "a folder, as `import` makes one; elsewhere it is a string");
 }
 
 TEST_F(Export, what_cannot_be_put_together) {
