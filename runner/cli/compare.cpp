@@ -170,9 +170,11 @@ Result<int> compare(const CompareOptions& options) {
         return fail(pairs.error());
     std::optional<OutputName> output;
     if (!options.output.empty()) {
-        auto parsed = OutputName::parse(options.output, pairs->size());
-        if (parsed && parsed->standard_output())
+        if (options.output == "-")
             return fail(ErrorCode::usage, "-o: the picture of the difference needs a file");
+        if (auto known = image::check_picture_name(options.output); !known)
+            return fail(std::move(known.error()));
+        auto parsed = OutputName::parse(options.output, pairs->size());
         if (!parsed)
             return fail(parsed.error());
         output = *std::move(parsed);

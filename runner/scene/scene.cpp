@@ -88,15 +88,26 @@ Result<Scene> load_scene(const fs::path& path, const LoadOptions& options) {
     return path.extension() == ".json" ? load_json_scene(path, options) : load_file_scene(path, options);
 }
 
+namespace {
+
+/// How to say what has no `=` in it: a number, of a pass perhaps, wants a source; a source wants a number.
+std::string channel_setting_like(std::string_view setting) {
+    const std::string_view number = setting.substr(setting.rfind(':') + 1);
+    if (!number.empty() && number.find_first_not_of("0123456789") == number.npos)
+        return fmt::format("{0}=FILE, {0}=noise or {0}=none{1}", number.size() == 1 ? setting : "N",
+                           number.size() == 1 ? "" : fmt::format(", N from 0 to {}", k_channel_count - 1));
+    return fmt::format("0={}", setting.empty() || setting.front() == '=' ? "noise" : setting);
+}
+
+} // namespace
+
 Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_view setting,
                                                                     std::string_view option) {
     const size_t equals = setting.find('=');
     if (equals == 0 || equals == std::string_view::npos)
         return fail(ErrorCode::usage,
                     fmt::format("{} {}: give it as {}", option, setting,
-                                option == "--channel"
-                                    ? fmt::format("0={}", setting.empty() ? "noise" : setting)
-                                    : "NAME=VALUE"));
+                                option == "--channel" ? channel_setting_like(setting) : "NAME=VALUE"));
     return std::pair(setting.substr(0, equals), setting.substr(equals + 1));
 }
 

@@ -255,6 +255,10 @@ class Channels(Told):
             self.refused(f"--channel {wrong}",
                          f"--channel {wrong}: give it as N=FILE, N=noise or N=none, N from 0 to 9")
         self.refused("--channel noise", "--channel noise: give it as 0=noise")
+        for place in ("0", "9", "Image:1"):
+            self.refused(f"--channel {place}",
+                         f"--channel {place}: give it as {place}=FILE, {place}=noise or {place}=none")
+        self.refused("--channel 10", "--channel 10: give it as N=FILE, N=noise or N=none, N from 0 to 9")
 
 
 

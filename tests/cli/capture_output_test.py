@@ -69,10 +69,11 @@ class Names(CaptureTest):
         self.assertEqual(done.stderr.splitlines(), ["wrote 2 frames, f0.png to f1.png"])
 
     def test_errors(self):
-        formats = ".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr"
+        formats = (".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr for pictures, in .mp4, .webm or .gif for a video, or "
+                   "in .wav for the sound alone")
         for options, words in [
-            ("-o a.xyz", f"cannot tell the picture format of 'a.xyz': its name must end in {formats}"),
-            ("-o a", f"cannot tell the picture format of 'a': its name must end in {formats}"),
+            ("-o a.xyz", f"cannot tell the format of 'a.xyz': its name must end in {formats}"),
+            ("-o a", f"cannot tell the format of 'a': its name must end in {formats}"),
             ("-o a.png --frames 0-1", "-o a.png: 2 frames need a frame number in the name, as in wave.%04d.png"),
             ("-o a%x.png", "-o a%x.png: write the frame number as %04d or ####"),
             ("-o a%d.%d.png", "-o a%d.%d.png: it has two frame numbers; one is enough"),

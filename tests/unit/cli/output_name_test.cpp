@@ -84,8 +84,9 @@ TEST(OutputName, unknown_formats) {
         ASSERT_FALSE(name) << pattern;
         EXPECT_EQ(name.error().code, ErrorCode::usage);
         EXPECT_EQ(name.error().message,
-                  "cannot tell the picture format of '" + pattern +
-                      "': its name must end in .png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr");
+                  "cannot tell the format of '" + pattern +
+                      "': its name must end in .png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr for pictures, in "
+                      ".mp4, .webm or .gif for a video, or in .wav for the sound alone");
     }
 }
 
