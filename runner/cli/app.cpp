@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/last_resort.hpp"
 #include "cli/limits.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/version.hpp"
@@ -28,8 +29,8 @@ constexpr AddCommand k_commands[] = {
 
 constexpr const char* k_footer =
     R"(`tidemark SCENE` is short for `tidemark view SCENE`. `tidemark COMMAND --help` lists the options.
-Exit codes: 0 ok, 1 a check failed, 2 usage, 3 scene does not load or compile, 4 output cannot be written,
-5 timed out or more memory than --memory, 77 no OpenGL context, 130 interrupted.)";
+Exit codes: 0 ok, 1 a check failed, 2 usage, 3 scene does not load or compile, 4 output cannot be written or
+memory ran out, 5 timed out or more memory than --memory, 70 internal error, 77 no OpenGL context, 130 interrupted.)";
 
 std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
@@ -141,16 +142,16 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
     } catch (const CLI::ConversionError& error) { // "Could not convert: --option = value"
         const std::string_view words = error.what();
         return report(
-            {ErrorCode::usage, fmt::format("{}: this is no number", words.substr(words.find("--"))), {}});
-    } catch (const CLI::ParseError& error) {
+            {ErrorCode::usage,
+             fmt::format("{}: this is no number", words.substr(std::min(words.find("--"), words.size()))),
+             {}});
+    } catch (const CLI::Error& error) {
         return report({ErrorCode::usage, error.what(), {}});
     }
     return std::nullopt;
 }
 
-} // namespace
-
-int run(int argc, const char* const* argv) {
+int run_or_throw(int argc, const char* const* argv) {
     std::signal(SIGPIPE, SIG_IGN); // a reader that went away is a write error like any other
     std::signal(SIGXFSZ, SIG_IGN); // as is a file-size limit
 
@@ -160,6 +161,8 @@ int run(int argc, const char* const* argv) {
     app.set_version_flag("--version", std::string("tidemark ") + k_version);
     app.footer(k_footer);
     app.require_subcommand(1);
+    // An alias may bring an option along that the line gives again.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Action chosen;
     for (const AddCommand add : k_commands)
         add(app, chosen);
@@ -189,6 +192,17 @@ int run(int argc, const char* const* argv) {
     platform::do_without_full_driver_cache();
     const auto outcome = chosen();
     return outcome ? *outcome : report(outcome.error());
+}
+
+} // namespace
+
+int run(int argc, const char* const* argv) {
+    end_by_last_resort();
+    try {
+        return run_or_throw(argc, argv);
+    } catch (...) {
+        return last_resort();
+    }
 }
 
 } // namespace tidemark::cli

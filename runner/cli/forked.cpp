@@ -49,7 +49,9 @@ std::optional<std::string> read_line(int fd) {
     }
 }
 
-[[noreturn]] void be_child(pid_t parent, int questions, int answers, const ForkedHelper::Work& work) {
+/// Nothing that is thrown leaves it: behind it lie the parent's stack and the parent's files.
+[[noreturn]] void be_child(pid_t parent, int questions, int answers,
+                           const ForkedHelper::Work& work) noexcept {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL); // Ctrl-C at the parent ends us too
     if (::getppid() != parent)
         ::_exit(128 + SIGKILL);

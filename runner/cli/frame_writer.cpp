@@ -1,12 +1,17 @@
 #include "cli/frame_writer.hpp"
 
 #include <algorithm>
+#include <new>
+#include <system_error>
 
 namespace tidemark::cli {
 
 FrameWriter::FrameWriter(unsigned workers) : capacity_(workers + 1) {
-    for (unsigned i = 0; i < workers; ++i)
-        workers_.emplace_back([this] { work(); });
+    try {
+        for (unsigned i = 0; i < workers; ++i)
+            workers_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) { // the system's limit: those that there are do it, or `push` itself
+    }
 }
 
 FrameWriter::~FrameWriter() {
@@ -15,6 +20,10 @@ FrameWriter::~FrameWriter() {
 
 bool FrameWriter::push(FrameFile frame) {
     std::unique_lock lock(mutex_);
+    if (workers_.empty()) {
+        write(frame, lock);
+        return errors_.empty();
+    }
     changed_.wait(lock, [&] { return queue_.size() < capacity_ || !errors_.empty(); });
     if (!errors_.empty())
         return false;
@@ -48,13 +57,22 @@ void FrameWriter::work() {
         const FrameFile frame = std::move(queue_.front());
         queue_.pop_front();
         changed_.notify_all();
-        lock.unlock();
-        auto written = image::write_picture(frame.path, frame.image, frame.format);
-        lock.lock();
-        if (!written) {
-            errors_.emplace_back(frame.frame, std::move(written.error()));
-            changed_.notify_all();
-        }
+        write(frame, lock);
+    }
+}
+
+void FrameWriter::write(const FrameFile& frame, std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    Result<void> written;
+    try {
+        written = image::write_picture(frame.path, frame.image, frame.format);
+    } catch (const std::bad_alloc&) {
+        written = fail(ErrorCode::write, "cannot write '" + frame.path.string() + "': out of memory");
+    }
+    lock.lock();
+    if (!written) {
+        errors_.emplace_back(frame.frame, std::move(written.error()));
+        changed_.notify_all();
     }
 }
 

@@ -39,6 +39,8 @@ public:
 
 private:
     void work();
+    /// Without the lock meanwhile.
+    void write(const FrameFile& frame, std::unique_lock<std::mutex>& lock);
 
     std::mutex mutex_;
     std::condition_variable changed_;

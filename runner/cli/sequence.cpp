@@ -44,9 +44,9 @@ Result<Sequence> find_sequence(std::string_view name) {
         return fail(pattern.error());
     const fs::path folder = pattern->pattern().parent_path();
     Sequence found;
-    for (const fs::directory_entry& entry :
-         fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
-        if (const auto number = number_of(entry.path(), *pattern))
+    for (fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, ignored), end;
+         !ignored && entry != end; entry.increment(ignored))
+        if (const auto number = number_of(entry->path(), *pattern))
             found[number] = pattern->of_frame(*number);
     if (found.empty())
         return fail(ErrorCode::load, fmt::format("there is no file '{}'", name));

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <span>
+#include <system_error>
 
 namespace tidemark::cli {
 namespace {
@@ -99,8 +100,13 @@ void SoundPlayer::play(platform::WindowContext context, const scene::Scene& scen
         return;
     playing_ = text_to_play(scene, pass);
     order_.emplace(Order{std::move(context), scene, precision});
-    if (!thread_.joinable())
-        thread_ = std::thread([this] { run(); });
+    try {
+        if (!thread_.joinable())
+            thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error& no_thread) {
+        order_.reset();
+        say(std::string("the scene's sound is not heard: no thread is to be had: ") + no_thread.what());
+    }
     changed_.notify_all();
 }
 

@@ -1,7 +1,11 @@
 #include "cli/view/stage_builder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <exception>
 #include <mutex>
+#include <system_error>
 
 namespace tidemark::cli {
 namespace {
@@ -13,6 +17,15 @@ Result<Stage> build(StageBuilder::Order order) {
     if (order.settle)
         return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
     return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
+}
+
+/// The picture on show goes on, whatever becomes of the next one.
+Result<Stage> build_or_say_why(StageBuilder::Order order) {
+    try {
+        return build(std::move(order));
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::load, fmt::format("the scene cannot be built: {}", error.what()));
+    }
 }
 
 } // namespace
@@ -41,18 +54,24 @@ void StageBuilder::start(Order order) {
 
 void StageBuilder::launch(Order order) {
     newest_ = std::make_shared<Job>();
-    std::thread thread([job = newest_, wake = wake_, order = std::move(order)]() mutable {
-        {
-            auto built = build(std::move(order));
+    try {
+        std::thread thread([job = newest_, wake = wake_, order = std::move(order)]() mutable {
+            {
+                auto built = build_or_say_why(std::move(order));
+                const std::lock_guard lock(job->mutex);
+                if (!job->abandoned)
+                    job->outcome.emplace(std::move(built));
+            } // one that nobody wants ends here
             const std::lock_guard lock(job->mutex);
-            if (!job->abandoned)
-                job->outcome.emplace(std::move(built));
-        } // one that nobody wants ends here
-        const std::lock_guard lock(job->mutex);
-        job->done = true;
-        wake();
-    });
-    running_.emplace_back(std::move(thread), newest_);
+            job->done = true;
+            wake();
+        });
+        running_.emplace_back(std::move(thread), newest_);
+    } catch (const std::system_error& no_thread) {
+        newest_->outcome.emplace(
+            fail(ErrorCode::load, fmt::format("no thread is to be had to compile on: {}", no_thread.what())));
+        wake_();
+    }
 }
 
 void StageBuilder::abandon() {

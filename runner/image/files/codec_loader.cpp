@@ -3,6 +3,10 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <future>
+#include <system_error>
+#include <thread>
+
 namespace tidemark::image {
 namespace fs = std::filesystem;
 namespace {
@@ -30,6 +34,24 @@ Result<const PictureCodec*> codec_of(void* library, const fs::path& plugin) {
     return codec;
 }
 
+/// Libraries behind the plug-in start threads while they are loaded, and end the process or wait for ever
+/// where they get none. The driver may be starting its own meanwhile.
+bool threads_are_to_be_had() {
+    const unsigned count = 8 + 2 * std::thread::hardware_concurrency();
+    std::promise<void> end;
+    const std::shared_future<void> ended = end.get_future().share();
+    bool good = true;
+    std::vector<std::jthread> threads;
+    try {
+        while (threads.size() < count)
+            threads.emplace_back([ended] { ended.wait(); });
+    } catch (const std::system_error&) {
+        good = false;
+    }
+    end.set_value();
+    return good;
+}
+
 void* open_library(const fs::path& plugin) {
     // Lazy, because most of the thousands of functions in OpenImageIO's libraries are never called; for
     // good, because their destructors run at exit; local, because they bring symbols of everyone's.
@@ -48,6 +70,11 @@ Result<const PictureCodec*> load_picture_codec(const fs::path& file_name,
             looked_in += fmt::format("'{}', ", folder.string());
             continue;
         }
+        if (!threads_are_to_be_had())
+            return fail(ErrorCode::load,
+                        fmt::format("cannot load the picture plug-in '{}': the system allows too "
+                                    "few threads, or too little memory for them",
+                                    plugin.string()));
         if (void* library = open_library(plugin))
             return codec_of(library, plugin);
         return unusable(plugin, last_loader_error());

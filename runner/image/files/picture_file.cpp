@@ -192,7 +192,11 @@ std::jthread preload_picture_codec(const fs::path& path) {
     const WrittenFormat* format = written_format(path);
     if (!format || format->format == FileFormat::png)
         return {};
-    return std::jthread([] { picture_codec(); });
+    try {
+        return std::jthread([] { picture_codec(); });
+    } catch (const std::system_error&) { // no thread is to be had
+        return {};
+    }
 }
 
 Result<Image> read_picture(const fs::path& path) {

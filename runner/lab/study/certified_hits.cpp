@@ -92,8 +92,11 @@ bool march(const Reference& reference, Extent extent, const CertifiedOptions& op
         }
     };
     std::vector<std::jthread> helpers;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
-        helpers.emplace_back(rows, [] { return true; });
+    try {
+        for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
+            helpers.emplace_back(rows, [] { return true; });
+    } catch (const std::system_error&) { // the system's limit: fewer do it
+    }
     rows(keep_going);
     helpers.clear(); // waits
     return going;
