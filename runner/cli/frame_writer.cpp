@@ -49,7 +49,7 @@ void FrameWriter::work() {
         queue_.pop_front();
         changed_.notify_all();
         lock.unlock();
-        auto written = image::write_picture(frame.path, frame.image, frame.format);
+        auto written = image::write_picture(frame.output, frame.image, frame.format);
         lock.lock();
         if (!written) {
             errors_.emplace_back(frame.frame, std::move(written.error()));

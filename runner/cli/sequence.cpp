@@ -26,7 +26,7 @@ std::optional<int> number_of(const fs::path& file, const OutputName& pattern) {
         for (size_t begin = i; begin < end; ++begin) { // the pattern may have digits of its own
             int number = 0;
             const auto [last, error] = std::from_chars(name.data() + begin, name.data() + end, number);
-            if (error == std::errc{} && pattern.of_frame(number).filename() == file.filename())
+            if (error == std::errc{} && pattern.of_frame(number).path().filename() == file.filename())
                 return number;
         }
     }
@@ -47,7 +47,7 @@ Result<Sequence> find_sequence(std::string_view name) {
     for (const fs::directory_entry& entry :
          fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
         if (const auto number = number_of(entry.path(), *pattern))
-            found[number] = pattern->of_frame(*number);
+            found[number] = pattern->of_frame(*number).path();
     if (found.empty())
         return fail(ErrorCode::load, fmt::format("there is no file '{}'", name));
     return found;

@@ -81,18 +81,8 @@ std::string to_line(std::string_view what, const CompiledSizes& sizes,
 } // namespace
 
 FreshDriverCache::FreshDriverCache() {
-    std::error_code failed;
-    std::string name = (std::filesystem::temp_directory_path(failed) / "tidemark-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-        return;
-    ::setenv(k_cache_variable, name.c_str(), 1);
-    folder_ = std::move(name);
-}
-
-FreshDriverCache::~FreshDriverCache() {
-    std::error_code ignored;
-    if (!folder_.empty())
-        std::filesystem::remove_all(folder_, ignored);
+    if (!folder_.path().empty())
+        ::setenv(k_cache_variable, folder_.path().c_str(), 1);
 }
 
 std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
