@@ -1,6 +1,7 @@
 #include "base/leftovers.hpp"
 
 #include <limits.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,6 +24,7 @@ struct Slot {
 
 std::array<Slot, 48> slots; // the only thing that a handler is given is its signal
 std::atomic<bool> ending = false;
+constexpr int k_last_moment_ms = 2;
 
 /// -1: they are all taken.
 int take(const char* path, pid_t child) {
@@ -40,6 +42,12 @@ int take(const char* path, pid_t child) {
     return -1;
 }
 
+void remove_files(pid_t self) {
+    for (const Slot& slot : slots)
+        if (slot.owner == self && slot.child == 0)
+            ::unlink(slot.path.data());
+}
+
 /// Children first, who may be about to make a file.
 void clear() {
     ending = true;
@@ -50,9 +58,9 @@ void clear() {
             while (::waitpid(slot.child, nullptr, 0) < 0 && errno == EINTR) {
             }
         }
-    for (const Slot& slot : slots)
-        if (slot.owner == self && slot.child == 0)
-            ::unlink(slot.path.data());
+    remove_files(self);
+    ::poll(nullptr, 0, k_last_moment_ms); // another thread had its name and no file yet
+    remove_files(self);
 }
 
 } // namespace

@@ -9,10 +9,8 @@
 
 namespace tidemark::cli {
 namespace fs = std::filesystem;
-namespace {
 
-/// The number that makes `pattern` this file: one of the runs of digits in its name.
-std::optional<int> number_of(const fs::path& file, const OutputName& pattern) {
+std::optional<int> frame_of(const fs::path& file, const OutputName& pattern) {
     const std::string name = file.filename().string();
     const auto digit = [&](size_t i) {
         return i < name.size() && std::isdigit(static_cast<unsigned char>(name[i]));
@@ -33,8 +31,6 @@ std::optional<int> number_of(const fs::path& file, const OutputName& pattern) {
     return std::nullopt;
 }
 
-} // namespace
-
 Result<Sequence> find_sequence(std::string_view name) {
     std::error_code ignored;
     if (name.find_first_of("%#") == std::string_view::npos || fs::exists(name, ignored))
@@ -46,7 +42,7 @@ Result<Sequence> find_sequence(std::string_view name) {
     Sequence found;
     for (const fs::directory_entry& entry :
          fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
-        if (const auto number = number_of(entry.path(), *pattern))
+        if (const auto number = frame_of(entry.path(), *pattern))
             found[number] = pattern->of_frame(*number).path();
     if (found.empty())
         return fail(ErrorCode::load, fmt::format("there is no file '{}'", name));

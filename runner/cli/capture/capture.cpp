@@ -7,6 +7,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/options.hpp"
+#include "cli/sequence.hpp"
 #include "cli/trial.hpp"
 #include "cli/value_check.hpp"
 #include "gl/capabilities.hpp"
@@ -107,21 +108,17 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
 
 /// What is read must not be written, even by a frame late in a sequence: it is refused before the first.
 Result<void> spare_what_is_read(const scene::Scene& scene, const CaptureOptions& options, CapturePlan& plan) {
-    std::vector<std::filesystem::path> read = files_read(scene, options.frames);
+    const std::vector<std::filesystem::path> read = files_read(scene, options.frames);
     if (plan.output.standard_output())
         return {};
     plan.output.spare(read);
     if (auto writable = check_writable(plan.output.of_frame(plan.frames.frames.front())); !writable)
         return writable;
-    std::erase_if(read, [&](const auto& file) {
-        return plan.output.video() || file.extension() != plan.output.pattern().extension();
-    });
     for (const std::filesystem::path& file : read)
-        for (const int frame : plan.frames.frames)
-            if (const OutputPath output = plan.output.of_frame(frame);
-                output.path().filename() == file.filename())
-                if (auto place = output.place(); !place)
-                    return fail(std::move(place.error()));
+        if (const auto frame = frame_of(file, plan.output);
+            frame && std::ranges::find(plan.frames.frames, *frame) != plan.frames.frames.end())
+            if (auto place = plan.output.of_frame(*frame).place(); !place)
+                return fail(std::move(place.error()));
     return {};
 }
 
