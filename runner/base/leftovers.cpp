@@ -2,6 +2,7 @@
 
 #include <limits.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <new>
 
 namespace tidemark {
 namespace {
@@ -22,7 +24,18 @@ struct Slot {
     std::array<char, PATH_MAX> path{};
 };
 
-std::array<Slot, 48> slots; // the only thing that a handler is given is its signal
+using Slots = std::array<Slot, 48>;
+
+/// One for a process and all that are forked from it, which may end without a word.
+Slots& slots() {
+    static Slots* const shared = [] {
+        void* const memory =
+            ::mmap(nullptr, sizeof(Slots), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        return memory == MAP_FAILED ? new Slots : new (memory) Slots;
+    }();
+    return *shared;
+}
+
 std::atomic<bool> ending = false;
 constexpr int k_last_moment_ms = 2;
 
@@ -30,20 +43,20 @@ constexpr int k_last_moment_ms = 2;
 int take(const char* path, pid_t child) {
     while (ending)
         ::pause(); // another thread is about to end the process
-    for (size_t i = 0; i < slots.size(); ++i) {
+    for (Slot& slot : slots()) {
         pid_t free = Slot::k_free;
-        if (!slots[i].owner.compare_exchange_strong(free, Slot::k_in_hand))
+        if (!slot.owner.compare_exchange_strong(free, Slot::k_in_hand))
             continue;
-        slots[i].child = child;
-        std::strncpy(slots[i].path.data(), path, PATH_MAX - 1);
-        slots[i].owner = ::getpid();
-        return int(i);
+        slot.child = child;
+        std::strncpy(slot.path.data(), path, PATH_MAX - 1);
+        slot.owner = ::getpid();
+        return int(&slot - slots().data());
     }
     return -1;
 }
 
 void remove_files(pid_t self) {
-    for (const Slot& slot : slots)
+    for (const Slot& slot : slots())
         if (slot.owner == self && slot.child == 0)
             ::unlink(slot.path.data());
 }
@@ -52,7 +65,7 @@ void remove_files(pid_t self) {
 void clear() {
     ending = true;
     const pid_t self = ::getpid();
-    for (const Slot& slot : slots)
+    for (const Slot& slot : slots())
         if (slot.owner == self && slot.child > 0) {
             ::kill(-slot.child, SIGKILL);
             while (::waitpid(slot.child, nullptr, 0) < 0 && errno == EINTR) {
@@ -80,7 +93,7 @@ Leftover Leftover::child(pid_t process) {
 
 void Leftover::forget() {
     if (slot_ >= 0)
-        slots[size_t(std::exchange(slot_, -1))].owner = Slot::k_free;
+        slots()[size_t(std::exchange(slot_, -1))].owner = Slot::k_free;
 }
 
 void exit_at_once(int code) {
@@ -88,7 +101,19 @@ void exit_at_once(int code) {
     ::_exit(code);
 }
 
+void clear_leftovers_of_the_dead() {
+    for (Slot& slot : slots()) {
+        const pid_t owner = slot.owner;
+        if (owner <= 0 || owner == ::getpid() || ::kill(owner, 0) == 0)
+            continue;
+        if (slot.child == 0)
+            ::unlink(slot.path.data());
+        slot.owner = Slot::k_free;
+    }
+}
+
 void clear_leftovers_on_signals() {
+    slots(); // a handler finds it there
     struct sigaction action {};
     action.sa_handler = [](int signal) {
         clear();

@@ -33,8 +33,12 @@ private:
 /// Instead of `exit` and its destructors.
 [[noreturn]] void exit_at_once(int code);
 
-/// SIGHUP, SIGINT, SIGQUIT and SIGTERM take what is minded with them, where nobody else asked for them. One
-/// that is ignored stays so.
+/// What processes minded that were forked from this one and have ended: a crash or SIGKILL leaves no time for
+/// it.
+void clear_leftovers_of_the_dead();
+
+/// To be called before the first fork. SIGHUP, SIGINT, SIGQUIT and SIGTERM take what is minded with them,
+/// where nobody else asked for them. One that is ignored stays so.
 void clear_leftovers_on_signals();
 
 } // namespace tidemark

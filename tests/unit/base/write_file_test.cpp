@@ -345,6 +345,22 @@ TEST(StagedFile, a_planted_name_is_not_opened) {
     EXPECT_EQ(read_file(folder / "a.png"), "x");
 }
 
+TEST(StagedFile, one_of_a_forked_process_that_was_killed_is_removed_by_its_parent) {
+    const TemporaryFolder folder;
+    clear_leftovers_on_signals(); // before the fork
+    const auto own = StagedFile::create(folder / "own.png");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto staged = StagedFile::create(folder / "a.png");
+        ::raise(SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(files_in(folder), 2u);
+    clear_leftovers_of_the_dead();
+    EXPECT_EQ(files_in(folder), 1u);
+    EXPECT_TRUE(fs::exists(own->path()));
+}
+
 /// What is left in the folder by a child that such a signal ends in the midst of its work.
 size_t left_by_child(const TemporaryFolder& folder, int signal) {
     int ready[2];
