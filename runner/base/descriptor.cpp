@@ -1,5 +1,6 @@
 #include "base/descriptor.hpp"
 
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,7 +27,7 @@ tl::expected<std::string, int> read_all(int fd, size_t largest) {
     std::string bytes;
     bytes.reserve(size_t(facts.st_size));
     char block[1 << 13]; // a thread's stack may be small
-    for (;;) { // it may grow meanwhile, and files of /proc have no size
+    for (;;) {           // it may grow meanwhile, and files of /proc have no size
         const ssize_t count = ::read(fd, block, sizeof block);
         if (count < 0 && errno == EINTR)
             continue;
@@ -43,11 +44,14 @@ tl::expected<std::string, int> read_all(int fd, size_t largest) {
 int write_all(int fd, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written < 0)
+        if (written >= 0) {
+            bytes = bytes.subspan(size_t(written));
+        } else if (errno == EAGAIN) {
+            pollfd wait{fd, POLLOUT, 0};
+            ::poll(&wait, 1, -1);
+        } else if (errno != EINTR) {
             return errno;
-        bytes = bytes.subspan(size_t(written));
+        }
     }
     return 0;
 }

@@ -31,7 +31,7 @@ private:
 /// read.
 tl::expected<std::string, int> read_all(int fd, size_t largest);
 
-/// 0, or the error of the first write that failed.
+/// 0, or the error of the first write that failed. Waits where the descriptor itself does not.
 int write_all(int fd, std::span<const std::byte> bytes);
 
 } // namespace tidemark

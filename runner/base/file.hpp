@@ -2,6 +2,8 @@
 // not at all. Knows nothing of what the bytes mean.
 #pragma once
 
+#include "base/leftovers.hpp"
+#include "base/output_path.hpp"
 #include "base/result.hpp"
 
 #include <filesystem>
@@ -27,10 +29,14 @@ Result<std::string> read_file(const std::filesystem::path& path, size_t largest 
 Result<std::string> read_text_file(const std::filesystem::path& path);
 
 /// A file under construction beside its final place: written under a temporary name that keeps the
-/// extension, moved onto the final name by `commit`, removed when dropped without one.
+/// extension, moved onto the final name by `commit`, removed when dropped without one, or when the process is
+/// ended by a signal. Of a device or a pipe, which are never replaced, it lies in the folder for temporary
+/// files, and `commit` copies it.
 class StagedFile {
 public:
-    explicit StagedFile(std::filesystem::path final_path);
+    /// Makes it, empty (ErrorCode::write: OutputPath::place). `extension`: instead of the output's. Removes
+    /// what a process that was killed left of the same output.
+    static Result<StagedFile> create(const OutputPath& output, std::string_view extension = {});
     StagedFile(StagedFile&& other) noexcept;
     StagedFile& operator=(StagedFile&&) = delete;
     StagedFile(const StagedFile&) = delete;
@@ -38,23 +44,35 @@ public:
     ~StagedFile();
 
     const std::filesystem::path& path() const { return temporary_; }
+    /// Open for reading and writing, until `commit`.
+    int descriptor() const { return descriptor_; }
+    Result<void> write(std::span<const std::byte> bytes);
     Result<void> commit();
 
 private:
-    std::filesystem::path final_;
+    StagedFile(OutputPath output, OutputPath::Place place)
+        : output_(std::move(output)), place_(std::move(place)) {}
+    Result<void> open(const std::filesystem::path& folder, const std::string& stem,
+                      const std::string& extension);
+
+    OutputPath output_;
+    OutputPath::Place place_;
     std::filesystem::path temporary_;
+    int descriptor_ = -1;
+    Leftover leftover_;
 };
 
 /// Writes the whole file or leaves what was there (ErrorCode::write, naming the path and the reason). A
-/// device or a pipe is written to as it is.
-Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
-Result<void> write_file(const std::filesystem::path& path, std::string_view text);
+/// device or a pipe is written to as it is; a pipe that nobody reads is given up after a while.
+Result<void> write_file(const OutputPath& output, std::span<const std::byte> bytes);
+Result<void> write_file(const OutputPath& output, std::string_view text);
 
 /// Whether `write_file` would come to writing (ErrorCode::write as there): asked before long work. Leaves
 /// nothing behind.
-Result<void> check_writable(const std::filesystem::path& path);
+Result<void> check_writable(const OutputPath& output);
 
-/// Makes the folder and those above it, where they are missing (ErrorCode::write, naming it and the reason).
-Result<void> make_folder(const std::filesystem::path& folder);
+/// Makes the folder and those above it, where they are missing (ErrorCode::write, naming it and the reason,
+/// or the link that was not named).
+Result<void> make_folder(const OutputPath& folder);
 
 } // namespace tidemark

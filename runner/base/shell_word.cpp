@@ -1,12 +1,40 @@
 #include "base/shell_word.hpp"
 
+#include "base/printable.hpp"
+
+#include <fmt/format.h>
+
 namespace tidemark {
+namespace {
+
+/// `$'…'` of bash, zsh and POSIX.1-2024: what a terminal would obey is spelled out. In octal, of which a
+/// shell takes three digits and no more.
+std::string spelled_out(std::string_view word) {
+    std::string quoted = "$'";
+    while (!word.empty()) {
+        const size_t length = first_character(word).length;
+        const std::string_view character = word.substr(0, length);
+        word.remove_prefix(length);
+        if (character == "'" || character == "\\")
+            quoted += '\\';
+        if (is_printable_line(character))
+            quoted += character;
+        else
+            for (const char byte : character)
+                quoted += fmt::format("\\{:03o}", static_cast<unsigned char>(byte));
+    }
+    return quoted + "'";
+}
+
+} // namespace
 
 std::string shell_word(std::string_view word) {
     constexpr std::string_view k_safe =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:,=@%";
     if (!word.empty() && word.find_first_not_of(k_safe) == word.npos)
         return std::string(word);
+    if (!is_printable_line(word))
+        return spelled_out(word);
     std::string quoted = "'";
     for (const char c : word)
         quoted += c == '\'' ? "'\\''" : std::string(1, c);

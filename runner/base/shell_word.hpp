@@ -7,7 +7,8 @@
 
 namespace tidemark {
 
-/// The word as a POSIX shell takes it for one: as it stands where that is safe, else between apostrophes.
+/// The word as a POSIX shell takes it for one: as it stands where that is safe, else between apostrophes,
+/// what steers a terminal spelled out.
 std::string shell_word(std::string_view word);
 
 /// Several, with blanks between them.

@@ -1,3 +1,4 @@
+#include "base/leftovers.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/last_resort.hpp"
@@ -154,6 +155,7 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
 int run_or_throw(int argc, const char* const* argv) {
     std::signal(SIGPIPE, SIG_IGN); // a reader that went away is a write error like any other
     std::signal(SIGXFSZ, SIG_IGN); // as is a file-size limit
+    clear_leftovers_on_signals();
 
     CLI::App app(
         "Tidemark runs ShaderToy shaders: live in a window, or into deterministic frames with no display.");

@@ -17,29 +17,31 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BakeOptions {
-    fs::path output;
+    fs::path output{}; ///< empty: the command's own
     uint32_t seed = image::k_noise_seed;
 };
 
-Result<int> write(const fs::path& path, const image::Image& image) {
+Result<int> write(const OutputPath& output, const image::Image& image) {
+    const fs::path& path = output.path();
     if (auto known = image::check_picture_name(path); !known)
         return fail(std::move(known.error()));
     const auto depth =
         image.type == image::SampleType::f32 ? image::SampleDepth::u16 : image::natural_depth(path);
     const image::PictureFormat format{depth, {{"Software", "tidemark bake"}}};
-    if (auto written = image::write_picture(path, image, format); !written)
+    if (auto written = image::write_picture(output, image, format); !written)
         return fail(std::move(written.error()));
     say(fmt::format("wrote {}", path.string()));
     return 0;
 }
 
 Result<int> bake_noise(const BakeOptions& options) {
-    return write(options.output, image::make_noise(options.seed));
+    return write(OutputPath::typed_or(options.output, "noise.png"), image::make_noise(options.seed));
 }
 
 Result<int> bake_ramps(const BakeOptions& options) {
     for (const image::NamedImage& ramp : image::make_ramps())
-        if (auto written = write(options.output / (ramp.name + ".png"), ramp.image); !written)
+        if (auto written = write(OutputPath::typed(options.output) / (ramp.name + ".png"), ramp.image);
+            !written)
             return written;
     return 0;
 }
@@ -51,9 +53,8 @@ void add_bake(CLI::App& app, Action& chosen) {
     command->require_subcommand(1);
 
     auto noise = std::make_shared<BakeOptions>();
-    noise->output = "noise.png";
     CLI::App* noise_command = command->add_subcommand("noise", "The 256x256 noise that iChannels read");
-    noise_command->add_option("-o,--output", noise->output, "File")->type_name("FILE")->capture_default_str();
+    noise_command->add_option("-o,--output", noise->output, "File [noise.png]")->type_name("FILE");
     noise_command->add_option("--seed", noise->seed, "Another noise of the same kind")
         ->check(number<uint32_t>("a whole number from 0"))
         ->type_name("N")

@@ -58,10 +58,14 @@ image::PictureFormat format_of(const IslandOptions& options, const terrain::Heig
 }
 
 Result<int> bake(const IslandOptions& options) {
-    const fs::path output = options.output.empty() ? "island.exr" : options.output;
-    if (auto known = image::check_picture_format(output, options.depth); !known)
+    OutputPath output = OutputPath::typed_or(options.output, "island.exr");
+    if (!options.heights.empty())
+        output = output.sparing({options.heights});
+    if (auto known = image::check_picture_format(output.path(), options.depth); !known)
         return fail(std::move(known.error()));
-    const std::jthread loading = image::preload_picture_codec(output);
+    const std::jthread loading = image::preload_picture_codec(output.path());
+    if (auto place = output.place(); !place)
+        return fail(std::move(place.error()));
     const auto map = heights_of(options);
     if (!map)
         return fail(map.error());

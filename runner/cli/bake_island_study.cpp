@@ -167,7 +167,8 @@ lab::WorkPrecisionSet march_set(const std::vector<MarchSetting>& settings) {
 
 Result<int> write_march_report(const MarchStudyRequest& request) {
     Interrupt interrupt;
-    if (auto made = prepare_report(request.folder); !made)
+    const OutputPath folder = OutputPath::typed(request.folder);
+    if (auto made = prepare_report(folder); !made)
         return fail(std::move(made.error()));
     const std::vector<MarchSetting> settings = march_settings();
     lab::Findings findings{march_set(settings), {}};
@@ -190,9 +191,9 @@ Result<int> write_march_report(const MarchStudyRequest& request) {
     watcher.finish();
     findings.set.circumstances.clock = "wall clock";
     lab::judge(findings.set);
-    if (auto written = lab::write_report(request.folder, findings); !written)
+    if (auto written = lab::write_report(folder, findings); !written)
         return fail(std::move(written.error()));
-    say_findings(findings.set, request.folder);
+    say_findings(findings.set, folder.path());
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }
 

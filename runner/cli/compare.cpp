@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/output_name.hpp"
 #include "cli/sequence.hpp"
 #include "cli/value_check.hpp"
@@ -96,6 +97,13 @@ Result<std::vector<Pair>> pairs_of(const CompareOptions& options) {
     return pairs;
 }
 
+std::vector<std::filesystem::path> pictures_of(const std::vector<Pair>& pairs) {
+    std::vector<std::filesystem::path> pictures;
+    for (const Pair& pair : pairs)
+        pictures.insert(pictures.end(), {pair.reference, pair.test});
+    return pictures;
+}
+
 Result<void> check(const CompareOptions& options) {
     if (!(options.tolerance >= 0.0))
         return fail(ErrorCode::usage, "--tolerance: give a number from 0 up, in parts of the peak");
@@ -153,13 +161,13 @@ Json json_of(const Pair& pair, const PictureMetrics& metrics) {
 }
 
 /// The picture of the difference, in the depth of its format.
-Result<void> write_map(const CompareOptions& options, const std::filesystem::path& file,
-                       const image::Image& reference, const image::Image& test) {
-    const image::SampleDepth depth = image::natural_depth(file);
+Result<void> write_map(const CompareOptions& options, const OutputPath& output, const image::Image& reference,
+                       const image::Image& test) {
+    const image::SampleDepth depth = image::natural_depth(output.path());
     const double gain = options.gain.value_or(depth == image::SampleDepth::u8 ? 8.0 : 1.0);
     const image::Image picture = options.map == "flip" ? image::heat_map(image::flip(reference, test).map)
                                                        : image::difference_picture(reference, test, gain);
-    return image::write_picture(file, picture, {depth});
+    return image::write_picture(output, picture, {depth});
 }
 
 Result<int> compare(const CompareOptions& options) {
@@ -178,6 +186,10 @@ Result<int> compare(const CompareOptions& options) {
         if (!parsed)
             return fail(parsed.error());
         output = *std::move(parsed);
+        output->spare(pictures_of(*pairs));
+        for (const Pair& pair : *pairs)
+            if (auto place = output->of_frame(pair.frame.value_or(0)).place(); !place)
+                return fail(std::move(place.error()));
     }
     Json json = {{"tidemark", k_version}, {"frames", Json::array()}};
     std::string text;
@@ -203,7 +215,7 @@ Result<int> compare(const CompareOptions& options) {
             beyond.push_back(std::move(line));
     }
     json["failures"] = beyond;
-    if (auto printed = put(options.json ? json.dump(2) + "\n" : text); !printed)
+    if (auto printed = put(options.json ? dump(json, 2) + "\n" : text); !printed)
         return fail(printed.error());
     for (const std::string& line : beyond)
         say(line);

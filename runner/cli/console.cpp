@@ -1,6 +1,9 @@
 #include "cli/console.hpp"
 
+#include "base/printable.hpp"
+
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -10,12 +13,17 @@
 namespace tidemark::cli {
 
 void say(std::string_view line) {
-    const std::string text = std::string(line) + '\n'; // one write: lines of threads do not mix
+    const std::string text = printable(line) + '\n'; // one write: lines of threads do not mix
     (void)std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 Result<void> put(std::string_view text) {
-    return put(std::as_bytes(std::span(text)));
+    const std::string shown = printable(text);
+    return put(std::as_bytes(std::span(shown)));
+}
+
+Result<void> put_exact(std::string_view text) {
+    return ::isatty(STDOUT_FILENO) == 1 ? put(text) : put(std::as_bytes(std::span(text)));
 }
 
 Result<void> put(std::span<const std::byte> bytes) {

@@ -1,6 +1,7 @@
 #include "base/file.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/options.hpp"
 #include "cli/requests.hpp"
 #include "cli/version.hpp"
@@ -32,11 +33,13 @@ fs::path project_folder(const fs::path& scene) {
     return scene.filename() == scene::k_project_file ? folder : fs::path();
 }
 
-Result<std::string> project_of(const ExportOptions& options) {
+/// `read`: becomes the files it is made of.
+Result<std::string> project_of(const ExportOptions& options, std::vector<fs::path>& read) {
     const SceneRequest& request = options.scene;
     if (const fs::path folder = project_folder(request.path); !folder.empty()) {
         if (!request.sets.empty())
             return fail(ErrorCode::usage, "--set: a scene folder with a scene.json is exported as it is");
+        read = scene::scene_files_in(folder);
         return scene::join_project(folder, scene::Bounds(folder, request.files.allow_outside));
     }
     if (request.path.extension() == ".json")
@@ -44,6 +47,7 @@ Result<std::string> project_of(const ExportOptions& options) {
     const auto scene = load(request);
     if (!scene)
         return fail(scene.error());
+    read = files_read(*scene);
     std::vector<Diagnostic> warnings;
     auto project = scene::make_project(*scene, warnings);
     for (const Diagnostic& warning : warnings)
@@ -54,19 +58,20 @@ Result<std::string> project_of(const ExportOptions& options) {
 Result<int> export_scene(const ExportOptions& options) {
     if (options.json && options.output == "-")
         return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
-    const auto project = project_of(options);
+    std::vector<fs::path> read;
+    const auto project = project_of(options, read);
     if (!project)
         return fail(project.error());
     if (options.output == "-")
         return put(*project).map([] { return 0; });
-    if (auto written = write_file(options.output, *project); !written)
+    if (auto written = write_file(OutputPath::typed(options.output).sparing(read), *project); !written)
         return fail(std::move(written.error()));
     say(fmt::format("wrote {}", options.output));
     if (!options.json)
         return 0;
     const nlohmann::ordered_json report = {
         {"tidemark", k_version}, {"scene", options.scene.path.string()}, {"file", options.output}};
-    return put(report.dump(2) + "\n").map([] { return 0; });
+    return put(dump(report, 2) + "\n").map([] { return 0; });
 }
 
 } // namespace

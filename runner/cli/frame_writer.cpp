@@ -65,9 +65,10 @@ void FrameWriter::write(const FrameFile& frame, std::unique_lock<std::mutex>& lo
     lock.unlock();
     Result<void> written;
     try {
-        written = image::write_picture(frame.path, frame.image, frame.format);
+        written = image::write_picture(frame.output, frame.image, frame.format);
     } catch (const std::bad_alloc&) {
-        written = fail(ErrorCode::write, "cannot write '" + frame.path.string() + "': out of memory");
+        written =
+            fail(ErrorCode::write, "cannot write '" + frame.output.path().string() + "': out of memory");
     }
     lock.lock();
     if (!written) {

@@ -8,7 +8,6 @@
 
 #include <condition_variable>
 #include <deque>
-#include <filesystem>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -18,7 +17,7 @@ namespace tidemark::cli {
 
 struct FrameFile {
     int frame = 0;
-    std::filesystem::path path;
+    OutputPath output;
     image::Image image;
     image::PictureFormat format;
 };

@@ -2,6 +2,8 @@
 #include "base/hash.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/json_dump.hpp"
+#include "cli/output_name.hpp"
 #include "cli/version.hpp"
 #include "scene/project_files.hpp"
 
@@ -46,8 +48,8 @@ Receipt read_receipt(const fs::path& folder) {
     while (!rest.empty()) {
         const std::string_view line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-        // A name, for what it tells of is deleted when it is no more: never a path that leads elsewhere.
-        if (line.size() > k_digits + 2 && line.find('/', k_digits) == line.npos)
+        // A name, for what it tells of is removed when it is no more: never a path that leads elsewhere.
+        if (line.size() > k_digits + 2 && line.find('/') == line.npos)
             receipt[std::string(line.substr(k_digits + 2))] = std::string(line.substr(0, k_digits));
     }
     return receipt;
@@ -61,10 +63,8 @@ bool is_as_written(const fs::path& file, const Receipt& receipt) {
     return bytes && hash_of(*bytes) == written->second;
 }
 
-/// The folder is there and may be written into.
+/// The folder may be written into.
 Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool force) {
-    if (auto made = make_folder(folder); !made)
-        return made;
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && !force && entry != end;
          entry.increment(error))
@@ -87,15 +87,22 @@ Result<int> import(const ImportOptions& options) {
     const auto files = scene::split_project(*json, options.file.string());
     if (!files)
         return fail(files.error());
-    const fs::path folder = options.folder.empty() ? options.file.stem() : options.folder;
+    const OutputPath output =
+        OutputPath::typed_or(options.folder, name_after_scene(options.file, "")).sparing({options.file});
+    if (auto made = make_folder(output); !made)
+        return fail(std::move(made.error()));
+    const fs::path& folder = output.path();
     const Receipt old = read_receipt(folder);
     if (auto prepared = prepare_folder(folder, old, options.force); !prepared)
         return fail(std::move(prepared.error()));
+    for (const scene::ProjectFile& file : *files)
+        if (auto place = (output / file.name).place(); !place)
+            return fail(std::move(place.error()));
 
     std::string receipt;
     std::vector<std::string> names;
     for (const scene::ProjectFile& file : *files) {
-        if (auto written = write_file(folder / file.name, file.bytes); !written)
+        if (auto written = write_file(output / file.name, file.bytes); !written)
             return fail(std::move(written.error()));
         receipt += fmt::format("{}  {}\n", hash_of(file.bytes), file.name);
         names.push_back(file.name);
@@ -104,14 +111,14 @@ Result<int> import(const ImportOptions& options) {
     for (const auto& [name, hash] : old) // a pass that the project no longer has
         if (std::find(names.begin(), names.end(), name) == names.end() && is_as_written(folder / name, old))
             fs::remove(folder / name, ignored);
-    if (auto written = write_file(folder / k_receipt, receipt); !written)
+    if (auto written = write_file(output / k_receipt, receipt); !written)
         return fail(std::move(written.error()));
     say(fmt::format("wrote {}: {}", folder.string(), fmt::join(names, ", ")));
     if (!options.json)
         return 0;
     const nlohmann::ordered_json report = {
         {"tidemark", k_version}, {"folder", folder.string()}, {"files", names}};
-    return put(report.dump(2) + "\n").map([] { return 0; });
+    return put(dump(report, 2) + "\n").map([] { return 0; });
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "cli/interrupt.hpp"
 
-#include <unistd.h>
+#include "base/leftovers.hpp"
 
 namespace tidemark::cli {
 
@@ -8,14 +8,19 @@ Interrupt::Interrupt() {
     sigemptyset(&signals_);
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) // SIGUSR1 wakes the listener for its end
         sigaddset(&signals_, signal);
+    struct sigaction hang_up {};
+    sigaction(SIGHUP, nullptr, &hang_up);
+    if (hang_up.sa_handler != SIG_IGN) // as under nohup
+        sigaddset(&signals_, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals_, &previous_mask_);
     listener_ = std::thread([this] {
         int signal = 0;
         while (sigwait(&signals_, &signal) == 0) {
             if (ending_)
                 return;
-            if (signal != SIGUSR1 && (requested_.exchange(true) || immediate_))
-                ::_exit(k_exit_code);
+            // A terminal that goes is told of by the kernel and by its shell: that is one request.
+            if (signal != SIGUSR1 && ((requested_.exchange(true) && signal != SIGHUP) || immediate_))
+                exit_at_once(k_exit_code);
             const std::lock_guard lock(mutex_);
             if (wake_)
                 wake_();

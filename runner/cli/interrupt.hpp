@@ -9,7 +9,8 @@
 
 namespace tidemark::cli {
 
-/// Takes SIGINT and SIGTERM over while it lives. Make it before any other thread, which inherit its mask.
+/// Takes SIGINT, SIGTERM and SIGHUP over while it lives. Make it before any other thread, which inherit its
+/// mask.
 class Interrupt {
 public:
     Interrupt();

@@ -91,6 +91,14 @@ void add_time_options(CLI::App& command, FrameOptions& options) {
         ->excludes("--input");
 }
 
+std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options) {
+    std::vector<std::filesystem::path> files = scene.files;
+    files.push_back(scene.file);
+    if (options.input)
+        files.emplace_back(*options.input);
+    return files;
+}
+
 Result<FrameRequest> resolve(const FrameOptions& options) {
     FrameRequest request;
     const auto keep = [](auto&& parsed, auto& place) -> Result<void> {

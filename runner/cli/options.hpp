@@ -3,8 +3,10 @@
 
 #include "cli/requests.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -40,6 +42,9 @@ struct FrameOptions {
 void add_picture_options(CLI::App& command, FrameOptions& options);
 /// --frame, --frames, --time, --mouse: what a window gets from the person in front of it.
 void add_time_options(CLI::App& command, FrameOptions& options);
+
+/// All files that a scene is drawn from: what an output must not replace.
+std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options = {});
 
 /// Checks them all. An error names the option and what to give.
 Result<FrameRequest> resolve(const FrameOptions& options);

@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int k_most_digits = 20;
+constexpr int k_default_digits = 4;
 constexpr std::string_view k_face = "{}";
 
 } // namespace
@@ -70,18 +71,59 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
     if (!name.numbered_ && frame_count > 1)
         return refuse(
             fmt::format("{} frames need a frame number in the name, as in wave.%04d.png", frame_count));
+    name.chosen_from_ =
+        std::min(name.before_.find(k_face), name.numbered_ ? name.before_.size() : std::string::npos);
     return name;
 }
 
-fs::path OutputName::of_frame(int frame) const {
-    if (!numbered_)
-        return before_;
-    return fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+OutputName OutputName::of_scene(const fs::path& scene, size_t frame_count) {
+    OutputName name;
+    name.numbered_ = frame_count > 1;
+    name.digits_ = k_default_digits;
+    name.after_ = name.numbered_ ? ".png" : "";
+    name.before_ = name_after_scene(scene, name.numbered_ ? ".0000.png" : ".png");
+    if (name.numbered_)
+        name.before_.resize(name.before_.size() - std::string_view("0000.png").size());
+    name.pattern_ = name.before_ + name.after_;
+    name.chosen_from_ = 0;
+    return name;
 }
 
-fs::path file_of_face(std::string file, size_t face) {
+/// A link may stand where a person typed a name, in folders in front of it too, but not where we chose one.
+OutputPath OutputName::output_of(const std::string& name) const {
+    if (chosen_from_ == std::string::npos)
+        return OutputPath::typed(name).sparing(spared_);
+    const size_t slash = name.rfind('/', chosen_from_);
+    const size_t folder = chosen_from_ == 0 || slash == std::string::npos ? 0 : slash + 1;
+    return (OutputPath::typed(name.substr(0, folder)) / name.substr(folder)).sparing(spared_);
+}
+
+OutputPath OutputName::of_frame(int frame) const {
+    return output_of(numbered_ ? fmt::format("{}{:0{}}{}", before_, frame, digits_, after_) : before_);
+}
+
+OutputPath OutputName::of_face(int frame, size_t face) const {
     static constexpr std::array<std::string_view, 6> k_faces{"px", "nx", "py", "ny", "pz", "nz"};
-    return file.replace(file.find(k_face), k_face.size(), k_faces[face]);
+    std::string name = of_frame(frame).string();
+    return output_of(name.replace(name.find(k_face), k_face.size(), k_faces[face]));
+}
+
+std::string name_after_scene(const fs::path& scene, std::string_view ending) {
+    constexpr size_t k_longest = 255;
+    std::error_code ignored;
+    fs::path named = scene.lexically_normal();
+    if (!named.has_filename()) // "folder/" has none
+        named = named.parent_path();
+    if (named.empty() || named == "." || named.filename() == "..")
+        named = fs::weakly_canonical(scene, ignored);
+    std::string stem = named.stem().string();
+    if (stem.size() + ending.size() > k_longest) {
+        size_t length = k_longest - ending.size();
+        while (length > 0 && (static_cast<unsigned char>(stem[length]) & 0xc0u) == 0x80) // within a character
+            --length;
+        stem.resize(length);
+    }
+    return stem.append(ending);
 }
 
 } // namespace tidemark::cli

@@ -2,11 +2,13 @@
 // `sky_{}.png` for the six faces of a cube.
 #pragma once
 
+#include "base/output_path.hpp"
 #include "base/result.hpp"
 
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tidemark::cli {
 
@@ -18,7 +20,13 @@ public:
     static Result<OutputName> parse(std::string_view pattern, size_t frame_count,
                                     std::string_view option = "-o ");
 
-    std::filesystem::path of_frame(int frame) const;
+    /// Of what SCENE makes where nothing was said: `wave.png`, `wave.0007.png`. What is a pattern elsewhere
+    /// stands for itself.
+    static OutputName of_scene(const std::filesystem::path& scene, size_t frame_count);
+
+    OutputPath of_frame(int frame) const;
+    /// px nx py ny pz nz for `{}`, as in names of cubemaps that scenes read.
+    OutputPath of_face(int frame, size_t face) const;
     /// `-`: raw frames on standard output.
     bool standard_output() const { return standard_output_; }
     /// All frames go into one file.
@@ -26,8 +34,12 @@ public:
     /// A picture's name has `{}` in it: each face of a cube is a file.
     bool six_faces() const { return six_faces_; }
     const std::filesystem::path& pattern() const { return pattern_; }
+    /// Files that are read and must not be replaced.
+    void spare(std::vector<std::filesystem::path> files) { spared_ = std::move(files); }
 
 private:
+    OutputPath output_of(const std::string& name) const;
+
     std::filesystem::path pattern_;
     std::string before_;
     std::string after_;
@@ -36,10 +48,11 @@ private:
     bool standard_output_ = false;
     bool video_ = false;
     bool six_faces_ = false;
+    size_t chosen_from_ = std::string::npos; ///< where in a name that begins which nobody typed as it is
+    std::vector<std::filesystem::path> spared_;
 };
 
-/// What stands for `{}` in `file` (its first one): px nx py ny pz nz, as in names of cubemaps that scenes
-/// read.
-std::filesystem::path file_of_face(std::string file, size_t face);
+/// The name of the scene with this ending, no longer than a file's name may be.
+std::string name_after_scene(const std::filesystem::path& scene, std::string_view ending);
 
 } // namespace tidemark::cli

@@ -1,5 +1,6 @@
 #include "cli/progress.hpp"
 
+#include "base/printable.hpp"
 #include "cli/console.hpp"
 
 #include <fmt/format.h>
@@ -51,7 +52,7 @@ void Progress::advance() {
     if (total_ < 2 || seconds_between(start_, now) < manner_.silent)
         return;
     if (terminal_ && (!on_terminal_ || seconds_between(shown_, now) > k_redraw_seconds || done_ == total_)) {
-        show(k_clear_line + line());
+        show(k_clear_line + printable_line(line()));
         shown_ = now;
         on_terminal_ = true;
     } else if (!terminal_ && (done_ * 10 / total_ > (done_ - 1) * 10 / total_ ||

@@ -107,6 +107,11 @@ Result<scene::Scene> load(const SceneRequest& request) {
     return scene;
 }
 
+std::string file_word(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    return name.starts_with('-') ? "./" + name : name;
+}
+
 std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name) {
     std::error_code ignored;
     return std::filesystem::is_directory(scene, ignored)

@@ -37,6 +37,9 @@ glsl::Precision precision_of(const SceneRequest& request);
 /// The words that ask for what the options change in the scene, as they are typed.
 std::vector<std::string> option_words(const SceneRequest& request);
 
+/// The file's name as the word of a command: one that begins with a dash is no option.
+std::string file_word(const std::filesystem::path& file);
+
 /// What is said of a scene in a file of its own: `waves.check.json` beside `waves.glsl`, `check.json` in a
 /// folder. It need not exist.
 std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name);

@@ -9,10 +9,8 @@
 
 namespace tidemark::cli {
 namespace fs = std::filesystem;
-namespace {
 
-/// The number that makes `pattern` this file: one of the runs of digits in its name.
-std::optional<int> number_of(const fs::path& file, const OutputName& pattern) {
+std::optional<int> frame_of(const fs::path& file, const OutputName& pattern) {
     const std::string name = file.filename().string();
     const auto digit = [&](size_t i) {
         return i < name.size() && std::isdigit(static_cast<unsigned char>(name[i]));
@@ -26,14 +24,12 @@ std::optional<int> number_of(const fs::path& file, const OutputName& pattern) {
         for (size_t begin = i; begin < end; ++begin) { // the pattern may have digits of its own
             int number = 0;
             const auto [last, error] = std::from_chars(name.data() + begin, name.data() + end, number);
-            if (error == std::errc{} && pattern.of_frame(number).filename() == file.filename())
+            if (error == std::errc{} && pattern.of_frame(number).path().filename() == file.filename())
                 return number;
         }
     }
     return std::nullopt;
 }
-
-} // namespace
 
 Result<Sequence> find_sequence(std::string_view name) {
     std::error_code ignored;
@@ -46,8 +42,8 @@ Result<Sequence> find_sequence(std::string_view name) {
     Sequence found;
     for (fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, ignored), end;
          !ignored && entry != end; entry.increment(ignored))
-        if (const auto number = number_of(entry->path(), *pattern))
-            found[number] = pattern->of_frame(*number);
+        if (const auto number = frame_of(entry->path(), *pattern))
+            found[number] = pattern->of_frame(*number).path();
     if (found.empty())
         return fail(ErrorCode::load, fmt::format("there is no file '{}'", name));
     return found;

@@ -10,6 +10,11 @@
 
 namespace tidemark::cli {
 
+class OutputName;
+
+/// The number of the frame that has this file's name by `pattern`: one of the runs of digits in it.
+std::optional<int> frame_of(const std::filesystem::path& file, const OutputName& pattern);
+
 /// By frame number, ascending; a single file has the key nullopt.
 using Sequence = std::map<std::optional<int>, std::filesystem::path>;
 

@@ -4,6 +4,7 @@
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
+#include "cli/output_name.hpp"
 #include "cli/study_support.hpp"
 #include "cli/value_check.hpp"
 #include "gl/capabilities.hpp"
@@ -121,6 +122,16 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
     return study;
 }
 
+/// What the report must not replace. It may take its baseline's place.
+std::vector<fs::path> files_of_study(const StudyOptions& options, const scene::Scene& scene) {
+    std::vector<fs::path> files = files_read(scene);
+    files.push_back(options.file.empty() ? file_beside(options.scene.path, "study.json")
+                                         : fs::path(options.file));
+    if (options.views.ends_with(".json"))
+        files.emplace_back(options.views);
+    return files;
+}
+
 void note_scene_and_driver(lab::Circumstances& facts, const scene::Scene& scene) {
     const gl::Capabilities driver = gl::query_capabilities();
     facts.scene = scene.file.string();
@@ -149,8 +160,6 @@ Result<int> study(const StudyOptions& options) {
     auto plan = plan_study(options);
     if (!plan)
         return fail(std::move(plan.error()));
-    const fs::path folder = options.output.empty() ? fs::path(options.scene.path.stem().string() + "-study")
-                                                   : fs::path(options.output);
     if (!(options.timing.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     Interrupt interrupt;
@@ -161,6 +170,9 @@ Result<int> study(const StudyOptions& options) {
     const auto baseline = options.baseline.empty() ? Result<std::string>() : read_text_file(options.baseline);
     if (!baseline)
         return fail(baseline.error());
+    const OutputPath folder =
+        OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-study"))
+            .sparing(files_of_study(options, *scene));
     if (auto made = prepare_report(folder); !made)
         return fail(std::move(made.error()));
     const auto context = platform::HeadlessContext::create(options.device);
@@ -178,7 +190,7 @@ Result<int> study(const StudyOptions& options) {
     note_scene_and_driver(findings->set.circumstances, *scene);
     if (auto written = lab::write_report(folder, *findings); !written)
         return fail(std::move(written.error()));
-    say_findings(findings->set, folder);
+    say_findings(findings->set, folder.path());
     if (options.json)
         if (auto printed = put(lab::to_json(findings->set)); !printed)
             return fail(std::move(printed.error()));

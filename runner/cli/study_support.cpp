@@ -28,7 +28,7 @@ lab::Circumstances circumstances_now() {
     return facts;
 }
 
-Result<void> prepare_report(const std::filesystem::path& folder) {
+Result<void> prepare_report(const OutputPath& folder) {
     if (auto made = make_folder(folder); !made)
         return made;
     return write_file(folder / "study.json", "{\"complete\": false}\n");

@@ -1,6 +1,7 @@
 // What every study on the command line needs: who watches it, and what is noted of the day.
 #pragma once
 
+#include "base/output_path.hpp"
 #include "base/result.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
@@ -29,7 +30,7 @@ private:
 lab::Circumstances circumstances_now();
 
 /// The folder is made before anything is measured, so that an hour's work has a place to go.
-Result<void> prepare_report(const std::filesystem::path& folder);
+Result<void> prepare_report(const OutputPath& folder);
 
 /// Sentences and remarks for people, and where the report is.
 void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder);

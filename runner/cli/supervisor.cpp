@@ -2,6 +2,7 @@
 
 #include "base/doing.hpp"
 #include "base/error.hpp"
+#include "base/leftovers.hpp"
 #include "cli/console.hpp"
 #include "cli/memory_limit.hpp"
 
@@ -112,6 +113,7 @@ private:
     void end_child() const {
         ::kill(-child_, SIGKILL);
         end_orphans();
+        clear_leftovers_of_the_dead();
     }
 
     std::optional<int> beyond_limits() {
@@ -148,6 +150,7 @@ private:
 
     int after(int status) const {
         end_orphans();
+        clear_leftovers_of_the_dead();
         if (WIFEXITED(status))
             return WEXITSTATUS(status);
         const int signal = WTERMSIG(status);

@@ -1,5 +1,6 @@
 #include "platform/window.hpp"
 
+#include "base/printable.hpp"
 #include "platform/window_keys.hpp"
 
 #include <EGL/egl.h>
@@ -222,7 +223,7 @@ Result<Window> Window::create(Extent logical_size, const std::string& title) {
     if (!glfwInit())
         return cannot_open(last_glfw_error());
     auto state = std::make_unique<State>();
-    state->window.reset(open_window(logical_size, title.c_str()));
+    state->window.reset(open_window(logical_size, printable_line(title).c_str()));
     if (!state->window)
         return cannot_open(last_glfw_error());
     glfwMakeContextCurrent(state->window.get());
@@ -287,7 +288,7 @@ void Window::swap() {
 }
 
 void Window::set_title(const std::string& title) {
-    glfwSetWindowTitle(state_->window.get(), title.c_str());
+    glfwSetWindowTitle(state_->window.get(), printable_line(title).c_str());
 }
 
 void Window::toggle_full_screen() {

@@ -138,16 +138,16 @@ Result<SoundData> read_sound(const std::filesystem::path& path) {
     return sound;
 }
 
-Result<void> write_wav(const std::filesystem::path& path, int rate, std::span<const int16_t> samples) {
+Result<void> write_wav(const OutputPath& output, int rate, std::span<const int16_t> samples) {
     static_assert(std::endian::native == std::endian::little);
     assert(rate > 0 && samples.size() % 2 == 0);
     if (samples.size_bytes() > std::numeric_limits<uint32_t>::max() - 36)
         return fail(ErrorCode::write,
                     fmt::format("cannot write '{}': a WAV file holds 4 GiB at most; write a shorter sound",
-                                path.string()));
+                                output.string()));
     std::string file = wav_header(rate, uint32_t(samples.size_bytes()));
     file.append(reinterpret_cast<const char*>(samples.data()), samples.size_bytes());
-    return write_file(path, file);
+    return write_file(output, file);
 }
 
 } // namespace tidemark::sound

@@ -1,6 +1,7 @@
 // Sound in files: decoded to floats in memory, and written as WAV.
 #pragma once
 
+#include "base/output_path.hpp"
 #include "base/result.hpp"
 
 #include <cstddef>
@@ -28,6 +29,6 @@ struct SoundData {
 Result<SoundData> read_sound(const std::filesystem::path& path);
 
 /// Writes a WAV file of 16-bit stereo: left and right in turn. Whole or not at all (ErrorCode::write).
-Result<void> write_wav(const std::filesystem::path& path, int rate, std::span<const int16_t> samples);
+Result<void> write_wav(const OutputPath& output, int rate, std::span<const int16_t> samples);
 
 } // namespace tidemark::sound

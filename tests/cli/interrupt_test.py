@@ -1,8 +1,10 @@
 """Capture that is stopped: by Ctrl-C, which finishes the frame in hand, and by force."""
 import re
+import shutil
 import signal
 import subprocess
 import time
+import unittest
 
 from support import png
 from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
@@ -56,6 +58,63 @@ class Interrupted(ProgramTest):
         names = self.expect_whole_pictures()
         for name in self.files() - {"wave.glsl", *names}:
             self.assertRegex(name, r"\A\.wave\.\d{4}\.part-\d+-\d+\.png\Z")
+        self.succeed("capture", "wave.glsl", "--size", "16x16", "--frames", "0-1")  # the next run tidies up
+        self.assertEqual(self.files(), {"wave.glsl", *names})
+
+    def test_every_signal_leaves_whole_pictures_alone(self):
+        for stops in ([signal.SIGINT] * 5, [signal.SIGTERM, signal.SIGINT], [signal.SIGHUP, signal.SIGHUP],
+                      [signal.SIGQUIT], [signal.SIGHUP, signal.SIGTERM]):
+            with self.subTest(stops=stops):
+                running = self.start()
+                for stop in stops:
+                    running.send_signal(stop)
+                running.communicate(timeout=TIME_LIMIT)
+                self.assertIn(running.returncode, (130, -signal.SIGQUIT))
+                self.assertEqual(self.files(), {"wave.glsl", *self.expect_whole_pictures()})
+                for name in self.files():
+                    (self.folder / name).unlink()
+
+    def test_ignored_hang_up_is_ignored(self):
+        self.write("wave.glsl", SHADER)
+        with subprocess.Popen(["nohup", PROGRAM, "capture", "wave.glsl", "--size", "256x256", "--frames", "0-60"],
+                              cwd=self.folder, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE) as running:
+            while not (self.folder / "wave.0002.png").exists() and running.poll() is None:
+                time.sleep(0.01)
+            running.send_signal(signal.SIGHUP)
+            running.communicate(timeout=TIME_LIMIT)
+            self.assertEqual(running.returncode, 0)
+        self.assertEqual(len(self.files()), 62)
+
+    def end_at_once(self, stop: signal.Signals, *options: str) -> None:
+        """As soon as there is a file under construction."""
+        self.write("wave.glsl", SHADER)
+        running = subprocess.Popen([PROGRAM, "capture", "wave.glsl", *options], cwd=self.folder, env=environment(),
+                                   stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.addCleanup(running.stderr.close)
+        self.addCleanup(running.kill)
+        deadline = time.monotonic() + TIME_LIMIT
+        # check_writable has one, too, before there is anything to do
+        while not any((self.folder / name).stat().st_size > 0 for name in self.files() if ".part-" in name):
+            self.assertIsNone(running.poll())
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        for _ in range(5):
+            running.send_signal(stop)
+        running.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(self.files(), {"wave.glsl"})
+
+    def test_tiles(self):
+        for stop in (signal.SIGQUIT, signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            with self.subTest(stop=stop.name):
+                self.end_at_once(stop, "--size", "30000x30000", "-o", "big.tif")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_videos(self):
+        for name in ("film.mp4", "film.webm", "film.gif"):
+            for stop in (signal.SIGQUIT, signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+                with self.subTest(name, stop=stop.name):
+                    self.end_at_once(stop, "--size", "320x180", "--fps", "50", "--frames", "0-9999999", "-o", name)
 
 
 if __name__ == "__main__":

@@ -64,7 +64,7 @@ void check_size(std::string_view text) {
 void check_output(std::string_view text) {
     const auto name = cli::OutputName::parse(text, 2);
     if (taken(name) && !name->standard_output() && !name->video())
-        REQUIRE(name->of_frame(1) != name->of_frame(2));
+        REQUIRE(name->of_frame(1).path() != name->of_frame(2).path());
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 import signal
 
 from support import png, probe
-from support.live import LiveTest, main
+from support.live import LiveTest, Screen, View, main
 
 SIZE = ("--size", "200x100")
 VALUES = probe.vector("iMouse", "xyzw") | {"camera": "iCamera[3].x", "toggled":
@@ -106,7 +106,7 @@ class Record(LiveTest):
 
     def test_interrupted_window_keeps_what_was_recorded(self):
         self.write("a.glsl", SCENE)
-        for stop in (signal.SIGINT, signal.SIGTERM):
+        for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(stop=stop.name):
                 view = self.view("a.glsl", *SIZE, "--record", f"{stop.name}.txt")
                 view.key("ctrl+space") # a paused window sleeps until something happens
@@ -116,6 +116,47 @@ class Record(LiveTest):
                 view.program.send_signal(stop)
                 self.assertEqual(view.wait_for_end(), 130)
                 self.assertRegex((self.folder / f"{stop.name}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
+
+    def test_a_display_that_dies_leaves_what_was_recorded(self):
+        self.write("a.glsl", SCENE)
+        for paused in (False, True):
+            with self.subTest(paused=paused):
+                screen = Screen()
+                self.addCleanup(screen.close)
+                view = View(screen, self.folder, "a.glsl", *SIZE, "--record", f"{paused}.txt")
+                self.addCleanup(view.close)
+                view.save_key = "ctrl+s"
+                if paused: # it sleeps until something happens
+                    view.key("ctrl+space")
+                    view.wait_for_title(" - paused at ")
+                view.drag((100, 50), (60, 70))
+                view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 60)
+                screen.server.kill()
+                self.assertEqual(view.wait_for_end(), 77)
+                self.assertTrue(view.stderr().endswith("tidemark: error: the display is gone\n"), view.stderr())
+                self.assertRegex((self.folder / f"{paused}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
+
+    def test_recording_over_what_the_scene_reads(self):
+        scene = self.write("a.glsl", SCENE)
+        done = self.run_program("view", "a.glsl", "--record", "a.glsl")
+        self.assertEqual(done.stderr, "tidemark: error: cannot write 'a.glsl': this command reads that file; give another "
+                                      "name with -o\n")
+        self.assertEqual(done.returncode, 4)
+        self.assertEqual(scene.read_text(), SCENE)
+
+    def test_saved_picture_does_not_follow_a_link(self):
+        self.write("a.glsl", SCENE)
+        self.write("victim", "before")
+        for frame in range(3000):
+            (self.folder / f"a-{frame:05}.png").symlink_to("victim")
+        view = self.view("a.glsl", *SIZE)
+        view.key("ctrl+s")
+        view.wait_for_words(r"saving a-\d{5}\.png")
+        view.key("ctrl+s") # what became of the first is told then, or at the end
+        view.key("Escape")
+        view.wait_for_end()
+        self.assertIn("is a link to 'victim', and a link is followed only where -o names it", view.stderr())
+        self.assertEqual((self.folder / "victim").read_text(), "before")
 
     def test_recording_that_cannot_be_written_is_an_error_at_the_start(self):
         self.write("a.glsl", "not GLSL")

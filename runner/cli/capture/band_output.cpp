@@ -5,7 +5,6 @@
 #include "image/colours.hpp"
 
 #include <algorithm>
-#include <system_error>
 #include <vector>
 
 namespace tidemark::cli {
@@ -62,12 +61,6 @@ Result<void> BandOutput::wait() {
 
 Result<void> BandOutput::finish() {
     return wait().and_then([&] { return stream_ ? stream_->finish() : Result<void>(); });
-}
-
-void BandOutput::abandon() const {
-    std::error_code ignored;
-    if (stream_)
-        std::filesystem::remove(stream_->temporary(), ignored);
 }
 
 } // namespace tidemark::cli

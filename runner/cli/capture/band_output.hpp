@@ -27,8 +27,6 @@ public:
     Result<image::Image> take(image::Image band);
     /// After the last band: the file appears.
     Result<void> finish();
-    /// From whichever thread ends the process, instead of `finish`.
-    void abandon() const;
 
     /// Of the pixels, after `finish`.
     std::string sha256() { return hash_ ? hash_->digits() : std::string(); }

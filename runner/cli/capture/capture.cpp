@@ -5,7 +5,9 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/options.hpp"
+#include "cli/sequence.hpp"
 #include "cli/trial.hpp"
 #include "cli/value_check.hpp"
 #include "gl/capabilities.hpp"
@@ -44,10 +46,6 @@ struct CaptureOptions {
     bool json = false;
 };
 
-std::string default_output(const CaptureOptions& options, size_t frame_count) {
-    return options.scene.path.stem().string() + (frame_count > 1 ? ".%04d.png" : ".png");
-}
-
 /// A buffer is state: a half would make infinity of 1e6. So a pass that was asked for keeps its floats.
 SampleDepth default_depth(const OutputName& output, const std::string& pass) {
     const SampleDepth natural = image::natural_depth(output.pattern());
@@ -82,7 +80,8 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     if (!frames)
         return fail(std::move(frames.error()));
     const size_t count = std::unordered_set(frames->frames.begin(), frames->frames.end()).size();
-    auto output = OutputName::parse(options.output.value_or(default_output(options, count)), count);
+    auto output = options.output ? OutputName::parse(*options.output, count)
+                                 : OutputName::of_scene(options.scene.path, count);
     if (!output)
         return fail(std::move(output.error()));
     if (!output->standard_output() && !output->video())
@@ -105,6 +104,22 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     if (options.timeout && !(*options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
     return CapturePlan{*std::move(frames), *std::move(output), *depth, options.timeout, options.json};
+}
+
+/// What is read must not be written, even by a frame late in a sequence: it is refused before the first.
+Result<void> spare_what_is_read(const scene::Scene& scene, const CaptureOptions& options, CapturePlan& plan) {
+    const std::vector<std::filesystem::path> read = files_read(scene, options.frames);
+    if (plan.output.standard_output())
+        return {};
+    plan.output.spare(read);
+    if (auto writable = check_writable(plan.output.of_frame(plan.frames.frames.front())); !writable)
+        return writable;
+    for (const std::filesystem::path& file : read)
+        if (const auto frame = frame_of(file, plan.output);
+            frame && std::ranges::find(plan.frames.frames, *frame) != plan.frames.frames.end())
+            if (auto place = plan.output.of_frame(*frame).place(); !place)
+                return fail(std::move(place.error()));
+    return {};
 }
 
 /// In fewer frames a trial of another program does not pay.
@@ -195,7 +210,7 @@ void say_what_was_written(const std::vector<FrameRecord>& records, bool video) {
 
 /// The command that finds the line, in the words of the one that was given.
 std::string trace_command(const CaptureOptions& options, int frame) {
-    std::vector<std::string> words{"tidemark", "check", "--trace", options.scene.path.string()};
+    std::vector<std::string> words{"tidemark", "check", "--trace", file_word(options.scene.path)};
     const auto add = [&](const char* option, const std::string& value) {
         words.insert(words.end(), {option, value});
     };
@@ -253,11 +268,12 @@ std::optional<StagedFile> draw_sound_of_video(const scene::Scene& scene, glsl::P
     const auto first = inputs_of(plan.frames, frames.front()).time;
     auto samples = draw_sound(scene, precision, std::max(0.0, first), double(frames.size()) / plan.frames.fps,
                               interrupt);
-    StagedFile file(std::filesystem::path(plan.output.pattern()).replace_extension(".wav"));
-    Result<void> written = samples ? sound::write_wav(file.path(), int(render::k_sample_rate), *samples)
-                                   : fail(std::move(samples.error()));
+    auto file = StagedFile::create(plan.output.of_frame(0), ".wav");
+    Result<void> written = !file      ? fail(std::move(file.error()))
+                           : !samples ? fail(std::move(samples.error()))
+                                      : sound::write_wav(file->path(), int(render::k_sample_rate), *samples);
     if (written)
-        return file;
+        return *std::move(file);
     say("the video is silent: " + to_string(written.error()));
     return std::nullopt;
 }
@@ -265,7 +281,7 @@ std::optional<StagedFile> draw_sound_of_video(const scene::Scene& scene, glsl::P
 Result<int> capture(const CaptureOptions& options) {
     if (wants_sound(options))
         return capture_sound(options.scene, {*options.output, options.device, options.duration});
-    const auto plan = plan_capture(options);
+    auto plan = plan_capture(options);
     if (!plan)
         return fail(plan.error());
     if (options.json && plan->output.standard_output())
@@ -277,9 +293,8 @@ Result<int> capture(const CaptureOptions& options) {
     auto scene = load(options.scene);
     if (!scene)
         return fail(std::move(scene.error()));
-    if (!plan->output.standard_output())
-        if (auto writable = check_writable(plan->output.of_frame(plan->frames.frames.front())); !writable)
-            return fail(std::move(writable.error()));
+    if (auto spared = spare_what_is_read(*scene, options, *plan); !spared)
+        return fail(std::move(spared.error()));
     const auto context = platform::HeadlessContext::create(options.device);
     if (!context)
         return fail(context.error());
@@ -293,7 +308,7 @@ Result<int> capture(const CaptureOptions& options) {
     if (!complete)
         return fail(complete.error());
     if (options.json)
-        if (auto printed = put(run.report().dump(2) + "\n"); !printed)
+        if (auto printed = put(dump(run.report(), 2) + "\n"); !printed)
             return fail(std::move(printed.error()));
     say_what_is_not_finite(options, run.records());
     const bool written = *complete || !plan->output.video(); // of a video nothing is kept but the whole

@@ -76,9 +76,9 @@ Result<void> Capture::open_output() {
                                 plan_.output.pattern().string()));
     if (plan_.output.video()) {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
-        auto video =
-            image::VideoWriter::create(plan_.output.pattern(), {cube ? image::k_panorama : renderer_.extent(),
-                                                                plan_.frames.fps, sound_});
+        auto video = image::VideoWriter::create(
+            plan_.output.of_frame(0),
+            {cube ? image::k_panorama : renderer_.extent(), plan_.frames.fps, sound_});
         if (!video)
             return fail(std::move(video.error()));
         video_.emplace(*std::move(video));
@@ -154,7 +154,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     auto output = open_bands(record);
     if (!output)
         return fail(std::move(output.error()));
-    bands_ = output->get();
+    BandOutput& bands = **output;
     Progress progress("tiles", renderer_.tiles()->count());
     const auto before_tile = [&] {
         if (work.watch)
@@ -164,13 +164,12 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         return !interrupt.requested();
     };
     auto drawn = render::draw_bands(renderer_, inputs_at(frame), before_tile,
-                                    [&](image::Image band) { return bands_->take(std::move(band)); });
+                                    [&](image::Image band) { return bands.take(std::move(band)); });
     if (drawn && *drawn) {
         progress.advance();
-        drawn = bands_->finish().map([] { return true; });
+        drawn = bands.finish().map([] { return true; });
     }
     work.watch.reset();
-    bands_ = nullptr;
     if (!drawn)
         return fail(std::move(drawn.error()));
     if (!*drawn)
@@ -186,7 +185,8 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     if (!plan_.output.standard_output()) {
         // Image's alpha is 1.
         const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
-        auto made = image::PictureStream::create(record.file, renderer_.extent(), alpha, format_of(record));
+        auto made = image::PictureStream::create(plan_.output.of_frame(record.frame), renderer_.extent(),
+                                                 alpha, format_of(record));
         if (!made)
             return fail(std::move(made.error()));
         stream.emplace(*std::move(made));
@@ -221,8 +221,6 @@ size_t Capture::count_non_finite(image::Image& image) const {
 /// half a video is not.
 void Capture::rescue_output() {
     video_.reset();
-    if (bands_)
-        bands_->abandon();
     if (writer_)
         (void)writer_->finish();
 }
@@ -234,12 +232,13 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     if (!writer_)
         return put_raw(image).map([] { return true; });
     if (!plan_.output.six_faces())
-        return writer_->push({record.frame, record.file, std::move(image), format_of(record)});
+        return writer_->push(
+            {record.frame, plan_.output.of_frame(record.frame), std::move(image), format_of(record)});
     const auto faces = image::cube_of_picture(image);
     bool wanted = faces.has_value();
     for (size_t i = 0; wanted && i < faces->size(); ++i)
-        wanted = writer_->push(
-            {record.frame, file_of_face(record.file, i), image::flipped((*faces)[i]), format_of(record)});
+        wanted = writer_->push({record.frame, plan_.output.of_face(record.frame, i),
+                                image::flipped((*faces)[i]), format_of(record)});
     return wanted;
 }
 

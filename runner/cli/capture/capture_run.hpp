@@ -87,7 +87,6 @@ private:
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_;     ///< of pictures
     std::optional<image::VideoWriter> video_; ///< neither: frames go to standard output
-    BandOutput* bands_ = nullptr;             ///< of the frame in hand, while it is watched
     Watchdog watchdog_;                       ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;
 };

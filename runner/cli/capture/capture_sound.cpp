@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "platform/headless_context.hpp"
 #include "render/sound_renderer.hpp"
@@ -50,7 +51,8 @@ Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest&
     const auto scene = load(scene_request);
     if (!scene)
         return fail(scene.error());
-    if (auto writable = check_writable(request.output); !writable)
+    const OutputPath output = OutputPath::typed(request.output).sparing(files_read(*scene));
+    if (auto writable = check_writable(output); !writable)
         return fail(std::move(writable.error()));
     const auto context = platform::HeadlessContext::create(request.device);
     if (!context)
@@ -60,7 +62,7 @@ Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest&
         return fail(samples.error());
     if (interrupt.requested())
         return Interrupt::k_exit_code;
-    if (auto written = sound::write_wav(request.output, int(render::k_sample_rate), *samples); !written)
+    if (auto written = sound::write_wav(output, int(render::k_sample_rate), *samples); !written)
         return fail(std::move(written.error()));
     say(fmt::format("wrote {}", request.output));
     return 0;

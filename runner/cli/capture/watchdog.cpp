@@ -1,10 +1,10 @@
 #include "cli/capture/watchdog.hpp"
 
 #include "base/error.hpp"
+#include "base/leftovers.hpp"
 #include "cli/console.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace tidemark::cli {
 namespace {
@@ -81,7 +81,7 @@ void Watchdog::speak_or_end() {
         say(to_string(Error{ErrorCode::timed_out,
                             fmt::format("gave up {} after {:.3g} s (--timeout)", work_->what, seconds),
                             {}}));
-        ::_exit(exit_code(ErrorCode::timed_out));
+        exit_at_once(exit_code(ErrorCode::timed_out));
     }
     if (now >= work_->next_word) {
         say(fmt::format("still {} after {:.0f} s; Ctrl-C ends it", work_->what, seconds));

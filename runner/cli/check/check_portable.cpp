@@ -1,6 +1,7 @@
 #include "cli/check/check_portable.hpp"
 
 #include "cli/console.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/version.hpp"
 #include "gl/program.hpp"
 #include "glsl/assemble.hpp"
@@ -74,7 +75,7 @@ Result<int> check_portable(const SceneRequest& request, const std::string& devic
         json["findings"].push_back(to_json(diagnostic));
     }
     const int code = found.empty() ? 0 : exit_code(ErrorCode::check_failed);
-    return put(as_json ? json.dump(2) + "\n" : text).map([code] { return code; });
+    return put(as_json ? dump(json, 2) + "\n" : text).map([code] { return code; });
 }
 
 } // namespace tidemark::cli

@@ -6,6 +6,7 @@
 #include "cli/check/verdicts.hpp"
 #include "cli/console.hpp"
 #include "cli/forked.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/supervisor.hpp"
 #include "glsl/overrides.hpp"
@@ -66,13 +67,14 @@ Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scen
                                [&](const std::string& name) { return glsl::definition_of(scene, name); });
 }
 
-Result<void> keep_picture(const fs::path& folder, Asked& asked) {
+Result<void> keep_picture(const OutputPath& folder, Asked& asked) {
     if (folder.empty() || !asked.answer.picture || !accuses(asked.answer))
         return {};
     if (auto made = make_folder(folder); !made)
         return made;
-    asked.picture = folder / fmt::format("{}.png", asked.probe->name);
-    return image::write_picture(asked.picture, *asked.answer.picture);
+    const OutputPath picture = folder / fmt::format("{}.png", asked.probe->name);
+    asked.picture = picture.path();
+    return image::write_picture(picture, *asked.answer.picture);
 }
 
 /// Asks one probe, unless the scene leaves it out and nobody named it.
@@ -115,7 +117,8 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
         auto asked = ask(*probe, bench, !request.probes.empty(), seconds_since(start) < request.budget);
         if (!asked)
             return fail(std::move(asked.error()));
-        if (auto kept = keep_picture(request.output, *asked); !kept)
+        if (auto kept = keep_picture(OutputPath::typed(request.output).sparing(files_read(scene)), *asked);
+            !kept)
             return kept;
         tell(dump(told(*asked)));
     }

@@ -2,10 +2,6 @@
 
 namespace tidemark::cli {
 
-std::string dump(const Json& json, int indent) {
-    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 Json told(const Error& error) {
     Json diagnostics = Json::array();
     for (const Diagnostic& d : error.diagnostics)

@@ -1,6 +1,7 @@
 #include "cli/check/verdicts.hpp"
 
 #include "base/shell_word.hpp"
+#include "cli/output_name.hpp"
 #include "cli/version.hpp"
 
 #include <fmt/format.h>
@@ -35,10 +36,10 @@ double seconds_of(std::span<const Asked> all) {
 
 std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
     const std::filesystem::path& scene = request.scene.path;
-    std::vector<std::string> words{"tidemark", "capture", scene.string()};
+    std::vector<std::string> words{"tidemark", "capture", file_word(scene)};
     std::ranges::copy(option_words(request.scene), std::back_inserter(words));
     return fmt::format("{} {} -o {}", shell_words(words), lab::capture_options(situation),
-                       shell_word(scene.stem().string() + ".exr"));
+                       shell_word(file_word(name_after_scene(scene, ".exr"))));
 }
 
 std::string line(Verdict verdict, const std::string& probes, const std::string& sentence) {

@@ -82,19 +82,10 @@ std::string to_line(std::string_view what, const CompiledSizes& sizes,
 } // namespace
 
 FreshDriverCache::FreshDriverCache() {
-    std::error_code failed;
-    std::string name = (std::filesystem::temp_directory_path(failed) / "tidemark-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
+    if (folder_.path().empty())
         return;
-    ::setenv(k_cache_variable, name.c_str(), 1);
-    folder_ = std::move(name);
+    ::setenv(k_cache_variable, folder_.path().c_str(), 1);
     platform::do_without_full_driver_cache();
-}
-
-FreshDriverCache::~FreshDriverCache() {
-    std::error_code ignored;
-    if (!folder_.empty())
-        std::filesystem::remove_all(folder_, ignored);
 }
 
 std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,

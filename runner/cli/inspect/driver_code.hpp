@@ -3,6 +3,7 @@
 // text.
 #pragma once
 
+#include "base/scratch_folder.hpp"
 #include "glsl/dialect.hpp"
 #include "glsl/instruction_count.hpp"
 #include "glsl/specialise/specialise.hpp"
@@ -30,12 +31,9 @@ using CompiledSizes = std::array<DriverCode, 4>;
 class FreshDriverCache {
 public:
     FreshDriverCache();
-    ~FreshDriverCache();
-    FreshDriverCache(const FreshDriverCache&) = delete;
-    FreshDriverCache& operator=(const FreshDriverCache&) = delete;
 
 private:
-    std::string folder_; ///< empty: there could be none
+    ScratchFolder folder_;
 };
 
 /// For each pass of the scene, nothing where it does not link. A context must be current.

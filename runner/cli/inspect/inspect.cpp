@@ -3,6 +3,7 @@
 #include "cli/inspect/device_list.hpp"
 #include "cli/inspect/driver_code.hpp"
 #include "cli/inspect/inspect_savings.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/omissions.hpp"
 #include "cli/options.hpp"
 #include "cli/precision_report.hpp"
@@ -79,7 +80,7 @@ Result<int> inspect_devices(bool as_json) {
         text += to_line(device);
         json["devices"].push_back(to_json(device));
     }
-    return put(as_json ? json.dump(2) + "\n" : text).map([] { return 0; });
+    return put(as_json ? dump(json, 2) + "\n" : text).map([] { return 0; });
 }
 
 Json to_json(const glsl::LeftOut& left_out) {
@@ -171,7 +172,9 @@ Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl:
         const auto assembly = reading.assemble(reading.dialects(precision).front());
         if (!assembly)
             return fail(assembly.error());
-        return put(glsl::specialise(assembly->source, scene.knobs, how).source.text()).map([] { return 0; });
+        return put_exact(glsl::specialise(assembly->source, scene.knobs, how).source.text()).map([] {
+            return 0;
+        });
     }
     return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has no such pass", name));
 }
@@ -184,7 +187,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
         return put_source(*scene, options.pass, precision_of(options.scene),
                           options.specialised ? glsl::Specialise::settled : glsl::Specialise::nothing);
     if (options.device == "none")
-        return put(options.json ? what_files_say(*scene).dump(2) + "\n" : lines_of_files(*scene)).map([] {
+        return put(options.json ? dump(what_files_say(*scene), 2) + "\n" : lines_of_files(*scene)).map([] {
             return 0;
         });
     const FreshDriverCache fresh;
@@ -200,7 +203,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
     if (!renderer)
         return fail(renderer.error());
     const gl::Capabilities driver = gl::query_capabilities();
-    return put(options.json ? to_json(*renderer, driver, sizes).dump(2) + "\n"
+    return put(options.json ? dump(to_json(*renderer, driver, sizes), 2) + "\n"
                             : to_text(*renderer, driver, sizes))
         .map([] { return 0; });
 }

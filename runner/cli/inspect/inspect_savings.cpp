@@ -2,6 +2,7 @@
 
 #include "cli/console.hpp"
 #include "cli/inspect/library_cost.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
 #include "lab/savings.hpp"
@@ -231,7 +232,7 @@ Result<int> inspect_savings(const SavingsOptions& options) {
             return fail(saving.error());
         answers.push_back({question.name, *saving});
     }
-    const auto printed = put(options.json ? report_json(options, answers, *libraries).dump(2) + "\n"
+    const auto printed = put(options.json ? dump(report_json(options, answers, *libraries), 2) + "\n"
                                           : report_text(options, answers, *libraries));
     const bool same = std::all_of(answers.begin(), answers.end(),
                                   [](const Answer& answer) { return answer.saving.same_pixels; });

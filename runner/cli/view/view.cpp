@@ -34,13 +34,13 @@ Result<int> view(const ViewOptions& options) {
                                                   size.width, size.height, k_largest_window));
     Viewer::Settings settings{options.scene, *std::move(frames)};
     settings.pass = options.frames.pass;
-    settings.record = options.record;
+    settings.record = OutputPath::typed(options.record);
     settings.plain = options.plain;
     // What is recorded can be drawn again: its date does not move on either.
     if (options.frames.date || options.frames.input || !options.record.empty())
         settings.date = settings.frames.date;
-    if (!options.record.empty())
-        if (auto writable = check_writable(options.record); !writable)
+    if (!settings.record.empty())
+        if (auto writable = check_writable(settings.record); !writable)
             return fail(std::move(writable.error()));
     Interrupt interrupt;
     auto viewer = Viewer::open(std::move(settings));

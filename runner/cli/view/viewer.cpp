@@ -1,11 +1,15 @@
 #include "cli/view/viewer.hpp"
 
 #include "base/file.hpp"
+#include "base/leftovers.hpp"
 #include "cli/console.hpp"
+#include "cli/options.hpp"
+#include "cli/output_name.hpp"
 #include "cli/version.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
+#include "platform/window_loss.hpp"
 
 #include <fmt/format.h>
 
@@ -64,6 +68,10 @@ Result<Viewer> Viewer::open(Settings settings) {
     auto scene = load(settings.scene);
     if (!scene)
         return fail(std::move(scene.error()));
+    settings.record = settings.record.sparing(files_read(*scene));
+    if (!settings.record.empty())
+        if (auto place = settings.record.place(); !place)
+            return fail(std::move(place.error()));
     auto window = platform::Window::create(settings.frames.extent, scene->name() + " - tidemark");
     if (!window)
         return fail(std::move(window.error()));
@@ -75,6 +83,11 @@ Result<Viewer> Viewer::open(Settings settings) {
 }
 
 Result<int> Viewer::run(const Interrupt& interrupt) {
+    const platform::WhenDisplayIsLost rescue([this] {
+        const auto saved = finish();
+        say(to_string(saved ? Error{ErrorCode::no_context, "the display is gone"} : saved.error()));
+        exit_at_once(exit_code(ErrorCode::no_context));
+    });
     while (!closing_ && !interrupt.requested()) {
         for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds())))
             std::visit([this](const auto& happened) { handle(happened); }, event);
@@ -273,13 +286,14 @@ void Viewer::save_picture() {
         return;
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
-    const std::string name = fmt::format("{}-{:05}.png", scene_.name(), shown_.frame);
+    const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", shown_.frame));
     const image::PictureFormat format{image::SampleDepth::u8,
                                       {{"Scene", settings_.scene.path.string()},
                                        {"Frame", fmt::format("{}", shown_.frame)},
                                        {"iTime", fmt::format("{}", shown_.time)},
                                        {"Software", fmt::format("tidemark {}", k_version)}}};
-    if (writer_->push({shown_.frame, name, stage_->renderer().read_back(), format}))
+    if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),
+                       stage_->renderer().read_back(), format}))
         say(fmt::format("saving {}", name));
     else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
         say(to_string(written.error()));

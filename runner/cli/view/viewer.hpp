@@ -28,9 +28,8 @@ public:
         FrameRequest frames;                   ///< extent, fps, camera
         std::string pass = {};                 ///< the pass to show; empty: Image
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
-        std::filesystem::path record =
-            {};             ///< where what people do is written; empty: nowhere. Excludes frames.input
-        bool plain = false; ///< never settles
+        OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
+        bool plain = false;     ///< never settles
     };
 
     /// Opens the window and begins to compile. Fails like `load` and Window do.

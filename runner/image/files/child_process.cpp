@@ -124,6 +124,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
         child.process_ = -1;
         return cannot_run(arguments[0], error);
     }
+    child.leftover_ = Leftover::child(child.process_);
     if (kind == Input::written)
         child.input_ = std::exchange(input.ends[1], -1);
     child.output_ = std::exchange(output.ends[0], -1);
@@ -145,6 +146,7 @@ ChildProcess::~ChildProcess() {
     close_pipes();
     if (process_ <= 0)
         return;
+    leftover_.forget(); // its number may soon be another's
     ::kill(process_, SIGKILL);
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -204,6 +206,7 @@ bool ChildProcess::succeeded() {
     int status = -1;
     if (process_ <= 0)
         return false;
+    leftover_.forget();
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;

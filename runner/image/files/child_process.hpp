@@ -2,6 +2,7 @@
 // child outlives its object.
 #pragma once
 
+#include "base/leftovers.hpp"
 #include "base/result.hpp"
 
 #include <sys/types.h>
@@ -25,12 +26,14 @@ public:
 
     ChildProcess(ChildProcess&& other) noexcept
         : process_(std::exchange(other.process_, -1)), input_(std::exchange(other.input_, -1)),
-          output_(std::exchange(other.output_, -1)), words_(std::exchange(other.words_, -1)) {}
+          output_(std::exchange(other.output_, -1)), words_(std::exchange(other.words_, -1)),
+          leftover_(std::move(other.leftover_)) {}
     ChildProcess& operator=(ChildProcess&& other) noexcept {
         std::swap(process_, other.process_);
         std::swap(input_, other.input_);
         std::swap(output_, other.output_);
         std::swap(words_, other.words_);
+        std::swap(leftover_, other.leftover_);
         return *this;
     }
     /// Kills the child if it still runs, and reaps it.
@@ -60,6 +63,7 @@ private:
     int input_ = -1;
     int output_ = -1;
     int words_ = -1;
+    Leftover leftover_;
 };
 
 /// All that a program prints on standard output, `most` bytes at most. Fails when it fails: the message is

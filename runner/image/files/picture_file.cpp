@@ -7,7 +7,6 @@
 #include "image/files/png_codec.hpp"
 #include "image/plugin/picture_codec.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -222,7 +221,8 @@ Result<Image> read_picture(const fs::path& path) {
     return std::move(**image);
 }
 
-Result<void> write_picture(const fs::path& path, const Image& image, const PictureFormat& format) {
+Result<void> write_picture(const OutputPath& output, const Image& image, const PictureFormat& format) {
+    const fs::path& path = output.path();
     if (Result<void> checked = check_picture_format(path, format.depth); !checked)
         return checked;
     if (Result<void> checked = check_extent(path, image); !checked)
@@ -232,20 +232,16 @@ Result<void> write_picture(const fs::path& path, const Image& image, const Pictu
         return fail(ErrorCode::write, file.error().message);
     if (!*file)
         return cannot_write(path, file->error());
-    return write_file(path, std::as_bytes(std::span(**file)));
+    return write_file(output, std::as_bytes(std::span(**file)));
 }
 
 /// A stream for encoders, which learn nothing of a disk that is full: libjpeg would end the process, and
 /// others do not say why.
 class PictureStream::File {
 public:
-    explicit File(const fs::path& path)
-        : descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-        if (descriptor_ < 0)
-            error_ = errno;
-        else
-            stream_ = ::fopencookie(this, "wb", {nullptr, write, seek, close});
-    }
+    /// The descriptor stays its owner's.
+    explicit File(int descriptor)
+        : descriptor_(descriptor), stream_(::fopencookie(this, "wb", {nullptr, write, seek, nullptr})) {}
     File(const File&) = delete;
     File& operator=(const File&) = delete;
     ~File() { finish(); }
@@ -278,21 +274,15 @@ private:
         *offset = ::lseek64(static_cast<File*>(file)->descriptor_, *offset, from);
         return *offset < 0 ? -1 : 0;
     }
-    static int close(void* file) {
-        auto& self = *static_cast<File*>(file);
-        if (::close(self.descriptor_) != 0)
-            self.keep_error();
-        return 0;
-    }
 
     int descriptor_;
     int error_ = 0;
-    std::FILE* stream_ = nullptr;
+    std::FILE* stream_;
 };
 
-PictureStream::PictureStream(const fs::path& path, bool alpha, PictureFormat format)
-    : path_(path), alpha_(alpha), format_(std::move(format)), staged_(path),
-      file_(std::make_unique<File>(staged_.path())) {}
+PictureStream::PictureStream(StagedFile staged, fs::path path, bool alpha, PictureFormat format)
+    : path_(std::move(path)), alpha_(alpha), format_(std::move(format)), staged_(std::move(staged)),
+      file_(std::make_unique<File>(staged_.descriptor())) {}
 
 PictureStream::PictureStream(PictureStream&&) noexcept = default;
 PictureStream::~PictureStream() = default;
@@ -312,15 +302,17 @@ Result<void> PictureStream::check_extent(const fs::path& path, Extent extent) {
                                               extent.width, extent.height, lower_extension(path), longest));
 }
 
-Result<PictureStream> PictureStream::create(const fs::path& path, Extent extent, bool alpha,
+Result<PictureStream> PictureStream::create(const OutputPath& output, Extent extent, bool alpha,
                                             PictureFormat format) {
+    const fs::path& path = output.path();
     if (Result<void> checked = check_picture_format(path, format.depth); !checked)
         return fail(std::move(checked.error()));
     if (Result<void> checked = check_extent(path, extent); !checked)
         return fail(std::move(checked.error()));
-    PictureStream stream(path, alpha, std::move(format));
-    if (auto opened = stream.checked({}); !opened)
-        return fail(std::move(opened.error()));
+    auto staged = StagedFile::create(output);
+    if (!staged)
+        return fail(std::move(staged.error()));
+    PictureStream stream(*std::move(staged), path, alpha, std::move(format));
     const WrittenFormat& written = *written_format(path);
     const bool keeps_alpha = alpha && written.has_alpha;
     auto encoder = encode_rows(job_without_samples(written, extent, keeps_alpha ? 4 : 3, stream.format_),

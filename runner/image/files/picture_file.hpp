@@ -61,8 +61,7 @@ Result<Image> read_picture(const std::filesystem::path& path);
 /// become v/255 exactly; f32 samples are clamped to 0..1 and rounded to nearest for u8 and u16, NaN to 0;
 /// for f32 every bit is kept, but HDR has no negatives, NaN or infinities and 8 bits of each value.
 /// The same picture gives the same bytes.
-Result<void> write_picture(const std::filesystem::path& path, const Image& image,
-                           const PictureFormat& format = {});
+Result<void> write_picture(const OutputPath& output, const Image& image, const PictureFormat& format = {});
 
 class RowEncoder;
 
@@ -73,7 +72,7 @@ class PictureStream {
 public:
     /// A side may be as long as the format allows (ErrorCode::usage otherwise): JPEG 65,500, the others a
     /// million. `alpha`: the file keeps the bands' alpha, where the format has one.
-    static Result<PictureStream> create(const std::filesystem::path& path, Extent extent, bool alpha,
+    static Result<PictureStream> create(const OutputPath& output, Extent extent, bool alpha,
                                         PictureFormat format);
     /// As `create` checks them.
     static Result<void> check_extent(const std::filesystem::path& path, Extent extent);
@@ -84,14 +83,11 @@ public:
     Result<void> add(const Image& band);
     Result<void> finish();
 
-    /// Where the bytes are until then; whoever ends the process removes it.
-    const std::filesystem::path& temporary() const { return staged_.path(); }
-
 private:
     class File;
 
     Result<void> checked(const std::string& objection) const;
-    PictureStream(const std::filesystem::path& path, bool alpha, PictureFormat format);
+    PictureStream(StagedFile staged, std::filesystem::path path, bool alpha, PictureFormat format);
 
     std::filesystem::path path_;
     bool alpha_;

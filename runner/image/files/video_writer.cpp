@@ -66,7 +66,7 @@ Arguments arguments_for(const fs::path& staged, const VideoFormat& format) {
         arguments.insert(arguments.end(), more.begin(), more.end());
     };
     if (!format.sound.empty())
-        add({"-i", "file:" + format.sound.string()});
+        add({"-protocol_whitelist", "file", "-f", "wav", "-i", "file:" + format.sound.string()});
     add(container.encoder(format.extent));
     if (container.encoder != gif)
         add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1"});
@@ -88,14 +88,17 @@ bool is_video_name(const fs::path& path) {
     return container_of(path) != nullptr;
 }
 
-Result<VideoWriter> VideoWriter::create(const fs::path& path, const VideoFormat& format) {
+Result<VideoWriter> VideoWriter::create(const OutputPath& output, const VideoFormat& format) {
+    const fs::path& path = output.path();
     assert(is_video_name(path));
-    StagedFile staged(path);
-    auto encoder = ChildProcess::start(arguments_for(staged.path(), format), ChildProcess::Input::written);
+    auto staged = StagedFile::create(output);
+    if (!staged)
+        return fail(std::move(staged.error()));
+    auto encoder = ChildProcess::start(arguments_for(staged->path(), format), ChildProcess::Input::written);
     if (!encoder)
         return fail(ErrorCode::write,
                     fmt::format("cannot write '{}': {}", path.string(), encoder.error().message));
-    return VideoWriter(path, std::move(staged), *std::move(encoder));
+    return VideoWriter(path, *std::move(staged), *std::move(encoder));
 }
 
 Result<void> VideoWriter::push(const Image& image) {

@@ -29,7 +29,7 @@ struct VideoFormat {
 class VideoWriter {
 public:
     /// Starts ffmpeg. Fails (ErrorCode::write) when it is not installed, naming the package.
-    static Result<VideoWriter> create(const std::filesystem::path& path, const VideoFormat& format);
+    static Result<VideoWriter> create(const OutputPath& output, const VideoFormat& format);
 
     /// RGBA8, alpha ignored. Waits while the encoder is busy. ErrorCode::write has the encoder's last words.
     Result<void> push(const Image& image);

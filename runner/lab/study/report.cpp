@@ -2,6 +2,7 @@
 
 #include "base/base64.hpp"
 #include "base/file.hpp"
+#include "base/scratch_folder.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/flip.hpp"
 #include "image/files/child_process.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 class Report {
 public:
-    Report(const fs::path& folder, Findings& findings)
+    Report(const OutputPath& folder, Findings& findings)
         : folder_(folder), set_(findings.set), evidence_(findings.evidence) {}
 
     Result<void> write() {
@@ -59,20 +60,27 @@ private:
             remark(fmt::format("{} has no point: every error is 0, or nothing was timed", name));
             return {};
         }
-        const fs::path file = folder_ / (name + ".gp");
+        const OutputPath file = folder_ / (name + ".gp");
         if (auto done = write_file(file, script); !done)
             return done;
-        std::string folder = folder_.string();
+        // It would write through any link that lies in the report's folder.
+        const ScratchFolder scratch;
+        std::string folder = scratch.path().string();
         for (size_t at = 0; (at = folder.find('\'', at)) != folder.npos; at += 2)
             folder.insert(at, 1, '\'');
         const auto drawn = image::output_of(
-            {"gnuplot", "-e", fmt::format("cd '{}'", folder), fs::absolute(file).string()}, size_t{1} << 16);
+            {"gnuplot", "-e", fmt::format("cd '{}'", folder), fs::absolute(file.path()).string()},
+            size_t{1} << 16);
         if (!drawn) {
             remark(fmt::format("no diagrams: {} (the data are in points.csv, the script is {}.gp)",
                                drawn.error().message, name));
             return {};
         }
-        if (const auto svg = read_file(folder_ / (name + ".svg")))
+        for (const char* ending : {".svg", ".png"})
+            if (const auto picture = read_file(scratch.path() / (name + ending)))
+                if (auto done = write_file(folder_ / (name + ending), *picture); !done)
+                    return done;
+        if (const auto svg = read_file(scratch.path() / (name + ".svg")))
             media_.diagrams.push_back({name, "data:image/svg+xml;base64," + base64(*svg)});
         return {};
     }
@@ -87,10 +95,10 @@ private:
 
     /// Writes a picture and returns it for the page.
     Result<std::string> keep(const std::string& name, const image::Image& picture) {
-        const fs::path file = folder_ / "maps" / (name + ".png");
+        const OutputPath file = folder_ / "maps" / (name + ".png");
         if (auto done = image::write_picture(file, picture); !done)
             return fail(std::move(done.error()));
-        const auto bytes = read_file(file, size_t{1} << 30);
+        const auto bytes = read_file(file.path(), size_t{1} << 30);
         if (!bytes)
             return fail(bytes.error());
         return "data:image/png;base64," + base64(*bytes);
@@ -138,7 +146,7 @@ private:
         return {};
     }
 
-    const fs::path& folder_;
+    const OutputPath& folder_;
     WorkPrecisionSet& set_;
     const Evidence& evidence_;
     PageMedia media_;
@@ -146,7 +154,7 @@ private:
 
 } // namespace
 
-Result<void> write_report(const fs::path& folder, Findings& findings) {
+Result<void> write_report(const OutputPath& folder, Findings& findings) {
     return Report(folder, findings).write();
 }
 

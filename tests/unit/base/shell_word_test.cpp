@@ -1,5 +1,6 @@
 // Held against a real shell: it must hand the word on as it was.
 #include "base/shell_word.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,9 @@ namespace tidemark {
 namespace {
 
 std::string through_a_shell(std::string_view word) {
-    FILE* const shell = ::popen(("printf %s " + shell_word(word)).c_str(), "r");
+    const TemporaryFolder folder; // /bin/sh is dash here and there, which has no $'…'
+    save_in_place(folder / "script", "printf %s " + shell_word(word));
+    FILE* const shell = ::popen(("bash '" + (folder / "script").string() + "'").c_str(), "r");
     std::array<char, 256> text{};
     const size_t count = std::fread(text.data(), 1, text.size(), shell);
     ::pclose(shell);
@@ -19,8 +22,10 @@ std::string through_a_shell(std::string_view word) {
 
 TEST(ShellWord, a_shell_hands_it_on_as_it_was) {
     for (const std::string_view word :
-         {"waves.glsl", "OCTAVES=12", "my waves.glsl", "it's", "''", "$HOME", "`date`", "a\"b", "vec2(1, -2)",
-          "~", "*", "a\\b", "a;b&c|d", "#ff0000", "two\nlines", "N=", "é"})
+         {"waves.glsl", "OCTAVES=12", "my waves.glsl", "it's",        "''", "$HOME",
+          "`date`",     "a\"b",       "vec2(1, -2)",   "~",           "*",  "a\\b",
+          "a;b&c|d",    "#ff0000",    "two\nlines",    "N=",          "é",  "\x1b[31m'it\\'s",
+          "tab\t1",     "\xff\x80",   "\u0085\u202e7", "$(touch x)\r"})
         EXPECT_EQ(through_a_shell(word), word);
 }
 
@@ -28,6 +33,11 @@ TEST(ShellWord, stays_plain_where_that_is_safe) {
     EXPECT_EQ(shell_word("shaders/waves.glsl"), "shaders/waves.glsl");
     EXPECT_EQ(shell_word("height=0.5"), "height=0.5");
     EXPECT_EQ(shell_word(""), "''");
+}
+
+TEST(ShellWord, what_steers_a_terminal_is_spelled_out) {
+    EXPECT_EQ(shell_word("\x1b]0;a'b\\\a"), "$'\\033]0;a\\'b\\\\\\007'");
+    EXPECT_EQ(shell_word("é\u202e\xff"), "$'é\\342\\200\\256\\377'");
 }
 
 } // namespace

@@ -5,9 +5,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <iterator>
 
 namespace tidemark {
@@ -125,36 +128,138 @@ TEST(WriteFile, a_device_that_is_full) {
     EXPECT_EQ(refusal(write_file("/dev/full", "x")), "cannot write '/dev/full': No space left on device");
 }
 
-TEST(WriteFile, a_link_stays_one) {
+TEST(WriteFile, a_link_that_was_typed_stays_one) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.txt", "before");
     fs::create_symlink("a.txt", folder / "link");
-    ASSERT_TRUE(write_file(folder / "link", "after"));
+    ASSERT_TRUE(write_file(OutputPath::typed(folder / "link"), "after"));
     EXPECT_TRUE(fs::is_symlink(folder / "link"));
     EXPECT_EQ(read_file(folder / "a.txt"), "after");
+    fs::create_symlink("new.txt", folder / "nowhere");
+    ASSERT_TRUE(write_file(OutputPath::typed(folder / "nowhere"), "new"));
+    EXPECT_TRUE(fs::is_symlink(folder / "nowhere"));
+    EXPECT_EQ(read_file(folder / "new.txt"), "new");
+}
+
+std::string links_sentence(const std::string& path, const std::string& link, const std::string& target) {
+    return "cannot write '" + path + "': " + (link == path ? "it" : "'" + link + "'") + " is a link to '" +
+           target + "', and a link is followed only where -o names it: remove it, or give another place";
+}
+
+TEST(WriteFile, a_link_that_nobody_named_is_not_followed) {
+    const TemporaryFolder folder;
+    save_in_place(folder / "a.txt", "before");
+    const std::string target = folder / "a.txt", link = folder / "link", loop = folder / "loop";
+    fs::create_symlink(target, link);
+    fs::create_symlink("nowhere", folder / "dangling");
+    fs::create_symlink("loop", loop);
+    EXPECT_EQ(refusal(write_file(link, "x")), links_sentence(link, link, target));
+    EXPECT_EQ(refusal(check_writable(link)), links_sentence(link, link, target));
+    const std::string dangling = folder / "dangling";
+    EXPECT_EQ(refusal(write_file(dangling, "x")), links_sentence(dangling, dangling, "nowhere"));
+    EXPECT_EQ(refusal(write_file(loop, "x")), links_sentence(loop, loop, "loop"));
+    EXPECT_EQ(refusal(write_file(OutputPath::typed(loop), "x")),
+              "cannot write '" + loop + "': Too many levels of symbolic links");
+    EXPECT_EQ(read_file(folder / "a.txt"), "before");
+    EXPECT_EQ(files_in(folder), 4u);
+}
+
+TEST(WriteFile, nor_one_on_the_way_below_a_folder) {
+    const TemporaryFolder folder, elsewhere;
+    fs::create_directory_symlink(elsewhere.path(), folder / "own");
+    const OutputPath own = OutputPath::typed(folder / "own"), ours(folder / "own");
+    EXPECT_TRUE(make_folder(own / "maps"));
+    ASSERT_TRUE(write_file(own / "maps" / "a.txt", "x")); // the person's link
+    EXPECT_EQ(read_file(elsewhere / "maps/a.txt"), "x");
+    const std::string link = folder / "own", target = elsewhere.path();
+    EXPECT_EQ(refusal(make_folder(ours)), links_sentence(link, link, target));
+    EXPECT_EQ(refusal(write_file(ours / "b.txt", "x")), links_sentence(link + "/b.txt", link, target));
+    fs::remove_all(elsewhere / "maps");
+    fs::create_directory_symlink(folder.path(), elsewhere / "maps");
+    EXPECT_EQ(refusal(write_file(own / "maps/b.txt", "x")),
+              links_sentence(link + "/maps/b.txt", link + "/maps", folder.path()));
+    EXPECT_EQ(refusal(make_folder(own / "maps")),
+              links_sentence(link + "/maps", link + "/maps", folder.path()));
+    EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(WriteFile, a_name_does_not_lead_out_of_its_folder) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "in");
+    const OutputPath in = OutputPath::typed(folder / "in");
+    const std::string whole = folder / "in/../a.txt";
+    EXPECT_EQ(refusal(write_file(in / "../a.txt", "x")),
+              "cannot write '" + whole + "': the name leads out of its folder");
+    EXPECT_EQ((in / "/a.txt").path(), folder / "in/a.txt");
+}
+
+TEST(WriteFile, what_is_read_is_not_replaced) {
+    const TemporaryFolder folder;
+    save_in_place(folder / "a.txt", "read");
+    fs::create_symlink("a.txt", folder / "link");
+    const std::string path = folder / "a.txt", link = folder / "link";
+    const auto sentence = [](const std::string& name) {
+        return "cannot write '" + name + "': this command reads that file; give another name with -o";
+    };
+    const std::vector<fs::path> read{folder / "none", folder / "a.txt"};
+    EXPECT_EQ(refusal(write_file(OutputPath(path).sparing(read), "x")), sentence(path));
+    EXPECT_EQ(refusal(write_file(OutputPath::typed(link).sparing(read), "x")), sentence(link));
+    EXPECT_EQ(refusal(write_file(OutputPath::typed(folder.path()).sparing(read) / "a.txt", "x")),
+              sentence(path));
+    EXPECT_EQ(refusal(write_file(OutputPath(path).sparing({folder / "link"}), "x")), sentence(path));
+    EXPECT_EQ(read_file(folder / "a.txt"), "read");
+    EXPECT_TRUE(write_file(OutputPath(folder / "b.txt").sparing(read), "x"));
+}
+
+TEST(WriteFile, a_descriptor_of_ours_by_its_name) {
+    const TemporaryFolder folder;
+    const int file = ::open((folder / "a.txt").c_str(), O_RDWR | O_CREAT, 0600);
+    ASSERT_GE(file, 0);
+    ASSERT_EQ(::write(file, "before ", 7), 7);
+    const std::string number = std::to_string(file);
+    ASSERT_TRUE(write_file(OutputPath::typed("/dev/fd/" + number), "after"));
+    fs::create_symlink("/proc/self/fd/" + number, folder / "link");
+    ASSERT_TRUE(write_file(OutputPath::typed(folder / "link"), "wards"));
+    EXPECT_EQ(read_file(folder / "a.txt"), "before afterwards"); // not from the beginning, and no other file
+    ::close(file);
+    EXPECT_EQ(refusal(write_file(OutputPath::typed("/dev/fd/" + number), "x")),
+              "cannot write '/dev/fd/" + number + "': Bad file descriptor");
+}
+
+TEST(WriteFile, longest_name) {
+    const TemporaryFolder folder;
+    const std::string name = std::string(251, 'n') + ".txt";
+    ASSERT_TRUE(write_file(folder / name, "x"));
+    EXPECT_EQ(files_in(folder), 1u);
+    const std::string too_long = folder / ("n" + name);
+    EXPECT_EQ(refusal(write_file(too_long, "x")), "cannot write '" + too_long + "': File name too long");
+    EXPECT_EQ(files_in(folder), 1u);
 }
 
 TEST(StagedFile, keeps_its_extension_beside_its_place) {
     const TemporaryFolder folder;
-    const StagedFile staged(folder / "a.b.png");
-    EXPECT_EQ(staged.path().parent_path(), folder.path());
-    EXPECT_EQ(staged.path().extension(), ".png");
-    EXPECT_EQ(staged.path().filename().string().front(), '.');
-    EXPECT_NE(staged.path(), folder / "a.b.png");
+    const auto staged = StagedFile::create(folder / "a.b.png");
+    ASSERT_TRUE(staged);
+    EXPECT_EQ(staged->path().parent_path(), folder.path());
+    EXPECT_EQ(staged->path().extension(), ".png");
+    EXPECT_EQ(staged->path().filename().string().front(), '.');
+    EXPECT_NE(staged->path(), folder / "a.b.png");
+    EXPECT_EQ(StagedFile::create(folder / "a.mp4", ".wav")->path().extension(), ".wav");
+    fs::create_symlink("film", folder / "link.mp4"); // ffmpeg goes by the extension
+    EXPECT_EQ(StagedFile::create(OutputPath::typed(folder / "link.mp4"))->path().extension(), ".mp4");
 }
 
 TEST(StagedFile, two_for_one_place_are_two_files) {
     const TemporaryFolder folder;
-    StagedFile first(folder / "a.png");
-    StagedFile second(folder / "a.png");
-    EXPECT_NE(first.path(), second.path());
+    const auto first = StagedFile::create(folder / "a.png"), second = StagedFile::create(folder / "a.png");
+    ASSERT_TRUE(first && second);
+    EXPECT_NE(first->path(), second->path());
 }
 
 TEST(StagedFile, goes_when_it_is_dropped) {
     const TemporaryFolder folder;
     {
-        const StagedFile staged(folder / "a.png");
-        save_in_place(staged.path());
+        const auto staged = StagedFile::create(folder / "a.png");
         EXPECT_EQ(files_in(folder), 1u);
     }
     EXPECT_EQ(files_in(folder), 0u);
@@ -162,10 +267,11 @@ TEST(StagedFile, goes_when_it_is_dropped) {
 
 TEST(StagedFile, one_that_was_moved_has_one_owner) {
     const TemporaryFolder folder;
-    StagedFile first(folder / "a.png");
-    save_in_place(first.path(), "bytes");
+    auto first = StagedFile::create(folder / "a.png");
+    ASSERT_TRUE(first);
+    save_in_place(first->path(), "bytes");
     {
-        StagedFile second(std::move(first));
+        StagedFile second(*std::move(first));
         ASSERT_TRUE(second.commit());
     }
     EXPECT_EQ(read_file(folder / "a.png"), "bytes");
@@ -175,7 +281,122 @@ TEST(StagedFile, one_that_was_moved_has_one_owner) {
 TEST(StagedFile, nothing_to_commit) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.png";
-    EXPECT_EQ(refusal(StagedFile(path).commit()), "cannot write '" + path + "': No such file or directory");
+    auto staged = StagedFile::create(path);
+    ASSERT_TRUE(staged);
+    fs::remove(staged->path());
+    EXPECT_EQ(refusal(staged->commit()), "cannot write '" + path + "': No such file or directory");
+}
+
+TEST(StagedFile, of_a_device_is_copied_into_it) {
+    const TemporaryFolder folder;
+    fs::create_symlink("/dev/full", folder / "a.mp4");
+    const std::string path = folder / "a.mp4";
+    auto staged = StagedFile::create(OutputPath::typed(path));
+    ASSERT_TRUE(staged);
+    EXPECT_EQ(staged->path().extension(), ".mp4");
+    EXPECT_NE(staged->path().parent_path(), "/dev");
+    ASSERT_TRUE(staged->write(std::as_bytes(std::span("bytes"))));
+    EXPECT_EQ(refusal(staged->commit()), "cannot write '" + path + "': No space left on device");
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+/// A process number that nobody has any more.
+pid_t gone() {
+    const pid_t child = ::fork();
+    if (child == 0)
+        ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+    return child;
+}
+
+TEST(StagedFile, what_a_killed_process_left_of_the_same_output_goes) {
+    const TemporaryFolder folder;
+    const std::string dead = std::to_string(gone()), alive = std::to_string(::getppid());
+    save_in_place(folder / (".a.0007.part-" + dead + "-3.png"));
+    const std::vector<std::string> kept{".a.part-" + alive + "-3.png", ".b.part-" + dead + "-3.png",
+                                        ".a.part-" + dead + ".png",    "a.part-" + dead + "-3.png",
+                                        ".a.part-" + dead + "-x.png",  ".a.notes"};
+    for (const std::string& name : kept)
+        save_in_place(folder / name);
+    fs::create_symlink("a.part", folder / (".a.part-" + dead + "-9.png"));
+    const int held = ::open((folder / (".a.part-" + dead + "-5.png")).c_str(), O_RDWR | O_CREAT, 0600);
+    ASSERT_EQ(::flock(held, LOCK_EX), 0); // by a process that this machine does not know
+    ASSERT_TRUE(write_file(folder / "a.0012.png", "x"));
+    for (const std::string& name : kept)
+        EXPECT_TRUE(fs::exists(folder / name)) << name;
+    EXPECT_EQ(files_in(folder), kept.size() + 3);
+    ::close(held);
+}
+
+TEST(StagedFile, a_planted_name_is_not_opened) {
+    const TemporaryFolder folder;
+    save_in_place(folder / "victim", "before");
+    const auto first = StagedFile::create(folder / "a.png");
+    ASSERT_TRUE(first);
+    // The next names, as anybody could guess them.
+    const std::string name = first->path().filename().string();
+    const size_t dash = name.rfind('-'), dot = name.rfind('.');
+    const int number = std::stoi(name.substr(dash + 1, dot - dash - 1));
+    for (int i = 1; i <= 20; ++i)
+        fs::create_symlink("victim",
+                           folder / (name.substr(0, dash + 1) + std::to_string(number + i) + ".png"));
+    ASSERT_TRUE(write_file(folder / "a.png", "x"));
+    EXPECT_EQ(read_file(folder / "victim"), "before");
+    EXPECT_EQ(read_file(folder / "a.png"), "x");
+}
+
+TEST(StagedFile, one_of_a_forked_process_that_was_killed_is_removed_by_its_parent) {
+    const TemporaryFolder folder;
+    clear_leftovers_on_signals(); // before the fork
+    const auto own = StagedFile::create(folder / "own.png");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto staged = StagedFile::create(folder / "a.png");
+        ::raise(SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(files_in(folder), 2u);
+    clear_leftovers_of_the_dead();
+    EXPECT_EQ(files_in(folder), 1u);
+    EXPECT_TRUE(fs::exists(own->path()));
+}
+
+/// What is left in the folder by a child that such a signal ends in the midst of its work.
+size_t left_by_child(const TemporaryFolder& folder, int signal) {
+    int ready[2];
+    EXPECT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        clear_leftovers_on_signals();
+        const auto staged = StagedFile::create(folder / "a.png");
+        const pid_t helper = ::fork();
+        if (helper == 0) {
+            ::setpgid(0, 0);
+            ::pause();
+        }
+        ::setpgid(helper, helper);
+        const Leftover kept = Leftover::child(helper);
+        [[maybe_unused]] const ssize_t told = ::write(ready[1], &helper, sizeof helper);
+        for (;;)
+            ::pause();
+    }
+    pid_t helper = 0;
+    EXPECT_EQ(::read(ready[0], &helper, sizeof helper), ssize_t(sizeof helper));
+    EXPECT_EQ(files_in(folder), 1u);
+    ::kill(child, signal);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    EXPECT_EQ(::kill(helper, 0), -1); // the program that it had started
+    ::close(ready[0]);
+    ::close(ready[1]);
+    return files_in(folder);
+}
+
+TEST(StagedFile, a_signal_takes_it_along) {
+    const TemporaryFolder folder;
+    for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM})
+        EXPECT_EQ(left_by_child(folder, signal), 0u) << signal;
 }
 
 } // namespace

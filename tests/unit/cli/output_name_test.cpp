@@ -1,4 +1,5 @@
 #include "cli/output_name.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,11 +36,59 @@ TEST(OutputName, one_video_for_all_frames) {
 }
 
 TEST(OutputName, six_faces_of_a_cube) {
-    EXPECT_EQ(file_of_face(name_of("sky_{}.%02d.png", 7), 0), "sky_px.07.png");
-    EXPECT_EQ(file_of_face("{}.exr", 5), "nz.exr");
+    EXPECT_EQ(OutputName::parse("sky_{}.%02d.png", 1)->of_face(7, 0).path(), "sky_px.07.png");
+    EXPECT_EQ(OutputName::parse("{}.exr", 1)->of_face(0, 5).path(), "nz.exr");
     EXPECT_TRUE(OutputName::parse("sky_{}.png", 1)->six_faces());
     EXPECT_FALSE(OutputName::parse("sky_px.png", 1)->six_faces());
     EXPECT_FALSE(OutputName::parse("sky_{}.mp4", 1)->six_faces());
+}
+
+std::string of_scene(const std::filesystem::path& scene, size_t frame_count = 1) {
+    const OutputName name = OutputName::of_scene(scene, frame_count);
+    EXPECT_FALSE(name.six_faces() || name.video() || name.standard_output());
+    return name.of_frame(7).string();
+}
+
+TEST(OutputName, of_a_scene) {
+    EXPECT_EQ(of_scene("shaders/wave.glsl"), "wave.png");
+    EXPECT_EQ(of_scene("wave.glsl", 2), "wave.0007.png");
+    EXPECT_EQ(of_scene("folder/"), "folder.png");
+    const std::string here = std::filesystem::current_path().stem().string();
+    EXPECT_EQ(of_scene("."), here + ".png");
+    EXPECT_EQ(of_scene("./"), here + ".png");
+}
+
+TEST(OutputName, of_a_scene_no_sign_in_it_is_a_pattern) {
+    for (const std::string name : {"shot#1", "####", "50%", "%04d", "%s%n", "{}", "a{}#%d", "x.mp4", "-"}) {
+        EXPECT_EQ(of_scene(name + ".glsl"), name + ".png");
+        EXPECT_EQ(of_scene(name + ".glsl", 3), name + ".0007.png");
+    }
+}
+
+TEST(OutputName, of_a_scene_no_longer_than_a_name_may_be) {
+    const std::string name(245, 'n'), wide(250, 'n');
+    EXPECT_EQ(of_scene(name + ".glsl"), name + ".png");
+    EXPECT_EQ(of_scene(name + ".glsl", 2), name + ".0007.png");
+    EXPECT_EQ(of_scene(wide + ".glsl", 2), wide.substr(0, 246) + ".0007.png");
+    EXPECT_EQ(of_scene(wide.substr(0, 245) + "é.glsl", 2), wide.substr(0, 245) + ".0007.png");
+}
+
+TEST(OutputName, links_are_followed_only_where_they_were_typed) {
+    const TemporaryFolder folder, elsewhere;
+    const std::string root = folder.path().string();
+    std::filesystem::create_directory_symlink(elsewhere.path(), folder / "out");
+    for (const char* link : {"a.png", "a.0007.png", "sky_px.png"})
+        std::filesystem::create_symlink("behind.png", elsewhere / link);
+    const auto goes = [&](const std::string& pattern) {
+        return OutputName::parse(root + pattern, 1)->of_frame(7).place().has_value();
+    };
+    EXPECT_TRUE(goes("/out/a.png"));
+    EXPECT_TRUE(goes("/out/b.%04d.png"));
+    EXPECT_FALSE(goes("/out/a.%04d.png"));
+    EXPECT_FALSE(OutputName::parse(root + "/out/sky_{}.png", 1)->of_face(0, 0).place());
+    EXPECT_TRUE(OutputName::parse(root + "/out/sky_{}.png", 1)->of_face(0, 1).place());
+    std::filesystem::create_directory_symlink(elsewhere.path(), folder / "out7");
+    EXPECT_FALSE(goes("/out#/b.png"));
 }
 
 TEST(OutputName, numbers_as_hashes) {

@@ -1,0 +1,132 @@
+#include "base/leftovers.hpp"
+
+#include <limits.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <new>
+
+namespace tidemark {
+namespace {
+
+/// What a signal handler may read: it can neither lock nor allocate.
+struct Slot {
+    static constexpr pid_t k_free = 0, k_in_hand = -1;
+    std::atomic<pid_t> owner = k_free; ///< a forked child does not tidy up for its parent
+    pid_t child = 0;                   ///< 0: it is a file
+    std::array<char, PATH_MAX> path{};
+};
+
+using Slots = std::array<Slot, 48>;
+
+/// One for a process and all that are forked from it, which may end without a word.
+Slots& slots() {
+    static Slots* const shared = [] {
+        void* const memory =
+            ::mmap(nullptr, sizeof(Slots), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        return memory == MAP_FAILED ? new Slots : new (memory) Slots;
+    }();
+    return *shared;
+}
+
+std::atomic<bool> ending = false;
+constexpr int k_last_moment_ms = 2;
+
+/// -1: they are all taken.
+int take(const char* path, pid_t child) {
+    while (ending)
+        ::pause(); // another thread is about to end the process
+    for (Slot& slot : slots()) {
+        pid_t free = Slot::k_free;
+        if (!slot.owner.compare_exchange_strong(free, Slot::k_in_hand))
+            continue;
+        slot.child = child;
+        std::strncpy(slot.path.data(), path, PATH_MAX - 1);
+        slot.owner = ::getpid();
+        return int(&slot - slots().data());
+    }
+    return -1;
+}
+
+void remove_files(pid_t self) {
+    for (const Slot& slot : slots())
+        if (slot.owner == self && slot.child == 0)
+            ::unlink(slot.path.data());
+}
+
+/// Children first, who may be about to make a file.
+void clear() {
+    ending = true;
+    const pid_t self = ::getpid();
+    for (const Slot& slot : slots())
+        if (slot.owner == self && slot.child > 0) {
+            ::kill(-slot.child, SIGKILL);
+            while (::waitpid(slot.child, nullptr, 0) < 0 && errno == EINTR) {
+            }
+        }
+    remove_files(self);
+    ::poll(nullptr, 0, k_last_moment_ms); // another thread had its name and no file yet
+    remove_files(self);
+}
+
+} // namespace
+
+Leftover Leftover::file(const std::filesystem::path& path) {
+    Leftover leftover;
+    if (path.native().size() < PATH_MAX)
+        leftover.slot_ = take(path.c_str(), 0);
+    return leftover;
+}
+
+Leftover Leftover::child(pid_t process) {
+    Leftover leftover;
+    leftover.slot_ = take("", process);
+    return leftover;
+}
+
+void Leftover::forget() {
+    if (slot_ >= 0)
+        slots()[size_t(std::exchange(slot_, -1))].owner = Slot::k_free;
+}
+
+void exit_at_once(int code) {
+    clear();
+    ::_exit(code);
+}
+
+void clear_leftovers_of_the_dead() {
+    for (Slot& slot : slots()) {
+        const pid_t owner = slot.owner;
+        if (owner <= 0 || owner == ::getpid() || ::kill(owner, 0) == 0)
+            continue;
+        if (slot.child == 0)
+            ::unlink(slot.path.data());
+        slot.owner = Slot::k_free;
+    }
+}
+
+void clear_leftovers_on_signals() {
+    slots(); // a handler finds it there
+    struct sigaction action {};
+    action.sa_handler = [](int signal) {
+        clear();
+        ::raise(signal); // ends the process as it would have: SA_RESETHAND
+    };
+    action.sa_flags = int(SA_RESETHAND);
+    sigemptyset(&action.sa_mask);
+    for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) {
+        struct sigaction before {};
+        ::sigaction(signal, nullptr, &before);
+        if (before.sa_handler == SIG_DFL)
+            ::sigaction(signal, &action, nullptr);
+    }
+}
+
+} // namespace tidemark

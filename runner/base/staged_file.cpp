@@ -1,0 +1,263 @@
+#include "base/descriptor.hpp"
+#include "base/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace tidemark {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view k_part = ".part-";
+constexpr size_t k_longest_name = 255;
+constexpr size_t k_longest_extension = 16; ///< of a format that somebody knows by it
+constexpr size_t k_number_room = 24;       ///< the process, a dash and the count
+constexpr int k_pipe_patience_ms = 10000;
+constexpr int k_pipe_look_ms = 20;
+
+tl::unexpected<Error> cannot_write(const OutputPath& output, std::string_view why) {
+    return fail(ErrorCode::write, fmt::format("cannot write '{}': {}", output.string(), why));
+}
+
+tl::unexpected<Error> cannot_write(const OutputPath& output, int error_number) {
+    return cannot_write(output, std::generic_category().message(error_number));
+}
+
+/// -1 with errno. A pipe that nobody reads yet is waited for.
+int open_stream(const OutputPath::Place& place) {
+    if (place.descriptor)
+        return ::fcntl(*place.descriptor, F_DUPFD_CLOEXEC, 0);
+    std::error_code ignored;
+    const bool pipe = fs::is_fifo(place.path, ignored);
+    for (int waited = 0;; waited += k_pipe_look_ms) {
+        const int fd = ::open(place.path.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC);
+        if (fd >= 0 || errno != ENXIO || !pipe || waited >= k_pipe_patience_ms)
+            return fd;
+        ::poll(nullptr, 0, k_pipe_look_ms);
+    }
+}
+
+/// `give` is called for each block to write, until it gives none or fails.
+template <typename Give>
+Result<void> write_stream(const OutputPath& output, const OutputPath::Place& place, Give give) {
+    Descriptor stream(open_stream(place));
+    if (stream.get() < 0 && errno == ENXIO)
+        return cannot_write(
+            output, fmt::format("it is a pipe, and nobody read it for {} s", k_pipe_patience_ms / 1000));
+    if (stream.get() < 0)
+        return cannot_write(output, errno);
+    for (;;) {
+        const Result<std::span<const std::byte>> block = give();
+        if (!block)
+            return fail(block.error());
+        if (block->empty())
+            break;
+        if (const int error = write_all(stream.get(), *block))
+            return cannot_write(output, error);
+    }
+    const int error = stream.close();
+    return error ? cannot_write(output, error) : Result<void>();
+}
+
+/// `.NAME.part-PID-COUNT.EXTENSION`; several processes and threads may write to one path.
+std::string temporary_name(const std::string& stem, const std::string& extension) {
+    static std::atomic<unsigned> count = 0;
+    return fmt::format(".{}{}{}-{}{}", stem, k_part, ::getpid(), ++count, extension);
+}
+
+/// The process whose file under construction this is, and of which output; 0: it is none.
+struct PartOf {
+    pid_t process = 0;
+    std::string stem{};
+};
+
+PartOf part_of(const std::string& name) {
+    const size_t part = name.rfind(k_part);
+    if (name.empty() || name[0] != '.' || part == name.npos)
+        return {};
+    PartOf found;
+    const char* const end = name.data() + name.size();
+    const auto [after, wrong] = std::from_chars(name.data() + part + k_part.size(), end, found.process);
+    unsigned count = 0;
+    if (wrong != std::errc() || after == end || *after != '-' ||
+        std::from_chars(after + 1, end, count).ec != std::errc())
+        return {};
+    found.stem = name.substr(1, part - 1);
+    return found;
+}
+
+/// The frames of a sequence are one output.
+std::string without_digits(std::string stem) {
+    std::erase_if(stem, [](char c) { return c >= '0' && c <= '9'; });
+    return stem;
+}
+
+/// The process is gone: neither does this machine know its number, nor does another hold the file.
+bool is_abandoned(const fs::path& path, pid_t process) {
+    if (::kill(process, 0) == 0 || errno != ESRCH)
+        return false;
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat facts {};
+    return file.get() >= 0 && ::fstat(file.get(), &facts) == 0 && S_ISREG(facts.st_mode) &&
+           facts.st_uid == ::geteuid() &&
+           (::flock(file.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK);
+}
+
+/// Once for each output of a process: a sequence writes to its folder a thousand times.
+void remove_abandoned(const fs::path& folder, const std::string& stem) {
+    static std::mutex mutex;
+    static std::set<std::pair<fs::path, std::string>> seen;
+    const std::string output = without_digits(stem);
+    {
+        const std::lock_guard lock(mutex);
+        if (!seen.emplace(folder, output).second)
+            return;
+    }
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const PartOf part = part_of(entry->path().filename().string());
+        if (part.process > 0 && without_digits(part.stem) == output &&
+            is_abandoned(entry->path(), part.process))
+            ::unlink(entry->path().c_str());
+    }
+}
+
+} // namespace
+
+Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view extension) {
+    auto place = output.place();
+    if (!place)
+        return fail(std::move(place.error()));
+    std::error_code ignored;
+    if (fs::is_directory(place->path, ignored))
+        return cannot_write(output, EISDIR);
+    const fs::path name = output.path().filename(); // a link may lead to a name of another kind
+    std::string ending(extension.empty() ? name.extension().string() : extension);
+    if (ending.size() > k_longest_extension)
+        ending.clear();
+    const std::string stem =
+        name.stem().string().substr(0, k_longest_name - 1 - k_part.size() - k_number_room - ending.size());
+    fs::path folder = place->stream ? fs::temp_directory_path(ignored) : place->path.parent_path();
+    if (folder.empty())
+        folder = ".";
+    remove_abandoned(folder, stem);
+    StagedFile staged(output, *std::move(place));
+    if (auto opened = staged.open(folder, stem, ending); !opened)
+        return fail(std::move(opened.error()));
+    return staged;
+}
+
+/// Somebody may have put something under any name: it is another one then.
+Result<void> StagedFile::open(const fs::path& folder, const std::string& stem, const std::string& extension) {
+    constexpr int k_attempts = 1000;
+    for (int i = 0; i < k_attempts; ++i) {
+        fs::path path = folder == "." ? fs::path(temporary_name(stem, extension))
+                                      : folder / temporary_name(stem, extension);
+        leftover_ = Leftover::file(path);
+        descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                             place_.stream ? 0600 : 0666);
+        if (descriptor_ >= 0) {
+            temporary_ = std::move(path);
+            ::flock(descriptor_, LOCK_EX | LOCK_NB);
+            return {};
+        }
+        leftover_.forget();
+        if (errno != EEXIST)
+            break;
+    }
+    return cannot_write(output_, errno);
+}
+
+StagedFile::StagedFile(StagedFile&& other) noexcept
+    : output_(std::move(other.output_)), place_(std::move(other.place_)),
+      temporary_(std::exchange(other.temporary_, {})), descriptor_(std::exchange(other.descriptor_, -1)),
+      leftover_(std::move(other.leftover_)) {}
+
+StagedFile::~StagedFile() {
+    if (descriptor_ >= 0)
+        ::close(descriptor_);
+    if (!temporary_.empty())
+        ::unlink(temporary_.c_str());
+}
+
+Result<void> StagedFile::write(std::span<const std::byte> bytes) {
+    const int error = write_all(descriptor_, bytes);
+    return error ? cannot_write(output_, error) : Result<void>();
+}
+
+Result<void> StagedFile::commit() {
+    if (place_.stream) {
+        ::lseek(descriptor_, 0, SEEK_SET);
+        std::array<std::byte, 1 << 16> block;
+        return write_stream(output_, place_, [&]() -> Result<std::span<const std::byte>> {
+            const ssize_t count = ::read(descriptor_, block.data(), block.size());
+            if (count < 0)
+                return cannot_write(output_, errno);
+            return std::span<const std::byte>(block.data(), size_t(count));
+        });
+    }
+    if (::close(std::exchange(descriptor_, -1)) != 0)
+        return cannot_write(output_, errno);
+    std::error_code error;
+    fs::rename(temporary_, place_.path, error);
+    if (error)
+        return cannot_write(output_, error.value());
+    leftover_.forget();
+    temporary_.clear();
+    return {};
+}
+
+Result<void> write_file(const OutputPath& output, std::span<const std::byte> bytes) {
+    auto place = output.place();
+    if (!place)
+        return fail(std::move(place.error()));
+    if (place->stream)
+        return write_stream(output, *place, [&] { // all at once, then nothing
+            return Result<std::span<const std::byte>>(std::exchange(bytes, {}));
+        });
+    auto staged = StagedFile::create(output);
+    if (!staged)
+        return fail(std::move(staged.error()));
+    return staged->write(bytes).and_then([&] { return staged->commit(); });
+}
+
+Result<void> write_file(const OutputPath& output, std::string_view text) {
+    return write_file(output, std::as_bytes(std::span(text)));
+}
+
+Result<void> check_writable(const OutputPath& output) {
+    auto place = output.place();
+    if (!place)
+        return fail(std::move(place.error()));
+    if (place->stream)
+        return {};
+    return StagedFile::create(output).map([](const StagedFile&) {});
+}
+
+Result<void> make_folder(const OutputPath& folder) {
+    if (auto clean = folder.check_links(); !clean)
+        return clean;
+    std::error_code error;
+    fs::create_directories(folder.path(), error);
+    if (error)
+        return fail(ErrorCode::write,
+                    fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+    return {};
+}
+
+} // namespace tidemark

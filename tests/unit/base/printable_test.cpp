@@ -1,0 +1,48 @@
+// What a terminal would obey is shown; what people read stays.
+#include "base/printable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace tidemark {
+namespace {
+
+TEST(Printable, texts_of_all_languages_stay) {
+    for (const std::string text :
+         {"", "plain", "two\nlines\tand a tab", "Größe, 水面, \U0001f30a, ꟻLIP", "a\\x1b"})
+        EXPECT_EQ(printable(text), text);
+}
+
+TEST(Printable, controls_are_shown) {
+    EXPECT_EQ(printable("\x1b[31mred\x1b]0;title\a"), "\\x1b[31mred\\x1b]0;title\\x07");
+    EXPECT_EQ(printable(std::string("a\0b\r\b\x7f", 6)), "a\\x00b\\x0d\\x08\\u007f");
+    EXPECT_EQ(printable("\u009b31m \u0085"), "\\u009b31m \\u0085"); // CSI in one character
+    EXPECT_EQ(printable("a\u202eb\u2066c\u200fd\u2028"), "a\\u202eb\\u2066c\\u200fd\\u2028");
+}
+
+TEST(Printable, every_single_byte) {
+    for (int i = 0; i < 256; ++i) {
+        const std::string shown = printable(std::string(1, char(i)));
+        for (const char c : shown)
+            EXPECT_TRUE((c >= ' ' && c < 0x7f) || c == '\n' || c == '\t') << i;
+    }
+}
+
+TEST(Printable, what_is_no_utf8_is_shown) {
+    EXPECT_EQ(printable("\xff\xc3(\xa9"), "\\xff\\xc3(\\xa9");
+    EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");                   // ESC's neighbour, too long
+    EXPECT_EQ(printable("\xe0\x82\x9b"), "\\xe0\\x82\\x9b");          // CSI, too long
+    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");          // half of a pair of UTF-16
+    EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80"); // beyond Unicode
+    EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");                   // cut
+}
+
+TEST(Printable, one_line) {
+    EXPECT_EQ(printable_line("two\nlines\t"), "two\\x0alines\\x09");
+    EXPECT_TRUE(is_printable_line("é"));
+    EXPECT_FALSE(is_printable_line("a\n"));
+}
+
+} // namespace
+} // namespace tidemark
