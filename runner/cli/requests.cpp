@@ -87,12 +87,16 @@ std::vector<std::string> option_words(const SceneRequest& request) {
     return words;
 }
 
-Result<scene::Scene> load(const SceneRequest& request) {
+Result<scene::Scene> load_as_written(const SceneRequest& request) {
     auto scene = scene::load_scene(request.path, request.files);
-    if (!scene)
-        return scene;
-    say_warnings(scene->warnings, request.said);
-    const std::vector<Diagnostic> before = scene->warnings;
+    if (scene)
+        say_warnings(scene->warnings, request.said);
+    return scene;
+}
+
+Result<void> apply_options(const SceneRequest& request, scene::Scene& scene) {
+    std::vector<Diagnostic> said = scene.warnings;
+    said.insert(said.end(), request.said.begin(), request.said.end());
     using Override = Result<void> (*)(scene::Scene&, std::string_view);
     const std::pair<const std::vector<std::string>&, Override> overrides[] = {
         {request.defines, glsl::override_definition},
@@ -101,9 +105,21 @@ Result<scene::Scene> load(const SceneRequest& request) {
     };
     for (const auto& [settings, apply] : overrides)
         for (const std::string& setting : settings)
-            if (auto applied = apply(*scene, setting); !applied)
-                return fail(std::move(applied.error()));
-    say_warnings(scene->warnings, before);
+            if (auto applied = apply(scene, setting); !applied) {
+                if (apply != scene::override_knob || !request.knobs_may_go)
+                    return applied;
+                scene.warnings.push_back(
+                    {{request.path.string()}, Severity::warning, std::move(applied.error().message)});
+            }
+    say_warnings(scene.warnings, said);
+    return {};
+}
+
+Result<scene::Scene> load(const SceneRequest& request) {
+    auto scene = load_as_written(request);
+    if (scene)
+        if (auto applied = apply_options(request, *scene); !applied)
+            return fail(std::move(applied.error()));
     return scene;
 }
 

@@ -29,6 +29,7 @@ struct SceneRequest {
     scene::LoadOptions files{};          ///< --media, --allow-outside
     bool doubles = false;                ///< --precision double
     bool double_hashes = false;          ///< --double-hashes
+    bool knobs_may_go = false;           ///< --set of a knob that is not there is a warning, no error
     std::vector<Diagnostic> said{};      ///< warnings that were printed before, by a load of the same scene
 };
 
@@ -44,8 +45,12 @@ std::string file_word(const std::filesystem::path& file);
 /// folder. It need not exist.
 std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name);
 
-/// Prints the scene's warnings.
+/// The scene with its overrides. Prints its warnings.
 Result<scene::Scene> load(const SceneRequest& request);
+
+/// The two halves of `load`: the scene as its files have it, and what the options change in it.
+Result<scene::Scene> load_as_written(const SceneRequest& request);
+Result<void> apply_options(const SceneRequest& request, scene::Scene& scene);
 
 /// Which frames, and what they see.
 struct FrameRequest {

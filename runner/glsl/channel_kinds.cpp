@@ -37,15 +37,14 @@ bool complains_of_sampler(std::string_view message) {
                        message.find("texelFetch") != std::string_view::npos);
 }
 
-/// The driver's own line numbers of such complaints.
-std::set<int> lines_of_complaints(std::string_view log) {
-    // A map without runs keeps no place; one that begins at line 1 leaves the driver's numbers as they are.
-    text::LineMap same;
-    same.begin_run(1, "driver", 1);
+/// The lines of such complaints, in the text that the driver was given.
+std::set<int> lines_of_complaints(std::string_view log, const text::MappedText& source) {
+    text::MappedText same; // its places are its own
+    same.append(source.text(), "driver", 1);
     std::set<int> lines;
-    for (const Diagnostic& diagnostic : parse_driver_log(log, same))
-        if (complains_of_sampler(diagnostic.message))
-            lines.insert(diagnostic.where.line);
+    for (const DriverMessage& message : parse_driver_log(log, same))
+        if (complains_of_sampler(message.diagnostic.message))
+            lines.insert(message.diagnostic.where.line);
     return lines;
 }
 
@@ -103,7 +102,7 @@ std::vector<ChannelKinds> combinations(std::vector<size_t> suspects) {
 
 std::vector<ChannelKinds> channel_kinds_to_try(const scene::Scene& scene, const scene::Pass& pass,
                                                const text::MappedText& source, std::string_view log) {
-    const std::set<int> lines = lines_of_complaints(log);
+    const std::set<int> lines = lines_of_complaints(log, source);
     if (lines.empty())
         return {};
     const Mentions named = mentions(source, lines);

@@ -1,5 +1,10 @@
 #include "glsl/driver_log.hpp"
 
+#include "glsl/driver_places.hpp"
+#include "glsl/follow_up_errors.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -8,11 +13,13 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A message with the driver's own line number (0: none).
+/// A message with the driver's own numbers (0: none).
 struct Message {
     int line = 0;
     Severity severity = Severity::error;
     std::string_view text;
+    int column = 0;
+    bool of_preprocessor = false;
 };
 
 /// Consumes the front of a line of the log, piece by piece.
@@ -67,10 +74,11 @@ std::optional<Message> read_mesa(Cursor at) {
     if (!(at.number(source) && at.literal(":") && at.number(line) && at.literal("(") && at.number(column) &&
           at.literal("): ")))
         return std::nullopt;
+    const bool of_preprocessor = at.rest().starts_with("preprocessor ");
     const auto severity = at.severity();
     if (!severity || !at.literal(": "))
         return std::nullopt;
-    return Message{line, *severity, at.rest()};
+    return Message{line, *severity, at.rest(), column, of_preprocessor};
 }
 
 /// `0(12) : error C1008: …`
@@ -177,10 +185,31 @@ private:
     int listed_ = 0; ///< with the line that announces them
 };
 
+/// The word that Mesa's message is about and that stands at its column; empty: another one does.
+std::string_view word_there(std::string_view message) {
+    if (message.starts_with("`") && message.ends_with("' undeclared"))
+        return message.substr(1, message.size() - 1 - std::string_view("' undeclared").size());
+    constexpr std::string_view k_no_function = "no function with name '";
+    if (message.starts_with(k_no_function) && message.ends_with("'"))
+        return message.substr(k_no_function.size(), message.size() - k_no_function.size() - 1);
+    return {};
+}
+
+SourceLocation place_of(const Message& message, const DriverPlaces& places, const text::LineMap& lines) {
+    if (message.column == 0)
+        return lines.locate(message.line);
+    const DriverPlace place =
+        message.of_preprocessor ? places.of_preprocessor(message.line, message.column)
+                                : places.of_compiler(message.line, message.column, word_there(message.text));
+    return lines.locate(place.line, place.column);
+}
+
 } // namespace
 
-std::vector<Diagnostic> parse_driver_log(std::string_view log, const text::LineMap& lines) {
-    std::vector<Diagnostic> diagnostics;
+std::vector<DriverMessage> parse_driver_log(std::string_view log, const text::MappedText& source) {
+    std::vector<DriverMessage> messages;
+    const DriverPlaces places(source.text());
+    FollowUpErrors follow_ups;
     Candidates candidates;
     while (!log.empty()) {
         const size_t end = std::min(log.find('\n'), log.size());
@@ -191,16 +220,51 @@ std::vector<Diagnostic> parse_driver_log(std::string_view log, const text::LineM
         if (line.empty())
             continue;
         const Message message = read_line(line);
+        const SourceLocation where = place_of(message, places, source.lines());
         if (candidates.take(message)) {
             if (candidates.wanted())
-                diagnostics.push_back(
-                    {lines.locate(message.line), Severity::note,
-                     std::string(message.text.substr(message.text.find_first_not_of(' ')))});
+                messages.push_back({{where, Severity::note,
+                                     std::string(message.text.substr(message.text.find_first_not_of(' ')))},
+                                    messages.back().follows});
         } else {
-            diagnostics.push_back({lines.locate(message.line), message.severity, in_words(message.text)});
+            const bool follows =
+                follow_ups.take({message.line, message.column, message.severity, message.text});
+            messages.push_back({{where, message.severity, in_words(message.text)}, follows});
         }
     }
-    return diagnostics;
+    return messages;
+}
+
+std::vector<Diagnostic> for_people(const std::vector<DriverMessage>& messages) {
+    std::vector<Diagnostic> errors;
+    std::vector<Diagnostic> others;
+    SourceLocation last;
+    size_t following = 0;
+    const auto count_following = [&] {
+        if (following > 0)
+            errors.push_back(
+                {last, Severity::note,
+                 fmt::format("… and {} more that follow{} from it", following, following == 1 ? "s" : "")});
+        following = 0;
+    };
+    bool of_error = false;
+    for (const DriverMessage& message : messages) {
+        const Diagnostic& diagnostic = message.diagnostic;
+        if (message.follows) {
+            following += diagnostic.severity != Severity::note;
+            continue;
+        }
+        if (diagnostic.severity != Severity::note) {
+            count_following();
+            of_error = diagnostic.severity == Severity::error;
+            if (of_error)
+                last = diagnostic.where;
+        }
+        (of_error ? errors : others).push_back(diagnostic);
+    }
+    count_following();
+    errors.insert(errors.end(), others.begin(), others.end());
+    return errors;
 }
 
 } // namespace tidemark::glsl

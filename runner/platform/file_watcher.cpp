@@ -75,7 +75,7 @@ public:
 
     Result<void> start();
     Result<void> watch(std::vector<fs::path> files);
-    std::vector<fs::path> changed();
+    std::vector<Change> changed();
 
 private:
     using Task = std::packaged_task<Result<void>()>;
@@ -84,7 +84,7 @@ private:
         fs::path absolute;
         std::vector<Waypoint> trail{};
         bool pending = false;
-        uint64_t last_event = 0; ///< milliseconds of uv_now
+        std::chrono::steady_clock::time_point last_event{};
     };
 
     Result<void> on_thread(Task task);
@@ -111,7 +111,7 @@ private:
 
     std::mutex mutex_; ///< of the next two
     std::vector<Task> tasks_;
-    std::set<fs::path> ready_;
+    std::map<fs::path, std::chrono::steady_clock::time_point> ready_; ///< and when they changed
 
     std::thread thread_;
 };
@@ -187,11 +187,13 @@ Result<void> FileWatcher::Loop::watch(std::vector<fs::path> files) {
     return watched;
 }
 
-std::vector<fs::path> FileWatcher::Loop::changed() {
+std::vector<FileWatcher::Change> FileWatcher::Loop::changed() {
     const std::lock_guard lock(mutex_);
-    std::vector<fs::path> files(ready_.begin(), ready_.end());
+    std::vector<Change> changes;
+    for (const auto& [file, at] : ready_)
+        changes.push_back({file, at});
     ready_.clear();
-    return files;
+    return changes;
 }
 
 Result<void> FileWatcher::Loop::replace_files(const std::vector<fs::path>& files) {
@@ -204,7 +206,7 @@ Result<void> FileWatcher::Loop::replace_files(const std::vector<fs::path>& files
     files_ = std::move(replaced);
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(ready_, [&](const fs::path& file) { return !files_.contains(file); });
+        std::erase_if(ready_, [&](const auto& change) { return !files_.contains(change.first); });
     }
     return follow_trails();
 }
@@ -294,7 +296,7 @@ void FileWatcher::Loop::on_event(Folder& folder, const char* name, int events) {
 
 void FileWatcher::Loop::touch(Tracked& file) {
     file.pending = true;
-    file.last_event = uv_now(&loop_);
+    file.last_event = std::chrono::steady_clock::now();
     const uint64_t quiet = uint64_t(k_quiet.count());
     if (!uv_is_active(reinterpret_cast<uv_handle_t*>(&timer_)) || uv_timer_get_due_in(&timer_) > quiet)
         settle_in(quiet);
@@ -309,18 +311,19 @@ void FileWatcher::Loop::settle_in(uint64_t milliseconds) {
 void FileWatcher::Loop::settle() {
     // A folder that is deleted while somebody has it open sends no event: only looking tells.
     (void)follow_trails();
-    const uint64_t now = uv_now(&loop_);
+    const auto now = std::chrono::steady_clock::now();
     const uint64_t quiet = uint64_t(k_quiet.count());
     uint64_t next = UINT64_MAX;
-    std::vector<fs::path> settled;
+    std::map<fs::path, std::chrono::steady_clock::time_point> settled;
     for (auto& [spelling, file] : files_) {
         if (!file.pending)
             continue;
-        const uint64_t age = now - file.last_event;
+        const auto age =
+            uint64_t(std::chrono::ceil<std::chrono::milliseconds>(now - file.last_event).count());
         const uint64_t needed = looks_saved(file.absolute) ? quiet : uint64_t(k_patience.count());
         if (age >= needed) {
             file.pending = false;
-            settled.push_back(spelling);
+            settled.emplace(spelling, file.last_event);
         } else {
             next = std::min(next, age < quiet ? quiet - age : quiet);
         }
@@ -331,7 +334,8 @@ void FileWatcher::Loop::settle() {
         return;
     {
         const std::lock_guard lock(mutex_);
-        ready_.insert(settled.begin(), settled.end());
+        for (const auto& [file, at] : settled)
+            ready_[file] = at;
     }
     if (wake_)
         wake_();
@@ -353,7 +357,7 @@ Result<void> FileWatcher::watch(std::span<const fs::path> files) {
     return loop_->watch({files.begin(), files.end()});
 }
 
-std::vector<fs::path> FileWatcher::changed() {
+std::vector<FileWatcher::Change> FileWatcher::changed() {
     return loop_->changed();
 }
 

@@ -19,6 +19,13 @@ namespace tidemark::platform {
 /// makes on a network file system.) A thread of its own sleeps until something happens.
 class FileWatcher {
 public:
+    /// A file, in the spelling `watch` was given, and when it was last written to or got its name: not its
+    /// own time, which one that is moved into place brings along.
+    struct Change {
+        std::filesystem::path file;
+        std::chrono::steady_clock::time_point at;
+    };
+
     /// How long a file must have been left alone before it is reported: the time a save takes.
     static constexpr std::chrono::milliseconds k_quiet{6};
     /// How long a file that is missing or empty may stay so before it is reported all the same. In the
@@ -39,8 +46,8 @@ public:
     /// folder now. Fails (ErrorCode::load) naming a folder that cannot be watched; the others are.
     Result<void> watch(std::span<const std::filesystem::path> files);
 
-    /// The files that were saved since the last call, in the spelling `watch` was given, sorted. Never waits.
-    std::vector<std::filesystem::path> changed();
+    /// The files that were saved since the last call, sorted. Never waits.
+    std::vector<Change> changed();
 
 private:
     class Loop;

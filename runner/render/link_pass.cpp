@@ -62,7 +62,7 @@ private:
                     {}};
         error.diagnostics = reading_.entry_point_problems();
         if (error.diagnostics.empty())
-            error.diagnostics = glsl::parse_driver_log(first_->log, first_->source.lines());
+            error.diagnostics = glsl::for_people(glsl::parse_driver_log(first_->log, first_->source));
         for (Diagnostic& diagnostic : error.diagnostics) {
             if (diagnostic.where.file.empty())
                 diagnostic.where = reading_.place_of(named_in(diagnostic.message)).value_or(SourceLocation());

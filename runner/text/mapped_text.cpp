@@ -33,6 +33,20 @@ private:
     int line_ = 1;
 };
 
+bool is_word(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// Where a word begins in what replaces something, behind the first: the author wrote all of them in one
+/// place.
+std::vector<size_t> inner_words(std::string_view replacement) {
+    std::vector<size_t> begins;
+    for (size_t i = 1; i < replacement.size(); ++i)
+        if (replacement[i] != ' ' && !(is_word(replacement[i]) && is_word(replacement[i - 1])))
+            begins.push_back(i);
+    return begins;
+}
+
 } // namespace
 
 void LineMap::begin_run(int line, std::string_view file, int source_line) {
@@ -135,6 +149,18 @@ void MappedText::apply(const std::vector<Edit>& edits) {
         assert(edit.begin >= copied && edit.end >= edit.begin && edit.end <= text_.size());
         const std::string_view removed = std::string_view(text_).substr(edit.begin, edit.end - edit.begin);
         result.append(text_, copied, edit.begin - copied);
+        cursor.advance(edit.begin);
+        if (cursor.line() != line) {
+            line = cursor.line();
+            line_begin = result.rfind('\n') + 1;
+            told = 0;
+        }
+        for (const size_t word : inner_words(edit.replacement)) {
+            const int column = int(result.size() + word - line_begin) + 1;
+            const int by = cursor.column() - column - told;
+            shifts.push_back({line, column, by});
+            told += by;
+        }
         result += edit.replacement;
         result.append(size_t(std::count(removed.begin(), removed.end(), '\n')), '\n');
         copied = edit.end;

@@ -1,7 +1,6 @@
 """The window: what it shows, its keys, its size, its end."""
 from support import png, probe
 from support.live import LiveTest, main, wait_for
-from support.program import environment
 
 CLOCK = {"iTime": "iTime", "iTimeDelta": "iTimeDelta", "iFrame": "float(iFrame)"}
 SIZE = probe.vector("iResolution", "xyz")
@@ -155,14 +154,6 @@ class Keys(LiveTest):
         self.screen.xdotool("key", "s", "Escape")
         self.assertEqual(view.wait_for_end(), 0)
         self.assertEqual(png.read(self.folder / "clock-00000.png").width, 200)
-
-
-class Start(LiveTest):
-    def test_scene_that_does_not_compile_ends_it(self):
-        self.write("broken.glsl", "\nvoid mainImage(out vec4 c, in vec2 p) { c = nothing; }\n")
-        self.expect_failure_like(["view", "broken.glsl"], 3,
-                                 r"tidemark: error: 'broken\.glsl' does not compile\nbroken\.glsl:2: error: .*"
-                                 r"(\n[^\n]+)*", env=environment(DISPLAY=self.screen.display))
 
 
 if __name__ == "__main__":

@@ -109,14 +109,19 @@ class View:
 
     save_key = "s"
 
-    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str, first_title: str = " (fps|still)$",
-                 **variables: str) -> None:
+    def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str,
+                 first_title: str | None = " (fps|still)$", **variables: str) -> None:
+        """Waits for the window and its title, unless that is None."""
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
         self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
                                         env=environment(DISPLAY=screen.display, **variables), stderr=self.words)
-        self.window = int(wait_for(lambda: self.running() and screen.xdotool("search", "--onlyvisible", "--class",
-                                                                            "tidemark"), "the window"))
+        if first_title is not None:
+            self.wait_for_window(first_title)
+
+    def wait_for_window(self, first_title: str) -> None:
+        self.window = int(wait_for(lambda: self.running() and self.screen.xdotool(
+            "search", "--onlyvisible", "--class", "tidemark"), "the window"))
         wait_for(lambda: self.running() and re.search(first_title, self.title()), "the first frame")
         self.point(5, 5)  # keys go to the window under the pointer
 

@@ -1,11 +1,11 @@
 #include "base/file.hpp"
-#include "base/shell_word.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/json_dump.hpp"
+#include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "cli/sequence.hpp"
 #include "cli/trial.hpp"
@@ -208,34 +208,6 @@ void say_what_was_written(const std::vector<FrameRecord>& records, bool video) {
                         records.back().file));
 }
 
-/// The command that finds the line, in the words of the one that was given.
-std::string trace_command(const CaptureOptions& options, int frame) {
-    std::vector<std::string> words{"tidemark", "check", "--trace", file_word(options.scene.path)};
-    const auto add = [&](const char* option, const std::string& value) {
-        words.insert(words.end(), {option, value});
-    };
-    const auto add_given = [&](const char* option, const std::optional<std::string>& value) {
-        if (value)
-            add(option, *value);
-    };
-    const FrameOptions& frames = options.frames;
-    if (frames.time)
-        add("--time", fmt::format("{}", *frames.time));
-    else
-        add("--frame", fmt::format("{}", frame));
-    add("--size", frames.size);
-    if (frames.fps != FrameOptions{}.fps)
-        add("--fps", fmt::format("{}", frames.fps));
-    add_given("--mouse", frames.mouse);
-    add_given("--date", frames.date);
-    add_given("--camera", frames.camera);
-    add_given("--input", frames.input);
-    if (!frames.pass.empty())
-        add("--pass", frames.pass);
-    std::ranges::copy(option_words(options.scene), std::back_inserter(words));
-    return shell_words(words);
-}
-
 /// One line for all frames: a file does not show what was no number.
 void say_what_is_not_finite(const CaptureOptions& options, const std::vector<FrameRecord>& records) {
     const auto bad = [](const FrameRecord& record) { return record.not_finite > 0; };
@@ -243,11 +215,11 @@ void say_what_is_not_finite(const CaptureOptions& options, const std::vector<Fra
     if (first == records.end())
         return;
     const auto others = std::ranges::count_if(first + 1, records.end(), bad);
-    say(fmt::format("warning: {} pixel{} of frame {} {} not finite{}; where from: {}", first->not_finite,
-                    first->not_finite > 1 ? "s" : "", first->frame, first->not_finite > 1 ? "are" : "is",
+    say(fmt::format("warning: {} not finite{}; where from: {}",
+                    pixels_are(first->not_finite, fmt::format("of frame {}", first->frame)),
                     others > 0 ? fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")
                                : "",
-                    trace_command(options, first->frame)));
+                    trace_command(options.scene, options.frames, first->frame)));
 }
 
 /// `-o x.wav` asks for the sound of a scene instead of its pictures.

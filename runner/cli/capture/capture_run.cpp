@@ -1,11 +1,11 @@
 #include "cli/capture/capture_run.hpp"
 
 #include "cli/console.hpp"
+#include "cli/not_finite.hpp"
 #include "cli/omissions.hpp"
 #include "cli/precision_report.hpp"
 #include "cli/progress.hpp"
 #include "cli/version.hpp"
-#include "image/census.hpp"
 #include "image/files/cubemap_file.hpp"
 #include "render/bands.hpp"
 
@@ -134,7 +134,7 @@ Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, Fr
     image::Image image = read_back();
     record.milliseconds = milliseconds_since(work->start);
     work.reset();
-    record.not_finite = count_non_finite(image);
+    record.not_finite = count_not_finite(renderer_, image);
     if (plan_.hashes) {
         Sha256 hash;
         add_rows(hash, image);
@@ -200,21 +200,6 @@ image::Image Capture::read_back() const {
         return renderer_.read_back();
     const image::CubeFaces faces = renderer_.read_back_cube();
     return plan_.output.six_faces() ? image::column_of(faces) : image::equirectangular_of(faces);
-}
-
-/// Bytes of Image are marked. Those of another pass are not, for its alpha is its own: its floats are looked
-/// at.
-size_t Capture::count_non_finite(image::Image& image) const {
-    const scene::Pass& shown = renderer_.shown_pass();
-    if (shown.kind == scene::PassKind::image || image.type == image::SampleType::f32)
-        return image::take_non_finite(image);
-    const auto pass = size_t(&shown - renderer_.scene().passes.data());
-    size_t count = 0;
-    for (int face = 0; face < (shown.kind == scene::PassKind::cubemap ? 6 : 1); ++face) {
-        image::Image floats = renderer_.read_floats(pass, face);
-        count += image::take_non_finite(floats);
-    }
-    return count;
 }
 
 /// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,

@@ -71,7 +71,6 @@ private:
     Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
     render::FrameInputs inputs_at(int frame);
     image::Image read_back() const;
-    size_t count_non_finite(image::Image& image) const;
     Result<bool> deliver(const FrameRecord& record, image::Image image);
     image::PictureFormat format_of(const FrameRecord& record) const;
     Result<void> open_output();

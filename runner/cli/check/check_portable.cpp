@@ -22,8 +22,10 @@ using Json = nlohmann::ordered_json;
 using Diagnostics = std::vector<Diagnostic>;
 
 Json to_json(const Diagnostic& diagnostic) {
-    return {
-        {"file", diagnostic.where.file}, {"line", diagnostic.where.line}, {"message", diagnostic.message}};
+    return {{"file", diagnostic.where.file},
+            {"line", diagnostic.where.line},
+            {"column", diagnostic.where.column},
+            {"message", diagnostic.message}};
 }
 
 /// What the driver says of the texts as the site would compile them. One place is told once: of Common, that
@@ -39,11 +41,12 @@ void add_refusals(const scene::Scene& scene, Diagnostics& found) {
         const auto linked = gl::Program::link(glsl::vertex_shader(glsl::Version::es_300), source.text());
         if (linked)
             continue;
-        Diagnostics refusals = glsl::parse_driver_log(linked.error(), source.lines());
-        std::erase_if(refusals, [&](const Diagnostic& refusal) {
-            return refusal.severity != Severity::error || is_told(refusal.where);
+        auto refusals = glsl::parse_driver_log(linked.error(), source);
+        std::erase_if(refusals, [&](const glsl::DriverMessage& refusal) {
+            return refusal.follows || refusal.diagnostic.severity != Severity::error ||
+                   is_told(refusal.diagnostic.where);
         });
-        for (Diagnostic& refusal : refusals) {
+        for (auto& [refusal, follows] : refusals) {
             if (refusal.where.file.empty())
                 refusal.message = fmt::format("{}: {}", pass.name, refusal.message);
             found.push_back(std::move(refusal));

@@ -5,61 +5,136 @@
 #include "scene/folder_scene.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <ctime>
 
 namespace tidemark::cli {
+namespace fs = std::filesystem;
 namespace {
 
 /// How long a scene that does not load may still be in the middle of being saved. An editor's pause between
 /// two writes is shorter, a person's patience longer.
 constexpr double k_half_written_seconds = 0.06;
 
-void keep_turned_knobs(const std::vector<scene::Knob>& before, scene::Scene& fresh) {
-    for (const scene::Knob& old : before)
-        for (scene::Knob& knob : fresh.knobs)
-            if (knob.name == old.name && knob.type == old.type && old.value != old.initial)
-                knob.value = old.value;
+/// The kernel's: file times are no finer.
+constexpr double k_tick_seconds = 0.02;
+
+double seconds_of(const timespec& time) {
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+double file_clock_seconds() {
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    return seconds_of(now);
+}
+
+/// Written to or moved into place since then.
+bool touched_since(const fs::path& file, double file_clock) {
+    struct stat status {};
+    return ::stat(file.c_str(), &status) == 0 && seconds_of(status.st_ctim) >= file_clock - k_tick_seconds;
+}
+
+/// No save of a file can help.
+bool is_final(const Error& error) {
+    return error.code == ErrorCode::usage || error.code == ErrorCode::no_context;
 }
 
 } // namespace
 
-LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher, const scene::Scene& scene)
-    : request_(std::move(request)), watcher_(std::move(watcher)), name_(scene.name()), files_(scene.files),
-      knobs_(scene.knobs), in_folder_(scene::scene_files_in(request_.path)),
-      builder_([] { platform::Window::wake(); }) {
-    request_.sets.clear(); // they are among the knobs that were turned
-    request_.said = scene.warnings;
+LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher)
+    : request_(std::move(request)), watcher_(std::move(watcher)), builder_([] { platform::Window::wake(); }) {
+    scene::Scene named;
+    named.file = request_.path;
+    name_ = named.name();
+    request_.knobs_may_go = true;
 }
 
-Result<LiveScene> LiveScene::create(SceneRequest request, scene::Scene scene, platform::Window& window,
+LiveScene::Loading LiveScene::load(const SceneRequest& request) {
+    const double begun = file_clock_seconds();
+    Loading loading{load_as_written(request), {}, begun};
+    if (!loading.scene)
+        return loading;
+    loading.held = held_values(request, *loading.scene);
+    if (auto applied = apply_options(request, *loading.scene); !applied)
+        loading.scene = fail(std::move(applied.error()));
+    return loading;
+}
+
+Result<LiveScene> LiveScene::create(SceneRequest request, Loading first, platform::Window& window,
                                     const View& view) {
     auto watcher = platform::FileWatcher::create([] { platform::Window::wake(); });
     if (!watcher)
         return fail(std::move(watcher.error()));
-    LiveScene live(std::move(request), *std::move(watcher), scene);
-    if (auto watched = live.watch(live.files_); !watched)
-        say(to_string(watched.error())); // it can still be looked at
-    if (auto begun = live.build(std::move(scene), window, view); !begun)
-        return fail(std::move(begun.error()));
+    LiveScene live(std::move(request), *std::move(watcher));
+    if (auto begun = live.begin(live.watched(std::move(first)), window, view); !begun) {
+        if (is_final(begun.error()))
+            return fail(std::move(begun.error()));
+        live.fail_with(std::move(begun.error()));
+    }
     return live;
 }
 
-/// Those files, and of a scene that is a folder the files that it may get.
-Result<void> LiveScene::watch(std::vector<std::filesystem::path> files) {
+/// What a save may mend, or change.
+std::vector<fs::path> LiveScene::files_of(const Result<scene::Scene>& scene) const {
+    std::vector<fs::path> files = scene ? scene->files : files_;
+    files.push_back(request_.path);
     std::error_code ignored;
-    if (std::filesystem::is_directory(request_.path, ignored))
+    if (fs::is_directory(request_.path, ignored))
         files.push_back(request_.path / "");
-    return watcher_.watch(files);
+    if (scene)
+        return files;
+    // What is missing or wrong may be a file that the last good scene did not have.
+    files.insert(files.end(), in_folder_.begin(), in_folder_.end());
+    files.insert(files.end(), scene.error().files.begin(), scene.error().files.end());
+    for (const Diagnostic& diagnostic : scene.error().diagnostics)
+        if (fs::exists(diagnostic.where.file, ignored))
+            files.emplace_back(diagnostic.where.file);
+    return files;
+}
+
+/// Its files are under watch then, and nothing was saved between reading and watching them: else it is read
+/// again.
+LiveScene::Loading LiveScene::watched(Loading loading) {
+    constexpr int k_most_rounds = 4; // for files that never come to rest
+    for (int round = 0; round < k_most_rounds; ++round) {
+        in_folder_ = scene::scene_files_in(request_.path);
+        auto files = files_of(loading.scene);
+        if (files == watched_)
+            break;
+        const auto seen = watcher_.watch(files);
+        watched_ = std::move(files);
+        if (!seen && loading.scene)
+            say(to_string(seen.error())); // it can still be looked at
+        const auto is_new = [&](const fs::path& file) { return touched_since(file, loading.begun); };
+        if (std::ranges::none_of(watched_, is_new))
+            break;
+        loading = load(request_);
+    }
+    if (loading.scene) {
+        files_ = loading.scene->files;
+        name_ = loading.scene->name();
+        request_.said = loading.scene->warnings;
+    }
+    return loading;
 }
 
 /// Files that were saved. In a folder many a thing comes and goes that no scene is made of.
-std::vector<std::filesystem::path> LiveScene::changed() {
-    std::vector<std::filesystem::path> files = watcher_.changed();
-    if (std::erase(files, request_.path / "") > 0) {
-        auto in_folder = scene::scene_files_in(request_.path);
-        if (in_folder != std::exchange(in_folder_, in_folder))
-            files.push_back(request_.path / "");
-    }
-    return files;
+std::vector<platform::FileWatcher::Change> LiveScene::changed() {
+    auto changes = watcher_.changed();
+    const auto is_folder = [&](const auto& change) { return change.file == request_.path / ""; };
+    if (std::ranges::any_of(changes, is_folder) && scene::scene_files_in(request_.path) == in_folder_)
+        std::erase_if(changes, is_folder);
+    return changes;
+}
+
+Result<void> LiveScene::begin(Loading loading, platform::Window& window, const View& view) {
+    if (!loading.scene)
+        return fail(std::move(loading.scene.error()));
+    held_ = std::move(loading.held);
+    return build(*std::move(loading.scene), window, view);
 }
 
 Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view, bool settle) {
@@ -81,27 +156,23 @@ std::optional<double> LiveScene::building_since() const {
 }
 
 Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const View& view, double now) {
-    if (const auto files = changed(); !files.empty()) {
+    if (const auto changes = changed(); !changes.empty()) {
         saved_ = true;
-        times_.emplace();
-        std::error_code ignored;
-        times_->saved = std::filesystem::last_write_time(files.front(), ignored);
-        times_->seen = now;
-        reload(window, view, now);
+        const auto last = std::ranges::max(changes, {}, &platform::FileWatcher::Change::at).at;
+        times_ = ReloadTimes{seconds_of(last), now};
+        reload(window, view);
     }
-    if (report_at_ && now >= *report_at_) {
-        report_at_.reset();
-        say(to_string(*failure_));
-    }
+    if (report_at_ && now >= *report_at_)
+        report_failure();
     auto built = builder_.take();
     if (!built)
         return std::nullopt;
     if (settling_)
         return *built ? std::optional(**std::move(built)) : std::nullopt;
-    if (!*built && !saved_)
+    if (!*built && !saved_ && is_final(built->error()))
         return fail(std::move(built->error()));
     if (!*built) {
-        fail_with(std::move(built->error()), now);
+        fail_with(std::move(built->error()));
         return std::nullopt;
     }
     mended();
@@ -111,47 +182,35 @@ Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const V
     return std::move(**built);
 }
 
-void LiveScene::reload(platform::Window& window, const View& view, double now) {
+void LiveScene::reload(platform::Window& window, const View& view) {
     builder_.abandon();
-    auto scene = load_again();
-    if (!scene)
-        return fail_with(std::move(scene.error()), now);
+    Loading loading = watched(load(request_));
     times_->loaded = now_seconds();
-    if (auto begun = build(*std::move(scene), window, view); !begun)
-        fail_with(std::move(begun.error()), now);
+    if (auto begun = begin(std::move(loading), window, view); !begun)
+        fail_with(std::move(begun.error()));
 }
 
-Result<scene::Scene> LiveScene::load_again() {
-    auto scene = load(request_);
-    if (!scene) {
-        // What is missing or wrong may be a file that the last good scene did not have.
-        std::vector<std::filesystem::path> files = files_;
-        files.insert(files.end(), scene.error().files.begin(), scene.error().files.end());
-        (void)watch(std::move(files)); // a folder that is missing too cannot be watched: the rest is
-        return scene;
-    }
-    keep_turned_knobs(knobs_, *scene);
-    knobs_ = scene->knobs;
-    files_ = scene->files;
-    request_.said = scene->warnings;
-    name_ = scene->name();
-    // Before the slow part, so that a save during it is seen; and even if it fails, so that what it waits for
-    // is seen.
-    if (auto watched = watch(files_); !watched)
-        return fail(std::move(watched.error()));
-    return scene;
-}
-
-void LiveScene::fail_with(Error error, double now) {
+void LiveScene::fail_with(Error error) {
     failure_ = std::move(error);
-    report_at_ = now + k_half_written_seconds;
+    report_at_ = now_seconds() + k_half_written_seconds;
+}
+
+void LiveScene::report_failure() {
+    report_at_.reset();
+    say(to_string(*failure_));
+    if (!shown_ && !std::exchange(waits_, true))
+        say(fmt::format("waiting for {}: it is drawn as soon as a save mends it", request_.path.string()));
 }
 
 void LiveScene::mended() {
     if (failure_ && !report_at_)
-        say(fmt::format("{}: good again", request_.path.string()));
+        say(fmt::format("{}: good{}", request_.path.string(), shown_ ? " again" : ""));
     failure_.reset();
     report_at_.reset();
+    for (const std::string& line : edited_in_vain(held_on_show_, held_))
+        say(line);
+    held_on_show_ = held_;
+    shown_ = true;
 }
 
 void LiveScene::give_up() {

@@ -1,9 +1,10 @@
-// A scene as its files are at the moment: watched, loaded anew when one is saved, and built beside the
-// picture on show. Whatever goes wrong is kept for people to read, and the last good Stage stays with its
-// user.
+// A scene as its files are at the moment, there or not: watched, loaded anew when one is saved, and built
+// beside the picture on show. Whatever goes wrong is kept for people to read until a save mends it, and the
+// last good Stage, if there was one, stays with its user.
 #pragma once
 
 #include "cli/requests.hpp"
+#include "cli/view/held_values.hpp"
 #include "cli/view/stage_builder.hpp"
 #include "platform/file_watcher.hpp"
 #include "platform/window.hpp"
@@ -15,9 +16,9 @@
 
 namespace tidemark::cli {
 
-/// When what happened between saving and seeing; wall clock but for the file's own time.
+/// When what happened between saving and seeing, as now_seconds counts.
 struct ReloadTimes {
-    std::filesystem::file_time_type saved{};
+    double saved = 0;
     double seen = 0;
     double loaded = 0;
     double compiled = 0;
@@ -25,19 +26,29 @@ struct ReloadTimes {
 
 class LiveScene {
 public:
+    /// A scene with its overrides, or why there is none.
+    struct Loading {
+        Result<scene::Scene> scene;
+        std::vector<HeldValue> held{}; ///< what its files say of the values that overrides hold
+        double begun = 0;              ///< by the file system's clock
+    };
+
     /// How the picture is built: what `follow` needs to know of the window.
     struct View {
         render::RenderOptions options;
         render::FrameInputs inputs; ///< of the next frame, about
     };
 
-    /// Watches the files of `scene`, which is what `request` asked for, and begins to build it. `window` is
-    /// woken when there is something to do: it must live longer.
-    static Result<LiveScene> create(SceneRequest request, scene::Scene scene, platform::Window& window,
+    /// Prints the scene's warnings. Options that do not fit the scene are an ErrorCode::usage.
+    static Loading load(const SceneRequest& request);
+
+    /// Watches the files of `request`, of which `first` is the first look, and begins to build it or waits
+    /// for what mends it. `window` is woken when there is something to do: it must live longer.
+    static Result<LiveScene> create(SceneRequest request, Loading first, platform::Window& window,
                                     const View& view);
 
-    /// Looks after changed files and finished work. Gives a Stage once it is good; fails when the scene that
-    /// it was created with cannot be built.
+    /// Looks after changed files and finished work. Gives a Stage once it is good. Fails where no save can
+    /// help: the options do not fit the scene that it was created with, or there is no context.
     Result<std::optional<Stage>> follow(platform::Window& window, const View& view, double now);
 
     /// Begins to look for a quicker program for the scene on show, which `follow` gives if there is one. A
@@ -60,28 +71,34 @@ public:
     bool busy() const { return builder_.busy(); }
 
 private:
-    LiveScene(SceneRequest request, platform::FileWatcher watcher, const scene::Scene& scene);
+    LiveScene(SceneRequest request, platform::FileWatcher watcher);
 
     Result<void> build(scene::Scene scene, platform::Window& window, const View& view, bool settle = false);
-    void reload(platform::Window& window, const View& view, double now);
-    Result<scene::Scene> load_again();
-    Result<void> watch(std::vector<std::filesystem::path> files);
-    std::vector<std::filesystem::path> changed();
-    void fail_with(Error error, double now);
+    void reload(platform::Window& window, const View& view);
+    Result<void> begin(Loading loading, platform::Window& window, const View& view);
+    Loading watched(Loading loading);
+    std::vector<std::filesystem::path> files_of(const Result<scene::Scene>& scene) const;
+    std::vector<platform::FileWatcher::Change> changed();
+    void fail_with(Error error);
+    void report_failure();
     void mended();
 
     SceneRequest request_;
     platform::FileWatcher watcher_;
     std::string name_;
     std::vector<std::filesystem::path> files_;     ///< of the scene that loaded last
-    std::vector<scene::Knob> knobs_;               ///< likewise
-    std::vector<std::filesystem::path> in_folder_; ///< of a scene that is a folder: what made it one, last
-    std::optional<Error> failure_;                 ///< of the last reload, until mended
+    std::vector<std::filesystem::path> watched_;   ///< what the watcher was asked for
+    std::vector<std::filesystem::path> in_folder_; ///< of a scene that is a folder: what makes it one
+    std::vector<HeldValue> held_;                  ///< of the scene that was built last
+    std::vector<HeldValue> held_on_show_;
+    std::optional<Error> failure_;     ///< of the last load or build, until mended
     std::optional<double> report_at_;  ///< when the failure is news; before, a file may be half-written
     std::optional<ReloadTimes> times_; ///< of the build under way
     std::optional<ReloadTimes> times_of_stage_;
     double building_since_ = 0;
     bool saved_ = false;    ///< a file was, since the start
+    bool shown_ = false;    ///< there was a Stage
+    bool waits_ = false;    ///< it was said that there is none yet
     bool settling_ = false; ///< what is being built, if anything, is a settled Stage
     StageBuilder builder_;
 };

@@ -36,6 +36,7 @@ Result<int> view(const ViewOptions& options) {
     settings.pass = options.frames.pass;
     settings.record = OutputPath::typed(options.record);
     settings.plain = options.plain;
+    settings.typed = options.frames;
     // What is recorded can be drawn again: its date does not move on either.
     if (options.frames.date || options.frames.input || !options.record.empty())
         settings.date = settings.frames.date;

@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "base/leftovers.hpp"
 #include "cli/console.hpp"
+#include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
 #include "cli/version.hpp"
@@ -14,7 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <limits>
 #include <variant>
 
@@ -27,11 +28,16 @@ constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scen
 wheel       zooms that camera     middle drag  pans it     R  resets it
 space       pause                 left, right  a frame back, forward
 Home        restart               S            save a picture
-F           full screen           Esc          quit; while it compiles: give up      H  this help
+F           full screen           H            this help
+Esc         quit; while it compiles, or a frame holds the window: give that up
 A scene that reads the keyboard gets all keys but Esc: hold Ctrl for the above.)";
 
 /// So long compiling goes unmentioned.
 constexpr double k_short_wait_seconds = 0.3;
+/// A frame that holds the window for longer is one that people may want to be rid of.
+constexpr double k_hold_seconds = 1;
+/// Between two such frames people and files are listened to, at least so long.
+constexpr double k_breath_seconds = 0.05;
 /// Seconds on show are no older than this.
 constexpr double k_title_seconds = 0.25;
 
@@ -44,7 +50,10 @@ std::string headline(const Error& error) {
 }
 
 render::RenderOptions options_for(const platform::Window& window, const Viewer::Settings& settings) {
-    return {window.framebuffer_extent(), image::SampleType::u8, settings.pass, precision_of(settings.scene)};
+    render::RenderOptions options{window.framebuffer_extent(), image::SampleType::u8, settings.pass,
+                                  precision_of(settings.scene)};
+    options.marks_non_finite = true;
+    return options;
 }
 
 } // namespace
@@ -65,18 +74,20 @@ render::LiveClock Viewer::clock_from(double now) const {
 }
 
 Result<Viewer> Viewer::open(Settings settings) {
-    auto scene = load(settings.scene);
-    if (!scene)
-        return fail(std::move(scene.error()));
-    settings.record = settings.record.sparing(files_read(*scene));
+    auto first = LiveScene::load(settings.scene);
+    if (!first.scene && first.scene.error().code == ErrorCode::usage)
+        return fail(std::move(first.scene.error()));
+    if (first.scene)
+        settings.record = settings.record.sparing(files_read(*first.scene));
     if (!settings.record.empty())
         if (auto place = settings.record.place(); !place)
             return fail(std::move(place.error()));
-    auto window = platform::Window::create(settings.frames.extent, scene->name() + " - tidemark");
+    const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
+    auto window = platform::Window::create(settings.frames.extent, name + " - tidemark");
     if (!window)
         return fail(std::move(window.error()));
     auto live =
-        LiveScene::create(settings.scene, *std::move(scene), *window, {options_for(*window, settings), {}});
+        LiveScene::create(settings.scene, std::move(first), *window, {options_for(*window, settings), {}});
     if (!live)
         return fail(std::move(live.error()));
     return Viewer(std::move(settings), *std::move(window), *std::move(live));
@@ -88,19 +99,46 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         say(to_string(saved ? Error{ErrorCode::no_context, "the display is gone"} : saved.error()));
         exit_at_once(exit_code(ErrorCode::no_context));
     });
+    listened_at_ = now_seconds();
     while (!closing_ && !interrupt.requested()) {
-        for (const platform::InputEvent& event : window_.wait(seconds_to_sleep(now_seconds())))
-            std::visit([this](const auto& happened) { handle(happened); }, event);
+        listen();
         const double now = now_seconds();
         if (auto followed = follow_scene(now); !followed)
             return fail(std::move(followed.error()));
         settle_after_rest(now);
         if (wants_frame(now))
             draw(now);
+        look_for_numbers(now_seconds());
         show_title(now);
         sound_->follow(clock_.time(now), !clock_.paused());
     }
     return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
+}
+
+/// First to what was done while a frame held the window: it was meant for what people saw then.
+void Viewer::listen() {
+    const auto handle_all = [this](const std::vector<platform::InputEvent>& events) {
+        for (const platform::InputEvent& event : events)
+            std::visit([this](const auto& happened) { handle(happened); }, event);
+    };
+    double now = now_seconds();
+    held_seconds_ = now - listened_at_;
+    of_the_hold_ = held_seconds_ > k_hold_seconds;
+    if (std::exchange(drew_, false))
+        slow_ = of_the_hold_;
+    if (of_the_hold_) {
+        handle_all(window_.poll());
+        next_draw_ = std::max(next_draw_, now + k_breath_seconds);
+        now = now_seconds();
+    }
+    of_the_hold_ = false;
+    handle_all(window_.wait(closing_ ? 0 : seconds_to_sleep(now)));
+    listened_at_ = now_seconds();
+}
+
+/// Nobody wants another frame that holds the window when its mended successor is nearly there.
+bool Viewer::waits_for_better() const {
+    return slow_ && scene_.building_since();
 }
 
 Result<void> Viewer::finish() {
@@ -114,22 +152,25 @@ bool Viewer::wants_frame(double now) const {
     const Extent extent = window_.framebuffer_extent();
     if (extent.width == 0 || extent.height == 0)
         return false; // minimised
+    if (waits_for_better() || (slow_ && now < next_draw_))
+        return false;
     return stale_ || (moving() && now >= next_draw_);
 }
 
 /// Frames follow each other by themselves.
 bool Viewer::moving() const {
-    return stage_ && !clock_.paused() && !at_rest_;
+    return stage_ && !clock_.paused() && !at_rest_ && !given_up_;
 }
 
 double Viewer::seconds_to_sleep(double now) const {
     double until = std::numeric_limits<double>::infinity();
-    if (stale_)
+    if (stale_ && !slow_)
         return 0;
-    if (moving())
+    if ((stale_ || moving()) && !waits_for_better())
         until = next_draw_;
     if (scene_.building_since())
         until = std::min(until, now + k_title_seconds);
+    until = std::min(until, finite_.due());
     if (const auto wake = scene_.wake_at())
         until = std::min(until, *wake);
     return std::max(0.0, until - now);
@@ -141,6 +182,8 @@ void Viewer::draw(double now) {
         gl::clear_window();
         return window_.swap();
     }
+    if (given_up_)
+        return show_again();
     render::Renderer& renderer = stage_->renderer();
     next_draw_ = std::max(next_draw_ + 1 / settings_.frames.fps, now);
     shown_ = clock_.next_frame(now);
@@ -150,19 +193,55 @@ void Viewer::draw(double now) {
     else
         controls_.fill(shown_);
     const size_t drawn_before = renderer.passes_drawn();
+    drew_ = true;
     renderer.draw(shown_);
     const bool drawn = renderer.passes_drawn() != drawn_before;
-    if (drawn || stale) {
-        gl::blit_to_window(renderer.target(), window_.framebuffer_extent());
-        window_.swap();
-    }
+    if (drawn || stale)
+        show_again();
     controls_.frame_drawn();
+    if (drawn)
+        finite_.frame_drawn();
     // Frames are counted on where somebody writes their numbers down, or reads them.
     at_rest_ = !drawn && !renderer.follows_clock() && !replay_;
     if (at_rest_)
         clock_.rest();
     if (reloaded_)
         report_reload();
+}
+
+/// The picture as it was drawn last.
+void Viewer::show_again() {
+    gl::blit_to_window(stage_->renderer().target(), window_.framebuffer_extent());
+    window_.swap();
+}
+
+/// Said once of a text: a window shows them as what it likes.
+void Viewer::look_for_numbers(double now) {
+    if (!stage_ || now < finite_.due())
+        return;
+    if (const size_t count = finite_.look(stage_->renderer(), now); count > 0)
+        say(fmt::format("warning: {} not finite; where from: {}",
+                        pixels_are(count, fmt::format("at {:.3f} s", shown_.time)), trace_command()));
+}
+
+/// Of the frame on show, as far as options can say what people did.
+std::string Viewer::trace_command() const {
+    FrameOptions options = settings_.typed;
+    const Extent extent = stage_->renderer().extent();
+    options.size = fmt::format("{}x{}", extent.width, extent.height);
+    if (!replay_)
+        options.time = shown_.time;
+    const glm::vec4 mouse = shown_.mouse;
+    if (!settings_.frames.input && mouse != glm::vec4(0))
+        options.mouse = fmt::format("{},{},{},{}{}", mouse.x, mouse.y, std::abs(mouse.z), std::abs(mouse.w),
+                                    mouse.z > 0 ? ",down" : "");
+    const render::OrbitCamera& camera = controls_.camera();
+    const render::OrbitCamera& initial = settings_.frames.camera;
+    if (camera.azimuth != initial.azimuth || camera.elevation != initial.elevation ||
+        camera.distance != initial.distance)
+        options.camera =
+            fmt::format("{:.6g},{:.6g},{:.6g}", camera.azimuth, camera.elevation, camera.distance);
+    return cli::trace_command(settings_.scene, options, shown_.frame);
 }
 
 bool Viewer::compiles_for_long(double now) const {
@@ -173,16 +252,19 @@ bool Viewer::compiles_for_long(double now) const {
 /// What is being waited for, else the error while there is one, else the frame rate, which changes twice a
 /// second at most.
 void Viewer::show_title(double now) {
-    std::string state = clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.time)
-                        : at_rest_      ? "still"
-                                        : fmt::format("{:.0f} fps", clock_.frame_rate());
+    std::string state = given_up_         ? "given up, space goes on"
+                        : clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.time)
+                        : at_rest_        ? "still"
+                                          : fmt::format("{:.0f} fps", clock_.frame_rate());
+    if (finite_.found() > 0)
+        state += fmt::format(", {} pixel{} not finite", finite_.found(), finite_.found() > 1 ? "s" : "");
     if (compiles_for_long(now))
         state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
                             stage_ ? ", Esc gives up" : "");
-    else if (!stage_)
+    else if (!stage_ && !scene_.failure())
         return;
     std::string title = scene_.failure() && !compiles_for_long(now)
-                            ? headline(*scene_.failure())
+                            ? (stage_ ? "" : "waiting: ") + headline(*scene_.failure())
                             : fmt::format("{} - tidemark - {}", scene_.name(), state);
     if (title == title_)
         return;
@@ -237,6 +319,11 @@ bool Viewer::scene_reads_keyboard() const {
 }
 
 void Viewer::obey(Key key, double now) {
+    if (given_up_ && (key == Key::left || key == Key::right || key == Key::space || key == Key::home)) {
+        given_up_ = false;
+        if (key == Key::space && !clock_.paused())
+            return;
+    }
     switch (key) {
     case Key::left:
         clock_.step(-1, settings_.frames.fps, now);
@@ -252,17 +339,30 @@ void Viewer::obey(Key key, double now) {
         break;
     case Key::r: return control(CameraReset{});
     case Key::f: window_.toggle_full_screen(); break;
-    case Key::escape:
-        if (stage_ && compiles_for_long(now))
-            scene_.give_up();
-        else
-            closing_ = true;
-        break;
+    case Key::escape: escape(now); break;
     case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
     case Key::h: return say(k_help);
     default: return;
     }
     stale_ = true;
+}
+
+/// Whoever cannot get at a window that a frame holds wants to be rid of that frame, and keep the window.
+void Viewer::escape(double now) {
+    if (given_up_ && of_the_hold_)
+        return; // pressed again, for the same frame
+    if (stage_ && (of_the_hold_ || (slow_ && moving()))) {
+        given_up_ = true;
+        clock_.rest();
+        say(fmt::format(
+            "{}: given up, a frame takes {:.1f} s: it goes on when a file of it is saved, or with "
+            "space; Esc quits",
+            settings_.scene.path.string(), held_seconds_));
+    } else if (stage_ && compiles_for_long(now)) {
+        scene_.give_up();
+    } else {
+        closing_ = true;
+    }
 }
 
 /// Time went backwards: the recording ends at the frame that is next.
@@ -292,8 +392,10 @@ void Viewer::save_picture() {
                                        {"Frame", fmt::format("{}", shown_.frame)},
                                        {"iTime", fmt::format("{}", shown_.time)},
                                        {"Software", fmt::format("tidemark {}", k_version)}}};
+    image::Image picture = stage_->renderer().read_back();
+    count_not_finite(stage_->renderer(), picture); // its marks are no alpha
     if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),
-                       stage_->renderer().read_back(), format}))
+                       std::move(picture), format}))
         say(fmt::format("saving {}", name));
     else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
         say(to_string(written.error()));
@@ -325,6 +427,8 @@ Result<void> Viewer::show(Stage fresh, double now) {
     play_sound();
     reloaded_ = scene_.take_times();
     settled_ = false;
+    given_up_ = slow_ = false;
+    finite_.begin_anew();
     stale_ = true;
     touched_at_ = now;
     return {};
@@ -367,18 +471,15 @@ void Viewer::play_sound() {
         say(to_string(context.error()));
 }
 
-/// Our share (noticing, loading) and the driver's (compiling, drawing for the first time) side by side. The
-/// file's time is as coarse as the kernel's tick.
+/// Our share (noticing, loading) and the driver's (compiling, drawing for the first time) side by side.
 void Viewer::report_reload() {
     glFinish(); // the picture is on show when the drawing is done
     const double shown = now_seconds();
-    const auto ms = [](double seconds) { return seconds * 1000; };
-    const double total =
-        std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() - reloaded_->saved)
-            .count();
+    const auto ms = [](double from, double to) { return (to - from) * 1000; };
     say(fmt::format("reloaded in {:.0f} ms: notice {:.0f}, load {:.1f}, compile {:.0f}, first draw {:.0f}",
-                    ms(total), ms(total - (shown - reloaded_->seen)), ms(reloaded_->loaded - reloaded_->seen),
-                    ms(reloaded_->compiled - reloaded_->loaded), ms(shown - reloaded_->compiled)));
+                    ms(reloaded_->saved, shown), ms(reloaded_->saved, reloaded_->seen),
+                    ms(reloaded_->seen, reloaded_->loaded), ms(reloaded_->loaded, reloaded_->compiled),
+                    ms(reloaded_->compiled, shown)));
     reloaded_.reset();
 }
 

@@ -5,8 +5,12 @@
 
 namespace tidemark::cli {
 
+inline double seconds_of(std::chrono::steady_clock::time_point time) {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
 inline double now_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return seconds_of(std::chrono::steady_clock::now());
 }
 
 } // namespace tidemark::cli

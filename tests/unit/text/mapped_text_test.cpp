@@ -145,6 +145,28 @@ TEST(MappedText, columns_are_the_authors_after_edits) {
     EXPECT_EQ(whole.lines().locate(2, 9).column, 14);
 }
 
+TEST(MappedText, what_replaces_something_stands_where_that_was) {
+    MappedText text;
+    text.append("a = old + b;\n  c = old + d;\n", "a.glsl", 1);
+    text.apply({{4, 7, "f(x, y)"}, {17, 17, "1 * "}, {19, 22, "long_name"}});
+    const auto column = [&](int line, std::string_view piece) {
+        const size_t begin = line == 1 ? 0 : text.text().find('\n') + 1;
+        return text.lines().locate(line, int(text.text().find(piece, begin) - begin) + 1).column;
+    };
+    for (const std::string_view piece : {"f(", "(x", "x,", "y)", ") +"})
+        EXPECT_EQ(column(1, piece), 5) << piece;
+    EXPECT_EQ(column(1, "+ b"), 9);
+    EXPECT_EQ(column(2, "1 *"), 5);
+    EXPECT_EQ(column(2, "* = "), 5);
+    EXPECT_EQ(column(2, "= long"), 5);
+    EXPECT_EQ(column(2, "long"), 7);
+    EXPECT_EQ(column(2, "+ d"), 11);
+    text.apply({{0, 1, "ab"}, {6, 7, "xx"}});
+    EXPECT_EQ(column(1, "xx"), 5);
+    EXPECT_EQ(column(1, "y)"), 5);
+    EXPECT_EQ(column(1, "+ b"), 9);
+}
+
 TEST(MappedText, columns_behind_an_edit_over_lines) {
     MappedText text;
     text.append("a /*\n*/ b\n", "a.glsl", 1);

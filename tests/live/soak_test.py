@@ -1,0 +1,96 @@
+"""Random edits of a scene while its window shows it: whatever is done to the files, the last one is on show."""
+import os
+import random
+import time
+
+from support import probe
+from support.live import LiveTest, View, main
+
+# $TIDEMARK_SOAK_EDITS asks for more.
+EDITS = int(os.environ.get("TIDEMARK_SOAK_EDITS", "40"))
+VALUES = {"mark": "MARK", "from the include": "included()"}
+SIZE = ("--size", "200x100")
+
+
+class Soak(LiveTest):
+    def setUp(self):
+        super().setUp()
+        self.random = random.Random(os.environ.get("TIDEMARK_SOAK_SEED", "1"))
+        self.mark = 0
+
+    def scene(self) -> str:
+        self.mark += 1
+        return probe.shader(VALUES, f'#include "lib/b.glsl"\n#define MARK {self.mark}.0\n'
+                                    "#iUniform float level = 0.5 in { 0.0, 1.0 }\n")
+
+    def include(self) -> str:
+        return f"float included() {{ return {self.mark}.0; }}\n"
+
+    def replace(self, name: str, text: str) -> None:
+        self.write(f"{name}.new", text)
+        os.replace(self.folder / f"{name}.new", self.folder / name)
+
+    def damaged(self, text: str) -> str:
+        at = self.random.randrange(len(text))
+        return self.random.choice([text[:at], text[:at] + "§" + text[at:], text[:at] + text[at + 5:], "", "\0" + text,
+                                   text.replace("MARK", "MARKS"), text.replace("included()", "included().xyz"),
+                                   text.replace("lib/b", "lib/c"), text + "}", "#iUniform flaot x\n" + text])
+
+    def edit(self) -> None:
+        """One thing that happens to files."""
+        name, text = self.random.choice([("s/a.glsl", self.scene()), ("s/lib/b.glsl", self.include())])
+        path = self.folder / name
+        way = self.random.randrange(9)
+        if way == 0:
+            path.unlink(missing_ok=True)
+        elif way == 1 and path.exists():
+            os.replace(path, f"{path}~")
+        elif way == 2 and (self.folder / "s/lib").exists():
+            os.replace(self.folder / "s/lib", self.folder / f"lib{self.mark}")
+        elif way == 3 and (self.folder / "s").exists():
+            os.replace(self.folder / "s", self.folder / f"s{self.mark}")
+        elif way == 4:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with open(path, "wb", buffering=0) as file:  # in pieces
+                for at in range(0, len(text), 40):
+                    file.write(text[at:at + 40].encode())
+                    time.sleep(self.random.random() * 0.01)
+        elif way == 5:
+            self.replace(name, self.damaged(text))
+        else:
+            self.write(name, self.damaged(text) if way < 8 else text)
+
+    def restore(self) -> None:
+        scene = self.scene()
+        for name, text in self.random.sample([("s/a.glsl", scene), ("s/lib/b.glsl", self.include())], 2):
+            self.random.choice([self.write, self.replace])(name, text)
+
+    def expect_what_is_there(self, view: View) -> None:
+        mark = float(self.mark)
+        view.wait_until_told(VALUES, lambda told: list(told.values()) == [mark, mark])
+
+    def test_whatever_is_saved(self):
+        self.restore()
+        view = self.view("s/a.glsl", *SIZE, "--set", "level=0.25")
+        for edit in range(EDITS):
+            self.edit()
+            if self.random.randrange(3) == 0:
+                time.sleep(self.random.random() * 0.3)  # else the next one comes at once
+            if edit % 5 == 4:
+                self.restore()
+                self.expect_what_is_there(view)
+        self.assertNotRegex(view.title(), "error")
+        view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
+
+    def test_a_window_that_begins_with_nothing(self):
+        view = View(self.screen, self.folder, "s/a.glsl", *SIZE, first_title=r"\Awaiting: ")
+        self.addCleanup(view.close)
+        for edit in range(EDITS // 4):
+            self.edit()
+        self.restore()
+        self.expect_what_is_there(view)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,98 @@
+"""A frame that holds the window for seconds: what people do meanwhile, and how they are rid of it."""
+import json
+
+from support import probe
+from support.live import LiveTest, View, main
+
+SIZE = ("--size", "200x100")
+VALUES = {"mark": "MARK"}
+HELD_SECONDS = 4
+
+
+def marked(mark: int) -> str:
+    return probe.shader(VALUES, f"#define MARK {mark}.0\n")
+
+
+def slow(mark: int, rounds: int) -> str:
+    """llvmpipe leaves its loops after 65,536 rounds, so that each of them takes its time, in every pixel."""
+    text = probe.shader(VALUES, f"#define MARK {mark}.0\nfloat slow(float s) {{\n"
+                                f"    for (int i = 0; i < {rounds}; ++i) {{\n"
+                                + "        s = fract(sin(s + iTime) * 4371.0);\n" * 30 + "    }\n    return s;\n}\n")
+    return text.replace("0.0, 1.0);\n}", "slow(at.x + at.y), 1.0);\n}")
+
+
+class Stall(LiveTest):
+    def rounds(self) -> int:
+        """So many that this machine, as busy as it is, takes some seconds for a frame."""
+        rounds = 2
+        while True:
+            self.write("measure.glsl", slow(0, rounds))
+            done = self.succeed("capture", "measure.glsl", *SIZE, "-o", "measure.png", "--json")
+            seconds = json.loads(done.stdout)["frames"][0]["milliseconds"] / 1000
+            if seconds > 0.3:
+                return int(rounds * HELD_SECONDS / seconds)
+            rounds *= 4
+
+    def hold(self, view: View, mark: int, rounds: int) -> None:
+        self.write("a.glsl", slow(mark, rounds))
+        reloads = view.stderr().count("reloaded in")
+        view.wait_for_words(r"(reloaded in .*\n[^$]*){%d}" % (reloads + 1))
+
+    def start(self) -> View:
+        self.write("a.glsl", marked(1))
+        view = self.view("a.glsl", *SIZE)
+        view.wait_until_told(VALUES, lambda told: told["mark"] == 1)
+        return view
+
+    def test_escape_gives_the_frames_up_and_then_quits(self):
+        rounds = self.rounds()
+        view = self.start()
+        self.hold(view, 2, rounds)
+        for _ in range(3):
+            view.key("Escape")
+        view.wait_for_words(r"^a\.glsl: given up, a frame takes \d+\.\d s: it goes on when a file of it is saved, or with "
+                            r"space; Esc quits$")
+        view.wait_for_title(r"\Aa - tidemark - given up, space goes on\Z")
+        self.write("a.glsl", marked(3))
+        view.wait_until_told(VALUES, lambda told: told["mark"] == 3)
+        view.wait_for_title(r"\Aa - tidemark - (\d+ fps|still)\Z")
+        self.hold(view, 4, rounds)
+        view.key("Escape")
+        view.wait_for_title(r" - given up, ")
+        view.key("space")
+        view.wait_for_title(r" fps\Z")
+        view.key("Escape")
+        view.wait_for_words(r"(given up, a frame(.|\n)*){3}")
+        view.wait_for_title(r" - given up, ")
+        view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
+
+    def test_a_mended_text_is_taken_at_once_and_other_keys_are_meant(self):
+        rounds = self.rounds()
+        view = self.start()
+        self.hold(view, 2, rounds)
+        view.key("h")
+        self.write("a.glsl", marked(3))
+        view.wait_until_told(VALUES, lambda told: told["mark"] == 3)
+        self.assertIn("full screen", view.stderr())
+
+    def test_escape_and_a_mended_text_in_one_hold(self):
+        rounds = self.rounds()
+        view = self.start()
+        self.hold(view, 2, rounds)
+        view.key("Escape")
+        self.write("a.glsl", marked(3))
+        view.wait_until_told(VALUES, lambda told: told["mark"] == 3)
+        view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
+
+    def test_the_windows_own_button_closes_it(self):
+        rounds = self.rounds()
+        view = self.start()
+        self.hold(view, 2, rounds)
+        self.screen.ask_to_close(view.window)
+        self.assertEqual(view.wait_for_end(), 0)
+
+
+if __name__ == "__main__":
+    main()
