@@ -61,7 +61,8 @@ void add_picture_options(CLI::App& command, FrameOptions& options) {
         ->type_name("F")
         ->check(number<double>("a number"))
         ->capture_default_str();
-    command.add_option("--date", options.date, "iDate, as in 2024-12-31T23:59:58")->type_name("ISO");
+    command.add_option("--date", options.date, "iDate at iTime 0, as in 2024-12-31T23:59:58")
+        ->type_name("ISO");
     command
         .add_option("--camera", options.camera, "Orbit camera of a scene that declares iCamera, in degrees")
         ->type_name("AZIMUTH,ELEVATION,DISTANCE");

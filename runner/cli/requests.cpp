@@ -147,7 +147,7 @@ render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
         inputs.time = *request.time - (render::frame_at(*request.time, request.fps) - frame) / request.fps;
     inputs.mouse = request.mouse;
     inputs.mouse_button.x = request.mouse.z > 0 || request.mouse.w > 0 ? 1 : 0;
-    inputs.date = request.date;
+    inputs.date = render::later(request.date, inputs.time);
     inputs.camera = request.camera.matrix();
     return inputs;
 }

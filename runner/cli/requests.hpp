@@ -59,7 +59,7 @@ struct FrameRequest {
     std::vector<int> frames{0};
     std::optional<double> time; ///< --time: what the frame it falls in has instead of frame / fps
     glm::vec4 mouse{0};
-    render::Date date{};
+    render::Date date{}; ///< at iTime 0
     render::OrbitCamera camera{};
     std::optional<InputScript> input{}; ///< instead of a person, or of `mouse` and `camera` that stand still
 };

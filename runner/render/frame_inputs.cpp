@@ -70,6 +70,18 @@ Date local_date() {
                 double(since_epoch.count() % 1000) / 1000};
 }
 
+Date later(const Date& date, double seconds) {
+    using namespace std::chrono;
+    constexpr double k_day = 86400;
+    constexpr double k_most_days = 5e6; // years stay those of a calendar, which keeps them in two bytes
+    const double clock = date.seconds + seconds;
+    const double days = std::clamp(std::floor(clock / k_day), -k_most_days, k_most_days);
+    const year_month_day day{
+        sys_days(year(date.year) / month(unsigned(date.month) + 1) / std::chrono::day(unsigned(date.day))) +
+        std::chrono::days(long(days))};
+    return {int(day.year()), int(unsigned(day.month())) - 1, int(unsigned(day.day())), clock - days * k_day};
+}
+
 int frame_at(double time, double fps) {
     return int(std::clamp(std::floor(time * fps), 0.0, double(k_last_frame)));
 }
@@ -80,6 +92,7 @@ FrameInputs inputs_of_frame(int frame, double fps) {
     inputs.time = double(frame) / fps;
     inputs.time_delta = 1 / fps;
     inputs.frame_rate = fps;
+    inputs.date = later(inputs.date, inputs.time);
     return inputs;
 }
 

@@ -29,6 +29,10 @@ Result<Date> parse_date(std::string_view iso);
 /// The clock on the wall.
 Date local_date();
 
+/// What the calendar says that many seconds after `date`, or before it. No time zone: a day has 86,400
+/// seconds.
+Date later(const Date& date, double seconds);
+
 struct FrameInputs {
     int frame = 0;                ///< iFrame
     double time = 0;              ///< iTime, seconds
@@ -50,7 +54,7 @@ inline constexpr int k_last_frame = 100'000'000;
 /// The frame that a time falls in.
 int frame_at(double time, double fps);
 
-/// Frame N of a recording at `fps` frames a second: iTime = N / fps, computed in double.
+/// Frame N of a recording at `fps` frames a second: iTime = N / fps, computed in double; iDate goes with it.
 FrameInputs inputs_of_frame(int frame, double fps);
 
 } // namespace tidemark::render

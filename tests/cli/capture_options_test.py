@@ -136,6 +136,26 @@ class Date(Told):
     def test_is_fixed_unless_given(self):
         self.assertEqual(list(self.told(self.DATE).values()), [2024, 0, 1, 43200])
 
+    def test_goes_on_with_the_time(self):
+        self.assertEqual(list(self.told(self.DATE, "--frame", "90", "--fps", "30").values()), [2024, 0, 1, 43203])
+        self.assertEqual(list(self.told(self.DATE, "--time", "2.5", "--date", "2023-12-31T23:59:58").values()),
+                         [2024, 0, 1, 0.5])
+        self.assertEqual(list(self.told(self.DATE, "--time", "86400", "--date", "2024-02-28T12:00:00").values()),
+                         [2024, 1, 29, 43200])
+
+    def test_goes_on_within_a_sequence(self):
+        self.write("told.glsl", probe.shader(self.DATE))
+        done = self.succeed("capture", "told.glsl", "--size", "64x2", "-o", "-", "--frames", "0-8x4", "--fps", "4",
+                            "--date", "2024-12-31T23:59:59")
+        told = [list(probe.read(png.from_raw(64, 2, done.stdout[i * 384:(i + 1) * 384]), self.DATE).values())
+                for i in range(3)]
+        self.assertEqual(told, [[2024, 11, 31, 86399], [2025, 0, 1, 0], [2025, 0, 1, 1]])
+
+    def test_a_recording_is_replayed_with_it(self):
+        self.write("take.txt", "0 press left 1 1\n")
+        told = self.told(self.DATE, "--input", "take.txt", "--frame", "30", "--date", "2024-01-01")
+        self.assertEqual(list(told.values()), [2024, 0, 1, 0.5])
+
     def test_counts_months_from_0_and_has_parts_of_a_second(self):
         self.assertEqual(list(self.told(self.DATE, "--date", "2023-12-31T23:59:58.5").values()),
                          [2023, 11, 31, 86398.5])

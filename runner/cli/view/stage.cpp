@@ -50,6 +50,7 @@ Result<Stage> Stage::settle(platform::WindowContext context, const scene::Scene&
     TrialPlan plan{shown, shown, std::numeric_limits<size_t>::max()};
     plan.first.frame = 0; // buffers begin there
     plan.first.time = 0;
+    plan.first.date = render::later(shown.date, -shown.time);
     plan.timing = k_timing_ms;
     auto trial = choose_program(scene, settled, plan);
     if (!trial)

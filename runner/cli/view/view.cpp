@@ -37,7 +37,7 @@ Result<int> view(const ViewOptions& options) {
     settings.record = OutputPath::typed(options.record);
     settings.plain = options.plain;
     settings.typed = options.frames;
-    // What is recorded can be drawn again: its date does not move on either.
+    // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
     if (options.frames.date || options.frames.input || !options.record.empty())
         settings.date = settings.frames.date;
     if (!settings.record.empty())

@@ -187,7 +187,7 @@ void Viewer::draw(double now) {
     render::Renderer& renderer = stage_->renderer();
     next_draw_ = std::max(next_draw_ + 1 / settings_.frames.fps, now);
     shown_ = clock_.next_frame(now);
-    shown_.date = settings_.date ? *settings_.date : render::local_date();
+    shown_.date = settings_.date ? render::later(*settings_.date, shown_.time) : render::local_date();
     if (replay_)
         replay_->fill(shown_, renderer.extent().height);
     else

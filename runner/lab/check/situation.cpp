@@ -25,6 +25,7 @@ render::FrameInputs inputs_of(const Situation& situation, int before) {
     } else {
         inputs.time = situation.time - before * inputs.time_delta;
         inputs.frame = render::frame_at(situation.time, inputs.frame_rate) - before;
+        inputs.date = render::later(inputs.date, inputs.time);
     }
     if (situation.mouse)
         inputs.mouse = mouse_of(situation);

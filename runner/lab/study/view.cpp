@@ -32,6 +32,7 @@ render::FrameInputs inputs_of(const View& view, Extent extent) {
     render::FrameInputs inputs;
     inputs.time = view.time;
     inputs.frame = render::frame_at(view.time, inputs.frame_rate);
+    inputs.date = render::later(inputs.date, view.time);
     if (view.mouse != glm::dvec2(0)) // a click that is over
         inputs.mouse =
             render::Mouse::clicked(view.mouse.x * extent.width, view.mouse.y * extent.height, false);

@@ -114,7 +114,7 @@ TEST(InputsOf, a_frame_sees_what_was_asked_for) {
     EXPECT_EQ(inputs.time, 0.5);
     EXPECT_EQ(inputs.time_delta, 1 / 24.0);
     EXPECT_EQ(inputs.mouse, request.mouse);
-    EXPECT_EQ(inputs.date, request.date);
+    EXPECT_EQ(inputs.date, (render::Date{2020, 5, 6, 7.5})) << "iDate goes on with iTime";
     EXPECT_EQ(inputs.camera, request.camera.matrix());
 }
 

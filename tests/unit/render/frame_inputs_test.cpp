@@ -64,6 +64,33 @@ TEST(LocalDate, is_the_clock_on_the_wall) {
     EXPECT_LT(date.seconds, 86401);
 }
 
+TEST(Later, the_clock_goes_on) {
+    EXPECT_EQ(later({2024, 0, 1, 43200}, 0), (Date{2024, 0, 1, 43200}));
+    EXPECT_EQ(later({2024, 0, 1, 43200}, 0.125), (Date{2024, 0, 1, 43200.125}));
+    EXPECT_EQ(later({2024, 0, 1, 43200}, 43199.75), (Date{2024, 0, 1, 86399.75}));
+    EXPECT_EQ(later({2024, 0, 1, 100}, -0.5), (Date{2024, 0, 1, 99.5}));
+}
+
+TEST(Later, midnight_ends_days_months_and_years) {
+    EXPECT_EQ(later({2024, 0, 1, 86399.5}, 0.5), (Date{2024, 0, 2, 0}));
+    EXPECT_EQ(later({2024, 1, 28, 86399}, 2), (Date{2024, 1, 29, 1}));
+    EXPECT_EQ(later({2024, 1, 29, 86399}, 2), (Date{2024, 2, 1, 1}));
+    EXPECT_EQ(later({2023, 1, 28, 86399}, 2), (Date{2023, 2, 1, 1}));
+    EXPECT_EQ(later({2000, 1, 28, 86399}, 2), (Date{2000, 1, 29, 1}));
+    EXPECT_EQ(later({1900, 1, 28, 86399}, 2), (Date{1900, 2, 1, 1}));
+    EXPECT_EQ(later({2024, 3, 30, 86399}, 2), (Date{2024, 4, 1, 1}));
+    EXPECT_EQ(later({2024, 11, 31, 86398.5}, 2), (Date{2025, 0, 1, 0.5}));
+    EXPECT_EQ(later({2025, 0, 1, 0.5}, -2), (Date{2024, 11, 31, 86398.5}));
+    EXPECT_EQ(later({2024, 0, 1, 0}, 366 * 86400.0 + 1), (Date{2025, 0, 1, 1}));
+    EXPECT_EQ(later({2024, 0, 1, 0}, 86400e6).day >= 1, true) << "however late it is";
+    EXPECT_EQ(later({1, 0, 1, 0}, -1e300).month >= 0, true);
+}
+
+TEST(InputsOfFrame, the_date_goes_on_with_the_time) {
+    EXPECT_EQ(inputs_of_frame(90, 30).date, (Date{2024, 0, 1, 43203}));
+    EXPECT_EQ(inputs_of_frame(60 * 43200, 60).date, (Date{2024, 0, 2, 0}));
+}
+
 TEST(InputsOfFrame, time_is_the_frame_over_the_rate) {
     const FrameInputs inputs = inputs_of_frame(90, 30);
     EXPECT_EQ(inputs.frame, 90);
