@@ -7,17 +7,27 @@
 namespace tidemark::render {
 namespace {
 
-/// A channel needs its texture when the program samples it, or when it asks for sizes and somebody chose the
-/// input: the size of a texture that only happens to be the default is nobody's business.
-bool needs_texture(const scene::Channel& channel, int number, const gl::Reflection& reflection) {
-    if (std::holds_alternative<scene::Unbound>(channel.input))
-        return reflection.has(fmt::format("iChannel{}", number));
-    const std::string in_struct = fmt::format("iCh{}.", number);
-    const auto named = [&](const gl::Uniform& uniform) { return uniform.name.starts_with(in_struct); };
+/// The array of that name has an element `number` that the program kept.
+bool has_element(const gl::Reflection& reflection, std::string_view name, int number) {
+    const gl::Uniform* uniform = reflection.find(name);
+    return uniform && number < uniform->length;
+}
+
+bool samples(const gl::Reflection& reflection, int number) {
     return reflection.has(fmt::format("iChannel{}", number)) ||
-           std::any_of(reflection.uniforms.begin(), reflection.uniforms.end(), named) ||
-           (!channel.where.file.empty() &&
-            (reflection.has("iChannelResolution") || reflection.has("iChannel")));
+           reflection.has(fmt::format("iCh{}.sampler", number));
+}
+
+/// For its size, its time or whether it is there.
+bool asks_about(const gl::Reflection& reflection, int number) {
+    const auto begins = [&](const std::string& prefix) {
+        return std::ranges::any_of(reflection.uniforms, [&](const gl::Uniform& uniform) {
+            return uniform.name.starts_with(prefix);
+        });
+    };
+    return has_element(reflection, "iChannelResolution", number) ||
+           has_element(reflection, "iChannelTime", number) || begins(fmt::format("iCh{}.", number)) ||
+           begins(fmt::format("iChannel[{}].", number));
 }
 
 class Planner {
@@ -53,7 +63,8 @@ private:
         std::vector<int> channels;
         for (int number = 0; number < scene::k_channel_count; ++number)
             if ((extras_.channels && number < scene::k_site_channel_count) ||
-                needs_texture(scene_.passes[pass].channels[size_t(number)], number, *reflections_[pass]))
+                needs_texture(scene_.passes[pass].channels[size_t(number)].input, number,
+                              *reflections_[pass]))
                 channels.push_back(number);
         return channels;
     }
@@ -100,6 +111,12 @@ private:
 };
 
 } // namespace
+
+bool needs_texture(const scene::ChannelInput& input, int number, const gl::Reflection& reflection) {
+    const bool known =
+        std::holds_alternative<scene::Unbound>(input) || std::holds_alternative<scene::PassOutput>(input);
+    return samples(reflection, number) || (!known && asks_about(reflection, number));
+}
 
 const PlannedPass* FramePlan::find(size_t pass) const {
     const auto found = std::find_if(passes.begin(), passes.end(),

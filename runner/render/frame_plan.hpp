@@ -43,6 +43,10 @@ struct FramePlan {
     const PlannedPass* find(size_t pass) const;
 };
 
+/// Whether a program of that pass needs the texture of channel `number`: it samples it, or asks for its size
+/// or its time, which only the texture knows. Nobody needs the picture of a pass to know how large it is.
+bool needs_texture(const scene::ChannelInput& input, int number, const gl::Reflection& reflection);
+
 /// ShaderToy's order: a pass reads what stands before it in this frame's state, itself and what stands behind
 /// it in the last frame's.
 FrameRef frame_ref(size_t reader, size_t source);

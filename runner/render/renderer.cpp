@@ -305,22 +305,24 @@ void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile, Image& ban
 
 ChannelFacts Renderer::facts_of(const CompiledPass& pass, PassKind kind, const FrameInputs& inputs) const {
     ChannelFacts facts;
+    const scene::Channels& channels = scene_.passes[size_t(&pass - passes_.data())].channels;
     for (const BoundChannel& channel : pass.channels) {
-        if (channel.unit == k_keyboard_unit)
+        const auto* texture = std::get_if<ChannelTextures::Index>(&channel.source);
+        if (channel.unit == k_keyboard_unit || !texture)
             continue;
         ChannelFact& fact = facts[size_t(channel.unit)];
-        if (const auto* output = std::get_if<scene::PassOutput>(&channel.source)) {
-            const Extent size = targets_[output->pass].latest().extent();
-            fact = {{double(size.width), double(size.height), 1}, 0, true};
-        } else {
-            fact = textures_.fact(std::get<ChannelTextures::Index>(channel.source), inputs);
-        }
+        fact = textures_.fact(*texture, inputs);
         // A quirk of the site that shaders may rely on.
-        const auto& input =
-            scene_.passes[size_t(&pass - passes_.data())].channels[size_t(channel.unit)].input;
-        if (kind == PassKind::cubemap && std::holds_alternative<scene::Keyboard>(input))
+        if (kind == PassKind::cubemap &&
+            std::holds_alternative<scene::Keyboard>(channels[size_t(channel.unit)].input))
             fact.resolution = {};
     }
+    for (size_t i = 0; i < channels.size(); ++i) // drawn or not
+        if (const auto* output = std::get_if<scene::PassOutput>(&channels[i].input)) {
+            const bool cube = scene_.passes[output->pass].kind == PassKind::cubemap;
+            const Extent size = cube ? Extent{k_cube_side, k_cube_side} : extent_;
+            facts[i] = {{double(size.width), double(size.height), 1}, 0, true};
+        }
     return facts;
 }
 

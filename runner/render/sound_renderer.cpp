@@ -1,6 +1,7 @@
 #include "render/sound_renderer.hpp"
 
 #include "glsl/assemble.hpp"
+#include "render/frame_plan.hpp"
 #include "render/link_pass.hpp"
 #include "sound/sound_texels.hpp"
 
@@ -53,11 +54,11 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Dat
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
     for (int number = 0; number < scene::k_channel_count; ++number) {
-        if (!renderer.program_.reflection().has(fmt::format("iChannel{}", number)))
-            continue;
         scene::Channel channel = pass->channels[size_t(number)];
         if (!is_heard(channel.input))
             channel.input = scene::Unbound{texture_kind(scene, channel.input)};
+        if (!needs_texture(channel.input, number, renderer.program_.reflection()))
+            continue;
         auto bound = make_channel(renderer.program_, number, channel, renderer.textures_);
         if (!bound)
             return fail(std::move(bound.error()));

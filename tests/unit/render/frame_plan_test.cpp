@@ -53,13 +53,38 @@ TEST(PlanFrame, a_program_without_channels_reads_none) {
     EXPECT_THAT(plan.passes[0].channels, ElementsAre());
 }
 
-TEST(PlanFrame, a_size_that_is_asked_for_needs_the_channel_that_somebody_chose) {
-    scene::Scene scene = scene_of(1);
-    scene.passes[0].channels[1].input = scene::Noise{};
-    scene.passes[0].channels[2].input = scene::Noise{};
-    scene.passes[0].channels[2].where = {"a.glsl", 1};
-    const FramePlan plan = plan_frame(scene, Reflections{with({"iChannelResolution"})}, 0);
-    EXPECT_THAT(plan.passes[0].channels, ElementsAre(2));
+TEST(PlanFrame, a_size_that_is_asked_for_needs_the_texture_that_knows_it) {
+    scene::Scene scene = scene_of(2);
+    scene.passes[1].channels[0] = reads(0);
+    scene.passes[1].channels[1].input = scene::Noise{}; // whoever chose it
+    scene.passes[1].channels[2].input = scene::Noise{};
+    scene.passes[1].channels[2].where = {"a.glsl", 1};
+    for (const char* name : {"iChannelResolution", "iChannelTime"}) {
+        gl::Reflection reflection = with({name});
+        reflection.uniforms[0].length = 4;
+        FramePlan plan = plan_frame(scene, Reflections{with({}), reflection}, 1);
+        EXPECT_THAT(plan.passes.back().channels, ElementsAre(1, 2));
+        EXPECT_EQ(plan.find(0), nullptr) << "the size of a buffer is that of the canvas";
+        reflection.uniforms[0].length = 2; // the others are not asked for
+        plan = plan_frame(scene, Reflections{with({}), reflection}, 1);
+        EXPECT_THAT(plan.passes.back().channels, ElementsAre(1));
+    }
+    for (const char* name :
+         {"iCh1.size", "iCh1.loaded", "iCh1.time", "iChannel[1].resolution", "iChannel[1].time"})
+        EXPECT_THAT(plan_frame(scene, Reflections{with({}), with({name})}, 1).passes.back().channels,
+                    ElementsAre(1))
+            << name;
+    EXPECT_THAT(plan_frame(scene, Reflections{with({}), with({"iCh0.size"})}, 1).passes.back().channels,
+                ElementsAre());
+}
+
+TEST(PlanFrame, a_sampler_of_a_struct_reads_its_texture) {
+    scene::Scene scene = scene_of(2);
+    scene.passes[1].channels[0] = reads(0);
+    const FramePlan plan =
+        plan_frame(scene, Reflections{with({}), with({"iCh0.sampler", "iCh3.sampler"})}, 1);
+    EXPECT_THAT(plan.passes.back().channels, ElementsAre(0, 3)) << "black where nothing is bound";
+    EXPECT_NE(plan.find(0), nullptr);
 }
 
 TEST(PlanFrame, passes_are_drawn_in_the_scene_s_order) {
