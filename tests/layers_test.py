@@ -27,8 +27,8 @@ ALLOWED = {
 ROOMS = {
     # The plug-in is a library of its own: image/files knows the table of functions that it hands over.
     "image": {"": [], "files": ["", "plugin"], "made": ["", "files"], "compare": [""], "plugin": ["", "files"]},
-    "glsl": {"": ["syntax", "double"], "syntax": [], "double": ["syntax"], "specialise": ["syntax"],
-             "watch": ["syntax"]},
+    "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
+             "watch": ["syntax", "flow"]},
     "lab": {"": [], "fields": [], "study": ["", "fields"], "trace": [], "check": ["", "trace"]},
     "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""]},
 }

@@ -36,8 +36,7 @@ using ChannelKinds = std::array<scene::TextureKind, scene::k_channel_count>;
 struct Dialect {
     Version version = Version::core_330;
     MainPlace main = MainPlace::first;
-    bool initialise =
-        true; ///< variables without a value start at zero, and `out fragColor` as the site's does
+    bool initialise = true; ///< what has no value starts at zero: glsl/initialise.hpp
     ChannelKinds channels{};
     Precision precision = Precision::single;
     bool joins_overloads = false; ///< functions named as built-in ones stand beside them: glsl/overloads.hpp

@@ -1,6 +1,7 @@
 #include "glsl/pass_reading.hpp"
 
 #include "glsl/hit.hpp"
+#include "glsl/initialise.hpp"
 #include "glsl/overloads.hpp"
 #include "glsl/prologue.hpp"
 #include "glsl/rewrite.hpp"
@@ -98,6 +99,8 @@ Result<Assembly> PassReading::assemble(const Dialect& dialect) const {
     body.append(author);
     if (dialect.main != MainPlace::first)
         body.append_generated("\n" + ours.main); // the author's last line may end in a backslash
+    if (dialect.initialise)
+        start_at_zero(body, dialect.version);
     Assembly result;
     result.source.append_generated(version_lines(dialect, changes.extensions));
     if (dialect.precision != Precision::single) {

@@ -237,7 +237,7 @@ Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& di
                             has_alpha ? fmt::format("    {} = vec4(0.0, 0.0, 0.0, 1.0);\n", output) : "",
                             k_author_main, end)};
     }
-    const std::string_view out = initialises_colour(survey, dialect) ? "inout" : "out";
+    const std::string_view out = survey.entry_reads_colour ? "inout" : "out";
     switch (pass.kind) {
     case scene::PassKind::sound:
         if (survey.sound_takes_time_alone)

@@ -42,8 +42,6 @@ public:
         if (dialect_.main == MainPlace::author && !survey_.mains.empty())
             for (const size_t name : survey_.mains)
                 rename(tokens_[name], k_author_main);
-        if (dialect_.initialise)
-            add(initialise_variables(tokens_, preprocessed_));
         add(separate_signs(tokens_, preprocessed_));
         add(settle_arguments(tokens_, preprocessed_));
         const PlainNames plain = name_plainly(tokens_, preprocessed_);
@@ -81,7 +79,6 @@ private:
         }
         if (survey_.wants("gl_FragColor"))
             renames_.emplace("gl_FragColor", k_output);
-        entry_may_be_read_ = initialises_colour(survey_, dialect_);
     }
 
     /// #version and #line are ours to say; an #extension goes to the top or, when no driver of that kind can
@@ -135,9 +132,6 @@ private:
             if (found != renames_.end())
                 rename(token, found->second);
         }
-        if (entry_may_be_read_ && i + 2 < tokens_.size() && tokens_[i + 2].is("out") &&
-            tokens_[i + 1].is("(") && (token.is("mainImage") || token.is("mainCubemap")))
-            rename(tokens_[i + 2], "inout");
     }
 
     /// In the order of the text; what stands in a part that is removed goes with it.
@@ -165,15 +159,10 @@ private:
     const Survey& survey_;
     const Dialect& dialect_;
     std::unordered_map<std::string_view, std::string> renames_;
-    bool entry_may_be_read_ = false;
     Rewriting result_;
 };
 
 } // namespace
-
-bool initialises_colour(const Survey& survey, const Dialect& dialect) {
-    return dialect.initialise && !survey.writes_colour_first;
-}
 
 Rewriting rewrite(std::string_view text, const std::vector<Token>& tokens, const Preprocessed& preprocessed,
                   const Survey& survey, const Dialect& dialect) {

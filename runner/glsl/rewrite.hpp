@@ -1,5 +1,5 @@
-// The changes that an author's text needs before the driver sees it, as edits that move no line. Most texts
-// need none but `inout` at mainImage and zeros for variables without a value.
+// The changes that an author's text needs before the driver takes it, as edits that move no line. Most texts
+// need none.
 #pragma once
 
 #include "glsl/dialect.hpp"
@@ -21,9 +21,6 @@ inline constexpr std::string_view k_author_main = "tidemark_author_main";
 /// Our output, and what an author's `gl_FragColor` becomes.
 inline constexpr std::string_view k_output = "tidemark_color";
 
-/// Whether the entry point's `out` colour becomes `inout`, so that it starts at the value that we give it.
-bool initialises_colour(const Survey& survey, const Dialect& dialect);
-
 struct Rewriting {
     std::vector<text::Edit> edits;       ///< sorted, without overlap
     std::vector<std::string> extensions; ///< the text's own #extension lines that go to the top
@@ -32,11 +29,6 @@ struct Rewriting {
 
 Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
                   const Preprocessed& preprocessed, const Survey& survey, const Dialect& dialect);
-
-/// `= T(0)` behind the name of every variable of a plain type that has no value: WebGL starts those at zero.
-/// Members, parameters, arrays and variables of the author's own types are left alone.
-std::vector<text::Edit> initialise_variables(const std::vector<text::Token>& tokens,
-                                             const Preprocessed& preprocessed);
 
 /// Without the directives that stand among the arguments of a macro; see conditional_arguments.cpp.
 std::vector<text::Edit> settle_arguments(const std::vector<text::Token>& tokens,

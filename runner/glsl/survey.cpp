@@ -194,19 +194,18 @@ private:
 
     void read_entry() {
         std::vector<std::string_view> types;
-        std::string_view colour;
         bool plain = peek(-1).is(kind_ == scene::PassKind::sound ? "vec2" : "void");
         long i = 2;
         for (; !ends_parameters(peek(i)); ++i) {
             if (peek(i).is(",") || peek(i).is("in"))
                 continue;
-            if (types.empty() && (peek(i).is("out") || peek(i).is("inout")))
+            if (types.empty() && (peek(i).is("out") || peek(i).is("inout"))) {
+                result_.entry_reads_colour = peek(i).is("inout");
                 continue;
-            types.push_back(peek(i).text);
-            if (peek(i + 1).kind == TokenKind::identifier) { // the parameter's name
-                ++i;
-                colour = types.size() == 1 ? peek(i).text : colour;
             }
+            types.push_back(peek(i).text);
+            if (peek(i + 1).kind == TokenKind::identifier) // the parameter's name
+                ++i;
             plain = plain && (peek(i + 1).is(",") || peek(i + 1).is(")"));
         }
         const auto wanted = plain_parameters(kind_);
@@ -215,33 +214,6 @@ private:
         else
             plain = plain && std::equal(types.begin(), types.end(), wanted.begin(), wanted.end());
         result_.entry_is_plain = plain;
-        if (peek(i + 1).is("{") && kind_ != scene::PassKind::sound)
-            result_.writes_colour_first = result_.entries.size() == 1 && writes_first(i + 2, colour);
-    }
-
-    /// Whether the body that begins at `i` sets the whole of `colour` first of all, by a plain assignment
-    /// that is always reached.
-    bool writes_first(long i, std::string_view colour) const {
-        if (colour.empty() || macros_mention(colour))
-            return false;
-        int depth = 0;
-        for (; size_t(long(at_) + i) < code().size() && depth >= 0; ++i) {
-            const Token& token = peek(i);
-            depth += token.is("{") || token.is("(") ? 1 : token.is("}") || token.is(")") ? -1 : 0;
-            if (token.is("return") || token.is("discard"))
-                return false;
-            if (!token.is(colour) || peek(i - 1).is("."))
-                continue;
-            const Token& before = peek(i - 1);
-            const bool always = depth == 0 && (before.is(";") || before.is("{") || before.is("}"));
-            if (!always || !peek(i + 1).is("=") || peek(i + 2).is("="))
-                return false;
-            for (i += 2; !peek(i).text.empty() && !peek(i).is(";"); ++i)
-                if (peek(i).is(colour))
-                    return false;
-            return true;
-        }
-        return false;
     }
 
     bool macros_mention(std::string_view name) const {

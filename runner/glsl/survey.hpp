@@ -48,7 +48,7 @@ struct Survey {
     std::vector<size_t> entries; ///< the name of each definition of the entry point, as an index of tokens
     bool entry_is_macro = false; ///< golf: `#define mainImage(O,U) …`
     bool entry_is_plain = false; ///< the definition has the parameters that our prototype has
-    bool writes_colour_first = false;    ///< sets all of its `out` colour before anything else can read it
+    bool entry_reads_colour = false;     ///< its colour is `inout`
     bool entry_in_macro = false;         ///< `#define main() mainImage(out vec4 …)`
     bool sound_takes_time_alone = false; ///< `mainSound(float time)`
     std::vector<size_t> mains;           ///< the name of each `void main()` of the author's own

@@ -238,7 +238,38 @@ class Check(ProgramTest):
                                        "    for (int i = 0; i < 3; ++i)\n        sum += 0.1;\n    c = vec4(sum);\n}\n")
         entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
         self.assertEqual(entry["verdict"], "warn")
-        self.assertIn(f"sum ({scene}:4)", entry["found"])
+        self.assertEqual(entry["found"],
+                         "without a value, which is 0 on ShaderToy's site and here, and anything elsewhere: "
+                         f"sum ({scene}:4, on some way to there); every way through the functions that run was "
+                         "followed, whatever its conditions are")
+
+    def test_structs_branches_outs_and_returns_without_a_value_are_named(self):
+        scene = self.write("ways.glsl", "struct I { float d; }; struct S { I i; vec3 n; };\n"
+                                        "S surface() { S s; s.i.d = 1.0;\n    return s; }\n"
+                                        "float march(float x, out bool hit) {\n"
+                                        "    for (int i = 0; i < 4; ++i) if (x > 2.0) hit = true;\n"
+                                        "    return x; }\n"
+                                        "float side(float x) { if (x > 1.0) return 2.0; }\n"
+                                        "void mainImage(out vec4 c, in vec2 p) {\n    bool hit; float branch;\n"
+                                        "    if (p.x > 2.0) branch = 1.0;\n"
+                                        "    c = vec4(surface().n.x, march(p.x, hit), side(p.y),\n"
+                                        "        branch); }\n")
+        entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
+        self.assertEqual(entry["verdict"], "warn")
+        for said in (f"s ({scene}:3, on some way to there)", f"branch ({scene}:12, on some way to there)",
+                     f"hit ({scene}:4, an `out` that some way to the end does not write)",
+                     f"side ({scene}:7, on some way to its end without a `return`)"):
+            self.assertIn(said, entry["found"])
+
+    def test_what_every_way_assigns_is_not_named(self):
+        scene = self.write("ways.glsl", "float side(float x, out float y) { y = x; if (x > 1.0) return 2.0; return y; }\n"
+                                        "void mainImage(out vec4 c, in vec2 p) {\n    float a, b; vec2 v;\n"
+                                        "    v.x = p.x; v.y = 1.0; if (p.x > 2.0) a = 1.0; else a = 2.0;\n"
+                                        "    c = vec4(a, side(p.x, b), v); c.x += b; }\n")
+        entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
+        self.assertEqual((entry["verdict"], entry["found"]),
+                         ("pass", "nothing is read without a value: every way through the functions that run was "
+                                  "followed, whatever its conditions are"))
 
     def test_a_derivative_where_neighbours_went_another_way_is_named(self):
         scene = self.write("edge.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"

@@ -101,10 +101,11 @@ void expect_sound(const scene::Scene& scene, const Json& samples) {
 
 class Conformance : public testing::TestWithParam<std::string> {
 protected:
-    void expect_pixels_of_the_convention(glsl::Precision precision, bool unchanged_too = false) const;
+    /// Size and samples are the case's.
+    void expect_pixels_of_the_convention(RenderOptions options) const;
 };
 
-void Conformance::expect_pixels_of_the_convention(glsl::Precision precision, bool unchanged_too) const {
+void Conformance::expect_pixels_of_the_convention(RenderOptions options) const {
     const fs::path folder = k_cases / GetParam();
     const auto text = read_file(folder / "expected.json");
     ASSERT_TRUE(text) << to_string(text.error());
@@ -123,12 +124,9 @@ void Conformance::expect_pixels_of_the_convention(glsl::Precision precision, boo
         ASSERT_TRUE(set) << to_string(set.error());
     }
     const Json& size = expected.at("size");
-    const SampleType samples =
-        expected.value("target", "bytes") == "floats" ? SampleType::f32 : SampleType::u8;
-    auto renderer = Renderer::create(*std::move(scene), {.extent = {size.at(0), size.at(1)},
-                                                         .samples = samples,
-                                                         .precision = precision,
-                                                         .extras = {.unchanged = unchanged_too}});
+    options.extent = {size.at(0), size.at(1)};
+    options.samples = expected.value("target", "bytes") == "floats" ? SampleType::f32 : SampleType::u8;
+    auto renderer = Renderer::create(*std::move(scene), options);
     ASSERT_TRUE(renderer) << to_string(renderer.error());
 
     Mouse mouse;
@@ -151,15 +149,24 @@ void Conformance::expect_pixels_of_the_convention(glsl::Precision precision, boo
 }
 
 TEST_P(Conformance, pixels_are_those_of_the_convention) {
-    expect_pixels_of_the_convention(glsl::Precision::single);
+    expect_pixels_of_the_convention({});
 }
 
 TEST_P(Conformance, and_in_double_precision_too) {
-    expect_pixels_of_the_convention(glsl::Precision::promoted);
+    expect_pixels_of_the_convention({.precision = glsl::Precision::promoted});
 }
 
-TEST_P(Conformance, and_when_all_passes_are_drawn_in_all_frames) {
-    expect_pixels_of_the_convention(glsl::Precision::single, true);
+TEST_P(Conformance, and_when_nothing_is_left_out) {
+    expect_pixels_of_the_convention({.extras = {.passes = true,
+                                                .channels = true,
+                                                .mipmaps = true,
+                                                .second_textures = true,
+                                                .uniforms = true,
+                                                .unchanged = true}});
+}
+
+TEST_P(Conformance, and_without_what_main_does_not_need) {
+    expect_pixels_of_the_convention({.specialise = glsl::Specialise::unreachable});
 }
 
 INSTANTIATE_TEST_SUITE_P(cases, Conformance, testing::ValuesIn(case_names()),

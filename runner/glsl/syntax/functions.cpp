@@ -70,14 +70,16 @@ private:
         size_t i = first;
         for (; i < close && !token(i).is(","); ++i) {
             const Token& word = token(i);
-            if (word.is("out") || word.is("inout"))
+            if (word.is("out") || word.is("inout")) {
                 parameter.written = true;
-            else if (word.is("["))
+                parameter.read = word.is("inout");
+            } else if (word.is("[")) {
                 parameter.array = true;
-            else if (is_name(i) && parameter.type.empty())
+            } else if (is_name(i) && parameter.type.empty()) {
                 parameter.type = word.text;
-            else if (is_name(i) && parameter.name.empty() && !parameter_array_size(i))
+            } else if (is_name(i) && parameter.name.empty() && !parameter_array_size(i)) {
                 parameter.name = word.text;
+            }
         }
         if (!parameter.type.empty())
             function.parameters.push_back(parameter);

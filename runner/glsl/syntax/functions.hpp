@@ -14,6 +14,7 @@ struct Parameter {
     std::string_view type;
     std::string_view name; ///< empty: has none
     bool written = false;  ///< `out`, `inout`
+    bool read = true;      ///< not `out`
     bool array = false;
 };
 

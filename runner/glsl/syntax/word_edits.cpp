@@ -50,8 +50,7 @@ void WordEdits::replace(size_t begin, size_t end, std::string_view replacement) 
 }
 
 void WordEdits::insert(size_t word, std::string_view insertion) {
-    const size_t at = text_.tokens()[first_from_[word]].begin;
-    edits_.push_back({at, at, std::string(insertion)});
+    edits_.push_back({begin_of(word), begin_of(word), std::string(insertion)});
 }
 
 /// A branch that was closed goes with its function, should that go.

@@ -23,6 +23,8 @@ public:
     /// Of words that stand alone and were not changed before. Directives between them stay.
     void replace(size_t begin, size_t end, std::string_view replacement);
     void remove(size_t begin, size_t end) { replace(begin, end, {}); }
+    /// The offset in the text of a word that begins alone.
+    size_t begin_of(size_t word) const { return text_.tokens()[first_from_[word]].begin; }
     /// In front of a word that begins alone.
     void insert(size_t word, std::string_view insertion);
 

@@ -1,21 +1,28 @@
-// Variables that are read although nothing gave them a value, on any way that leads to the read, and `out`
-// parameters that never get one: undefined, but where a site or a driver happens to begin with zeros.
+// What a text reads that may not have a value yet, and functions that may come to their end without one:
+// undefined, but where a site begins with zeros.
 #pragma once
 
-#include "glsl/syntax/parsed_text.hpp"
-#include "glsl/syntax/tree_facts.hpp"
+#include "glsl/flow/assigned.hpp"
 
 #include <vector>
 
 namespace tidemark::glsl {
 
 struct Unassigned {
-    NodeId variable = k_no_node; ///< declarator or parameter
-    NodeId read = k_no_node;     ///< the first; none: an `out` parameter that its function never writes
+    enum class Why : unsigned char {
+        never,            ///< nothing writes the variable
+        on_some_way,      ///< some way to the read leaves it, or a part of it, without
+        not_given,        ///< an `out` parameter that nothing writes
+        left_on_some_way, ///< an `out` parameter that some way to the function's end leaves without
+        no_return         ///< some way to the function's end gives nothing back
+    };
+    Why why = Why::never;
+    NodeId what = k_no_node; ///< declarator, parameter or function
+    NodeId at = k_no_node;   ///< the first read; the `return` or the body's block; the function
 };
 
-/// In functions that `main` comes to, in the order of the text. What may have a value on some way is left
-/// out.
+/// In functions that `main` comes to, in the order of the text. Says nothing where overloads leave it open
+/// whether an argument is written.
 std::vector<Unassigned> find_unassigned(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

@@ -34,7 +34,7 @@ std::span<const Probe> all_probes() {
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
         {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
          ask_hashes},
-        {"unassigned", "variables that are read before they have a value, `out` that never get one",
+        {"unassigned", "variables, members and `out` that some way leaves without a value, missing returns",
          ask_unassigned},
         {"divergence",
          "derivatives, and textures that choose a mipmap, where neighbouring pixels may have gone "

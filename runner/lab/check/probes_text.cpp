@@ -24,6 +24,23 @@ std::string told(const glsl::ParsedText& text, const glsl::Parting& parting) {
                        place);
 }
 
+/// `sum (a.glsl:4)`, `hit (a.glsl:9, an `out` that some way to the end leaves so)`; empty: not the author's.
+std::string told(const glsl::ParsedText& text, const glsl::Unassigned& each) {
+    using Why = glsl::Unassigned::Why;
+    const glsl::SyntaxTree& tree = text.tree();
+    const bool declared = each.why == Why::not_given || each.why == Why::left_on_some_way;
+    const std::string place = place_of(text, tree[declared ? each.what : each.at].word);
+    if (place.empty())
+        return {};
+    const std::string_view how = each.why == Why::never         ? ""
+                                 : each.why == Why::on_some_way ? ", on some way to there"
+                                 : each.why == Why::not_given   ? ", an `out` that is never written"
+                                 : each.why == Why::left_on_some_way
+                                     ? ", an `out` that some way to the end does not write"
+                                     : ", on some way to its end without a `return`";
+    return fmt::format("{} ({}{})", text.word_of(each.what), place, how);
+}
+
 } // namespace
 
 Result<Answer> ask_unassigned(ProbeBench& bench) {
@@ -33,20 +50,17 @@ Result<Answer> ask_unassigned(ProbeBench& bench) {
     std::vector<std::string> found;
     for (const PassText& pass : *texts)
         for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
-            const bool unread = each.read == glsl::k_no_node;
-            const size_t word = pass.text->tree()[unread ? each.variable : each.read].word;
-            const std::string place = place_of(*pass.text, word);
-            const std::string said = fmt::format("{} ({}{})", pass.text->word_of(each.variable), place,
-                                                 unread ? ", an `out` that is never written" : "");
-            if (!place.empty() && std::ranges::find(found, said) == found.end())
-                found.push_back(said);
+            std::string said = told(*pass.text, each);
+            if (!said.empty() && std::ranges::find(found, said) == found.end())
+                found.push_back(std::move(said));
         }
+    const std::string_view looked =
+        "every way through the functions that run was followed, whatever its conditions are";
     if (found.empty())
-        return Answer{Verdict::pass, "nothing is read that no path assigns"};
-    return Answer{Verdict::warn,
-                  "read before it has a value, which is 0 on ShaderToy's site and here, and anything "
-                  "elsewhere: " +
-                      listed(found)};
+        return Answer{Verdict::pass, fmt::format("nothing is read without a value: {}", looked)};
+    return Answer{Verdict::warn, fmt::format("without a value, which is 0 on ShaderToy's site and here, and "
+                                             "anything elsewhere: {}; {}",
+                                             listed(found), looked)};
 }
 
 Result<Answer> ask_divergence(ProbeBench& bench) {

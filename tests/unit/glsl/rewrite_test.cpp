@@ -29,33 +29,6 @@ TEST(Rewrite, a_sound_text_stays_as_it_is) {
         EXPECT_EQ(rewritten(text), text);
 }
 
-TEST(Rewrite, variables_without_a_value_start_at_zero) {
-    EXPECT_EQ(rewritten("float a, b = 1., c;\n"), "float a=float(0), b = 1., c=float(0);\n");
-    EXPECT_EQ(rewritten("void f() { for (int i; i < 3; i++) { highp vec3 p, q[2]; } }\n"),
-              "void f() { for (int i=int(0); i < 3; i++) { highp vec3 p=vec3(0), q[2]; } }\n");
-    EXPECT_EQ(rewritten("#define V vec2\nV a;\n"), "#define V vec2\nV a=V(0);\n");
-    EXPECT_EQ(rewritten("#define m(O) mat2 r; O = r\n"), "#define m(O) mat2 r=mat2(0); O = r\n");
-    EXPECT_EQ(rewritten("#if 0\nfloat a;\n#else\nfloat b;\n#endif\n"),
-              "#if 0\nfloat a;\n#else\nfloat b=float(0);\n#endif\n");
-    EXPECT_EQ(rewritten("float a,\n// c\n  b;\n"), "float a=float(0),\n// c\n  b=float(0);\n");
-    EXPECT_EQ(rewritten("float a;\n", {.initialise = false}), "float a;\n");
-}
-
-TEST(Rewrite, a_colour_that_is_read_first_has_a_value) {
-    EXPECT_EQ(rewritten("void mainImage(out vec4 o, vec2 p) { o += 1.; }\n"),
-              "void mainImage(inout vec4 o, vec2 p) { o += 1.; }\n");
-    for (const char* body :
-         {"o.r = 1.;", "if (p.x > 0.) o = vec4(1);", "o = 1. - o;", "f(o);",
-          "if (p.x>0.) return; o = vec4(0);", "{ o = vec4(1); }", "bool b = o == vec4(1);"}) {
-        const std::string rest = std::string(" vec4 o, vec2 p) { ") + body + " }\n";
-        EXPECT_EQ(rewritten("void mainImage(out" + rest), "void mainImage(inout" + rest);
-    }
-    EXPECT_EQ(rewritten("#define main() mainImage(out vec4 o, vec2 p)\nvoid main() { o = vec4(1); }\n"),
-              "#define main() mainImage(inout vec4 o, vec2 p)\nvoid main() { o = vec4(1); }\n");
-    EXPECT_EQ(rewritten("void mainImage(out vec4 o, vec2 p) { o += 1.; }\n", {.initialise = false}),
-              "void mainImage(out vec4 o, vec2 p) { o += 1.; }\n");
-}
-
 TEST(Rewrite, directives_that_are_ours_to_write) {
     EXPECT_EQ(rewritten("#version 300 es\n#line 3\n#extension GL_OES_x : enable\n#pragma p\n"),
               "\n\n\n#pragma p\n");
@@ -106,7 +79,7 @@ TEST(Rewrite, no_line_moves) {
         "\n{ o += b-N(p.x); }\n#extension \\\n GL_X : enable\nfloat last;\n";
     const std::string result = rewritten(text);
     EXPECT_EQ(count(result, "\n"), count(text, "\n"));
-    EXPECT_TRUE(result.ends_with("\nfloat last=float(0);\n"));
+    EXPECT_TRUE(result.ends_with("\nfloat last;\n"));
 }
 
 TEST(Rewrite, junk_takes_linear_time) {

@@ -1,0 +1,218 @@
+#include "glsl/flow/shape.hpp"
+
+#include "glsl/syntax/number.hpp"
+#include "glsl/syntax/tree_facts.hpp"
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+/// More than that is written down by nobody, and by no constructor of ours.
+constexpr size_t k_most_numbers = 1u << 20;
+/// An array's elements are told apart up to that many.
+constexpr long k_most_elements = 16;
+
+size_t times(size_t a, size_t b) {
+    return a == 0 || b == 0 || a > k_most_numbers / b ? 0 : a * b;
+}
+
+} // namespace
+
+bool Shape::can_be_zero() const {
+    switch (kind) {
+    case Kind::unknown: return false;
+    case Kind::array: return part->can_be_zero();
+    case Kind::structure:
+        return std::ranges::all_of(members, [](const Member& member) { return member.shape->can_be_zero(); });
+    default: return true;
+    }
+}
+
+Shapes::Shapes(const ParsedText& text) : text_(text), tree_(text.tree()) {
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        const Node& node = tree_[id];
+        if (node.kind == NodeKind::structure && text_.word(node.begin) == "struct" &&
+            text_.word_of(id) != "struct")
+            structures_by_name_[text_.word_of(id)].push_back(id);
+        if (node.kind != NodeKind::declaration || node.parent != 0)
+            continue;
+        const NodeId type = tree_.child(id, 0);
+        if (!has_qualifier(text_, type, "const") || class_of_type(type_name(text_, type)) != TypeClass::whole)
+            continue;
+        for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next)
+            if (const NodeId value = tree_.child(name, 0); value != k_no_node && !is_bracket(text_, value))
+                if (const auto known = number(tree_[value].begin, tree_[value].end))
+                    constants_[text_.word_of(name)] = *known;
+    }
+}
+
+std::optional<long> Shapes::number(size_t begin, size_t end) const {
+    if (end != begin + 1)
+        return std::nullopt;
+    std::string_view word = text_.word(begin);
+    if (const auto found = constants_.find(word); found != constants_.end())
+        return found->second;
+    if (!word.empty() && (word.back() == 'u' || word.back() == 'U'))
+        word.remove_suffix(1);
+    return whole_number(word);
+}
+
+const Shape& Shapes::unknown(std::string_view type) {
+    Shape shape;
+    shape.type = type;
+    shape.whole = true;
+    return shapes_.emplace_back(std::move(shape));
+}
+
+const Shape& Shapes::plain(std::string_view type) {
+    if (const auto found = plain_.find(type); found != plain_.end())
+        return *found->second;
+    Shape shape;
+    shape.type = type;
+    const size_t digits = type.find_first_of("234");
+    if (digits == type.npos) {
+        shape.kind = Shape::Kind::scalar;
+        shape.numbers = 1;
+    } else {
+        const bool matrix = type.find("mat") != type.npos;
+        shape.kind = matrix ? Shape::Kind::matrix : Shape::Kind::vector;
+        shape.length = size_t(type[digits] - '0');
+        const size_t rows = size_t(type.back() - '0');
+        constexpr std::string_view k_columns[] = {"vec2", "vec3", "vec4"};
+        shape.part = &plain(matrix ? k_columns[rows - 2] : "float");
+        shape.slots = unsigned(shape.length) * shape.part->slots;
+        shape.numbers = 1;
+    }
+    return *(plain_[type] = &shapes_.emplace_back(std::move(shape)));
+}
+
+const Shape& Shapes::structure(NodeId structure) {
+    if (const auto found = structures_.find(structure); found != structures_.end())
+        return *found->second;
+    Shape shape;
+    shape.kind = Shape::Kind::structure;
+    shape.type = text_.word_of(structure) == "struct" ? std::string_view{} : text_.word_of(structure);
+    shape.slots = 0;
+    shape.numbers = shape.type.empty() ? 0 : 1;
+    size_t numbers = 0;
+    for (const NodeId declaration : tree_.children(structure)) {
+        const NodeId type = tree_.child(declaration, 0);
+        for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next) {
+            const Shape& member = of(type, name);
+            shape.members.push_back({text_.word_of(name), &member, shape.slots});
+            shape.slots += member.slots;
+            shape.numbers = member.numbers == 0 ? 0 : shape.numbers;
+            numbers = std::min(numbers + member.numbers, k_most_numbers);
+        }
+    }
+    shape.numbers = shape.numbers == 0 ? 0 : numbers;
+    if (shape.slots > k_most_slots || shape.slots == 0) {
+        shape.slots = 1;
+        shape.whole = true;
+    }
+    return *(structures_[structure] = &shapes_.emplace_back(std::move(shape)));
+}
+
+const Shape& Shapes::array_of(const Shape& element, std::optional<long> length) {
+    Shape shape;
+    shape.kind = Shape::Kind::array;
+    shape.type = element.type;
+    shape.part = &element;
+    shape.length = length && *length > 0 ? size_t(*length) : 0;
+    shape.numbers = times(shape.length, element.numbers);
+    shape.slots = shape.length > 0 && shape.length <= k_most_elements && !element.whole
+                      ? unsigned(shape.length) * element.slots
+                      : k_most_slots + 1;
+    if (shape.slots > k_most_slots) {
+        shape.slots = 1;
+        shape.whole = true;
+    }
+    return shapes_.emplace_back(std::move(shape));
+}
+
+/// The structure that stands there, or the last one of that name that was declared before where it is seen.
+const Shape& Shapes::named(NodeId type) {
+    if (const NodeId own = tree_.child(type, 0); own != k_no_node)
+        return structure(own);
+    const std::string_view name = type_name(text_, type);
+    if (const TypeClass kind = class_of_type(name); kind == TypeClass::floating || kind == TypeClass::whole)
+        return plain(name);
+    NodeId best = k_no_node;
+    if (const auto found = structures_by_name_.find(name); found != structures_by_name_.end())
+        for (const NodeId id : found->second) {
+            const NodeId inside = tree_.around(id, NodeKind::function);
+            if (tree_[id].end <= tree_[type].begin &&
+                (inside == k_no_node || inside == tree_.around(type, NodeKind::function)))
+                best = id;
+        }
+    return best == k_no_node ? unknown(name) : structure(best);
+}
+
+/// Outermost first: `float[3] a[2]` is two of three.
+std::vector<std::optional<long>> Shapes::lengths(NodeId type, NodeId declared) const {
+    std::vector<std::optional<long>> result;
+    if (declared != k_no_node)
+        for (const NodeId part : tree_.children(declared))
+            if (is_bracket(text_, part)) {
+                const Node& length = tree_[tree_.child(part, 0)];
+                result.push_back(number(length.begin, length.end));
+            }
+    const NodeId own = tree_.child(type, 0);
+    size_t open = 0;
+    int depth = 0;
+    for (size_t i = own != k_no_node ? tree_[own].end : tree_[type].word + 1; i < tree_[type].end; ++i) {
+        if (text_.word(i) == "[" && depth++ == 0)
+            open = i;
+        if (text_.word(i) == "]" && --depth == 0)
+            result.push_back(number(open + 1, i));
+    }
+    return result;
+}
+
+const Shape& Shapes::of(NodeId type, NodeId declared) {
+    const Shape* shape = &named(type);
+    const auto all = lengths(type, declared);
+    for (auto length = all.rbegin(); length != all.rend(); ++length)
+        shape = &array_of(*shape, *length);
+    return *shape;
+}
+
+Part Shapes::member(const Part& of, std::string_view name) const {
+    if (!of.shape || of.shape->whole)
+        return {of.slots, nullptr, false};
+    const unsigned first = unsigned(std::countr_zero(of.slots));
+    for (const Shape::Member& member : of.shape->members)
+        if (member.name == name)
+            return {all_slots(member.shape->slots) << (first + member.first_slot), member.shape, of.exact};
+    if (of.shape->kind != Shape::Kind::vector)
+        return {of.slots, nullptr, false};
+    Part part{0, nullptr, of.exact};
+    for (const char c : name)
+        for (const std::string_view set : {"xyzw", "rgba", "stpq"})
+            if (const size_t at = set.find(c); at < of.shape->length)
+                part.slots |= Slots(1) << (first + at);
+    part.shape = name.size() == 1 ? of.shape->part : nullptr;
+    return part;
+}
+
+Part Shapes::element(const Part& of, NodeId index) const {
+    const auto known = number(tree_[index].begin, tree_[index].end);
+    if (!of.shape || of.shape->whole || !of.shape->part || !known || *known < 0 ||
+        size_t(*known) >= of.shape->length)
+        return {of.slots, nullptr, false};
+    const unsigned slots = of.shape->part->slots;
+    const unsigned first = unsigned(std::countr_zero(of.slots)) + unsigned(*known) * slots;
+    return {all_slots(slots) << first, of.shape->part, of.exact};
+}
+
+Part Shapes::part_of(const Shape& shape, NodeId place) const {
+    switch (tree_[place].kind) {
+    case NodeKind::parenthesis: return part_of(shape, tree_.child(place, 0));
+    case NodeKind::member: return member(part_of(shape, tree_.child(place, 0)), text_.word_of(place));
+    case NodeKind::index: return element(part_of(shape, tree_.child(place, 0)), tree_.child(place, 1));
+    default: return {all_slots(shape.slots), &shape, true};
+    }
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,162 @@
+#include "glsl/initialise.hpp"
+#include "glsl/syntax/functions.hpp"
+#include "glsl/syntax/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace tidemark::glsl {
+namespace {
+
+using text::Token;
+using text::TokenKind;
+
+/// `vec3`, and each macro that stands for such a type and nothing else (golf: `#define V vec3`).
+std::unordered_set<std::string_view> type_names(const std::vector<Token>& tokens,
+                                                const Preprocessed& preprocessed) {
+    std::unordered_set<std::string_view> names(std::begin(k_plain_types), std::end(k_plain_types));
+    std::unordered_set<std::string_view> other;
+    for (const MacroLine& macro : preprocessed.macros) {
+        if (macro.undefines)
+            continue;
+        const bool alias = !macro.parameters && macro.end == macro.body + 1 &&
+                           is_one_of(tokens[macro.body].text, k_plain_types);
+        if (alias)
+            names.insert(macro.name);
+        else
+            other.insert(macro.name);
+    }
+    for (const auto name : other)
+        names.erase(name);
+    return names;
+}
+
+/// Reads one run of tokens: the code of the text, or what one macro stands for.
+class Initialiser {
+public:
+    Initialiser(const std::vector<Token>& tokens, const std::unordered_set<std::string_view>& types,
+                std::vector<text::Edit>& edits)
+        : tokens_(tokens), types_(types), edits_(edits) {}
+
+    void run(std::span<const size_t> run, const std::unordered_set<std::string_view>& parameters) {
+        run_ = run;
+        parameters_ = &parameters;
+        members_.clear();
+        for (at_ = 0; at_ < run_.size(); ++at_)
+            step();
+    }
+
+private:
+    const Token& peek(long offset) const {
+        static const Token k_none;
+        const long i = long(at_) + offset;
+        return i < 0 || size_t(i) >= run_.size() ? k_none : tokens_[run_[size_t(i)]];
+    }
+
+    void step() {
+        const Token& token = peek(0);
+        if (token.is("{"))
+            members_.push_back(opens_members());
+        else if (token.is("}") && !members_.empty())
+            members_.pop_back();
+        else if (token.kind == TokenKind::identifier && (members_.empty() || !members_.back()) &&
+                 peek(1).kind == TokenKind::identifier && types_.contains(token.text) && begins_statement())
+            read_declaration();
+    }
+
+    /// `struct S {`, `uniform Block {`.
+    bool opens_members() const {
+        for (const long i : {-1L, -2L})
+            if (peek(i).is("struct") || peek(i).is("uniform") || peek(i).is("buffer"))
+                return true;
+        return false;
+    }
+
+    bool begins_statement() const {
+        long i = -1;
+        while (is_precision(peek(i).text))
+            --i;
+        const Token& before = peek(i);
+        if (before.is("("))
+            return peek(i - 1).is("for");
+        return before.text.empty() || before.is(";") || before.is("{") || before.is("}") || before.is(")") ||
+               before.is(":") || before.is("else") || before.is("do");
+    }
+
+    /// `T a, b[2], c = …;` from its type on; nothing is changed unless it is read to its end.
+    void read_declaration() {
+        const std::string_view type = peek(0).text;
+        const size_t known = edits_.size();
+        do {
+            ++at_;
+            const Token& name = peek(0);
+            if (name.kind != TokenKind::identifier || parameters_->contains(name.text))
+                return give_up(known);
+            ++at_;
+            if (peek(0).is("[") || peek(0).is("="))
+                skip_to_end_of_declarator();
+            else
+                edits_.push_back({name.end(), name.end(), fmt::format("={}(0)", type)});
+        } while (peek(0).is(","));
+        if (!peek(0).is(";"))
+            give_up(known);
+    }
+
+    /// The token that stopped us may itself begin something.
+    void give_up(size_t known) {
+        edits_.resize(known);
+        --at_;
+    }
+
+    void skip_to_end_of_declarator() {
+        int depth = 0;
+        for (; at_ < run_.size(); ++at_) {
+            const Token& token = peek(0);
+            if (token.is("(") || token.is("[") || token.is("{"))
+                ++depth;
+            else if (token.is(")") || token.is("]") || token.is("}"))
+                --depth;
+            if (depth < 0 || (depth == 0 && (token.is(",") || token.is(";"))))
+                return;
+        }
+    }
+
+    const std::vector<Token>& tokens_;
+    const std::unordered_set<std::string_view>& types_;
+    std::vector<text::Edit>& edits_;
+    std::span<const size_t> run_;
+    const std::unordered_set<std::string_view>* parameters_ = nullptr;
+    size_t at_ = 0;
+    std::vector<bool> members_; ///< for each open brace, whether members stand in it
+};
+
+} // namespace
+
+std::vector<text::Edit> initialise_plain(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
+    std::vector<text::Edit> edits;
+    const auto types = type_names(tokens, preprocessed);
+    Initialiser initialiser(tokens, types, edits);
+    initialiser.run(preprocessed.code, {});
+    for (const MacroLine& macro : preprocessed.macros) {
+        std::vector<size_t> body;
+        std::unordered_set<std::string_view> parameters;
+        for (size_t i = macro.hash + 3; i < macro.body; ++i)
+            parameters.insert(tokens[i].text);
+        for (size_t i = macro.body; i < macro.end; ++i)
+            body.push_back(i);
+        initialiser.run(body, parameters);
+    }
+    for (const Function& function : find_functions(tokens, preprocessed))
+        for (const Parameter& parameter : function.parameters)
+            if (function.defined() && parameter.written && !parameter.read && !parameter.array &&
+                !parameter.name.empty() && types.contains(parameter.type)) {
+                const size_t at = tokens[function.body_begin].end();
+                edits.push_back({at, at, fmt::format("{}={}(0);", parameter.name, parameter.type)});
+            }
+    std::ranges::stable_sort(edits, {}, &text::Edit::begin);
+    return edits;
+}
+
+} // namespace tidemark::glsl

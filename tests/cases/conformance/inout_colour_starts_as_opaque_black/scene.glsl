@@ -1,0 +1,3 @@
+void mainImage(inout vec4 fragColor, in vec2 fragCoord) {
+    fragColor.b += fragColor.a;
+}
