@@ -31,6 +31,7 @@ public:
 
     /// Sets iMouse, iMouseButton, the keyboard, iCamera and iViewMatrix.
     void fill(render::FrameInputs& inputs) const;
+    const render::OrbitCamera& camera() const { return camera_; }
     /// To be called when a frame has been drawn: what was new in it is then no longer new.
     void frame_drawn();
 

@@ -2,7 +2,7 @@
 
 #include "base/file.hpp"
 #include "cli/console.hpp"
-#include "cli/version.hpp"
+#include "cli/picture_facts.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
@@ -274,11 +274,9 @@ void Viewer::save_picture() {
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
     const std::string name = fmt::format("{}-{:05}.png", scene_.name(), shown_.frame);
-    const image::PictureFormat format{image::SampleDepth::u8,
-                                      {{"Scene", settings_.scene.path.string()},
-                                       {"Frame", fmt::format("{}", shown_.frame)},
-                                       {"iTime", fmt::format("{}", shown_.time)},
-                                       {"Software", fmt::format("tidemark {}", k_version)}}};
+    const FrameFacts facts{shown_.frame, shown_.time, shown_.mouse,
+                           replay_ ? replay_->camera() : controls_.camera()};
+    const image::PictureFormat format{image::SampleDepth::u8, metadata_of(stage_->renderer().scene(), facts)};
     if (writer_->push({shown_.frame, name, stage_->renderer().read_back(), format}))
         say(fmt::format("saving {}", name));
     else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
