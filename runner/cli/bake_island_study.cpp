@@ -2,6 +2,7 @@
 
 #include "cli/console.hpp"
 #include "cli/study_support.hpp"
+#include "lab/study/curves.hpp"
 #include "lab/study/report.hpp"
 #include "lab/study/timing.hpp"
 #include "terrain/march_study.hpp"
@@ -190,9 +191,11 @@ Result<int> write_march_report(const MarchStudyRequest& request) {
     watcher.finish();
     findings.set.circumstances.clock = "wall clock";
     lab::judge(findings.set);
-    if (auto written = lab::write_report(request.folder, findings); !written)
+    lab::observe_orders(findings.set);
+    const std::filesystem::path place = report_folder(request.folder, findings.set.circumstances.complete);
+    if (auto written = lab::write_report(place, findings); !written)
         return fail(std::move(written.error()));
-    say_findings(findings.set, request.folder);
+    say_findings(findings.set, place);
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }
 
