@@ -65,6 +65,15 @@ OutputPath OutputPath::operator/(const fs::path& name) const {
     return output;
 }
 
+OutputPath OutputPath::beside(std::string_view ending) const {
+    OutputPath output = *this;
+    if (!whole_.has_filename()) // it ends in a slash
+        output.whole_ = whole_.parent_path();
+    output.whole_ += ending;
+    output.chosen_parts_ = std::max<size_t>(chosen_parts_, 1);
+    return output;
+}
+
 OutputPath OutputPath::sparing(const std::vector<fs::path>& files) const {
     OutputPath output = *this;
     output.spared_.insert(output.spared_.end(), files.begin(), files.end());

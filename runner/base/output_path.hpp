@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -30,6 +31,8 @@ public:
 
     /// A name of our own choice in this folder.
     OutputPath operator/(const std::filesystem::path& name) const;
+    /// A name of our own choice in the same folder: this one with that at its end.
+    OutputPath beside(std::string_view ending) const;
     /// Files that are read and must not be replaced, here or below.
     OutputPath sparing(const std::vector<std::filesystem::path>& files) const;
 

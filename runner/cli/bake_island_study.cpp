@@ -2,6 +2,7 @@
 
 #include "cli/console.hpp"
 #include "cli/study_support.hpp"
+#include "lab/study/curves.hpp"
 #include "lab/study/report.hpp"
 #include "lab/study/timing.hpp"
 #include "terrain/march_study.hpp"
@@ -191,9 +192,11 @@ Result<int> write_march_report(const MarchStudyRequest& request) {
     watcher.finish();
     findings.set.circumstances.clock = "wall clock";
     lab::judge(findings.set);
-    if (auto written = lab::write_report(folder, findings); !written)
+    lab::observe_orders(findings.set);
+    const OutputPath place = report_folder(folder, findings.set.circumstances.complete);
+    if (auto written = lab::write_report(place, findings); !written)
         return fail(std::move(written.error()));
-    say_findings(findings.set, folder.path());
+    say_findings(findings.set, place.path());
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }
 

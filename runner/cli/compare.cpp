@@ -8,6 +8,7 @@
 #include "image/compare/difference.hpp"
 #include "image/compare/flip.hpp"
 #include "image/compare/metrics.hpp"
+#include "image/compare/same_channels.hpp"
 #include "image/files/picture_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -112,27 +113,33 @@ Result<void> check(const CompareOptions& options) {
     return {};
 }
 
-/// The limits that a comparison is beyond, in words. A NaN is beyond every limit.
+/// The limits that a comparison is beyond, in words. A NaN is beyond every limit, and so is a pair of
+/// pictures of which one has a NaN or an infinity where the other has not the same.
 std::vector<std::string> failures(const CompareOptions& options, const Pair& pair,
                                   const PictureMetrics& metrics) {
+    const bool no_number = std::isnan(metrics.samples.rmse);
     std::vector<std::string> lines;
     for (size_t i = 0; i < k_metric_count; ++i) {
         const Metric& metric = k_metrics[i];
         const auto& limit = options.limits[i];
         const double value = metric.of(metrics);
-        if (!limit || (metric.more_is_better ? value >= *limit : value <= *limit))
+        if (!limit)
             continue;
-        lines.push_back(fmt::format("{}{} {:.6g}{} is {} {} {:.6g}", pair.label(), metric.label, value,
-                                    metric.unit,
-                                    std::isnan(value)       ? "not within"
-                                    : metric.more_is_better ? "below"
-                                                            : "above",
-                                    metric.option, *limit));
+        const bool within = metric.more_is_better ? value >= *limit : value <= *limit;
+        if (within && !no_number)
+            continue;
+        lines.push_back(
+            fmt::format("{}{} {:.6g}{} is {} {} {:.6g}{}", pair.label(), metric.label, value, metric.unit,
+                        within || std::isnan(value) ? "not within"
+                        : metric.more_is_better     ? "below"
+                                                    : "above",
+                        metric.option, *limit,
+                        no_number ? ": NaN or infinity against a number, or another of them" : ""));
     }
     return lines;
 }
 
-std::string text_of(const Pair& pair, const PictureMetrics& metrics) {
+std::string text_of(const Pair& pair, const PictureMetrics& metrics, const std::string& note) {
     std::string line = pair.label();
     for (const Metric& metric : k_metrics)
         line += fmt::format("{}{} {:.6g}{}", &metric == k_metrics ? "" : ", ", metric.label,
@@ -141,11 +148,13 @@ std::string text_of(const Pair& pair, const PictureMetrics& metrics) {
     if (samples.one_non_finite + samples.both_non_finite > 0)
         line += fmt::format("; pixels with NaN or infinity: {} in one picture only, {} in both",
                             samples.one_non_finite, samples.both_non_finite);
+    if (!note.empty())
+        line += "; " + note;
     return line + '\n';
 }
 
 /// JSON has no infinity and no NaN: null, and `equal` and `non_finite` say which.
-Json json_of(const Pair& pair, const PictureMetrics& metrics) {
+Json json_of(const Pair& pair, const PictureMetrics& metrics, const std::string& note) {
     Json json;
     if (pair.frame)
         json["frame"] = *pair.frame;
@@ -157,6 +166,8 @@ Json json_of(const Pair& pair, const PictureMetrics& metrics) {
     }
     json["equal"] = metrics.samples.equal();
     json["non_finite"] = {{"one", metrics.samples.one_non_finite}, {"both", metrics.samples.both_non_finite}};
+    if (!note.empty())
+        json["note"] = note;
     return json;
 }
 
@@ -195,22 +206,23 @@ Result<int> compare(const CompareOptions& options) {
     std::string text;
     std::vector<std::string> beyond;
     for (const Pair& pair : *pairs) {
-        const auto reference = image::read_picture(pair.reference), test = image::read_picture(pair.test);
+        auto reference = image::read_picture(pair.reference), test = image::read_picture(pair.test);
         for (const auto* side : {&reference, &test})
             if (!*side)
                 return fail(side->error());
-        const auto metrics = image::measure(*reference, *test, options.tolerance);
+        const image::SameChannels same = image::same_channels(*std::move(reference), *std::move(test));
+        const auto metrics = image::measure(same.left, same.right, options.tolerance);
         if (!metrics)
             return fail(ErrorCode::check_failed,
                         fmt::format("{}'{}' and '{}': {}", pair.label(), pair.reference.string(),
                                     pair.test.string(), metrics.error().message));
         if (output)
             if (auto written =
-                    write_map(options, output->of_frame(pair.frame.value_or(0)), *reference, *test);
+                    write_map(options, output->of_frame(pair.frame.value_or(0)), same.left, same.right);
                 !written)
                 return fail(written.error());
-        text += text_of(pair, *metrics);
-        json["frames"].push_back(json_of(pair, *metrics));
+        text += text_of(pair, *metrics, same.note);
+        json["frames"].push_back(json_of(pair, *metrics, same.note));
         for (std::string& line : failures(options, pair, *metrics))
             beyond.push_back(std::move(line));
     }

@@ -51,6 +51,8 @@ public:
     /// Forgets what comes after `frame`, which is the next to be filled.
     void go_back(int frame);
     const InputScript& script() const { return script_; }
+    /// As it was filled in last.
+    const render::OrbitCamera& camera() const { return controls_.camera(); }
 
 private:
     InputScript script_;

@@ -188,9 +188,12 @@ Result<int> study(const StudyOptions& options) {
     if (!findings)
         return fail(std::move(findings.error()));
     note_scene_and_driver(findings->set.circumstances, *scene);
-    if (auto written = lab::write_report(folder, *findings); !written)
+    const OutputPath place = report_folder(folder, findings->set.circumstances.complete);
+    if (auto made = make_folder(place); !made)
+        return fail(std::move(made.error()));
+    if (auto written = lab::write_report(place, *findings); !written)
         return fail(std::move(written.error()));
-    say_findings(findings->set, folder.path());
+    say_findings(findings->set, place.path());
     if (options.json)
         if (auto printed = put(lab::to_json(findings->set)); !printed)
             return fail(std::move(printed.error()));

@@ -3,7 +3,9 @@
 #include "base/file.hpp"
 #include "cli/console.hpp"
 #include "cli/version.hpp"
+#include "lab/study/curves.hpp"
 #include "lab/study/verdict.hpp"
+#include "scene/json_text.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -31,12 +33,25 @@ lab::Circumstances circumstances_now() {
 Result<void> prepare_report(const OutputPath& folder) {
     if (auto made = make_folder(folder); !made)
         return made;
-    return write_file(folder / "study.json", "{\"complete\": false}\n");
+    return check_writable(folder / "study.json");
+}
+
+OutputPath report_folder(const OutputPath& folder, bool complete) {
+    const auto there = read_file((folder / "study.json").path(), size_t{1} << 30);
+    const auto old = there ? scene::parse_json(*there, "study.json") : Result<scene::Json>();
+    const bool finished =
+        there && old && old->is_object() && old->contains("complete") && (*old)["complete"] == true;
+    return complete || !finished ? folder : folder.beside("-interrupted");
 }
 
 void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder) {
     for (const std::string& sentence : lab::sentences(set))
         say(sentence);
+    for (const lab::ObservedOrder& order : set.orders)
+        if (order.order)
+            say(lab::to_string(order));
+    if (const std::string held = lab::held_sentence(set); !held.empty())
+        say(held);
     for (const std::string& remark : set.circumstances.remarks)
         say(remark);
     say(fmt::format("wrote {}", (folder / "report.html").string()));

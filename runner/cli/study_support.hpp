@@ -29,8 +29,13 @@ private:
 /// The program, the moment and the machine's cores.
 lab::Circumstances circumstances_now();
 
-/// The folder is made before anything is measured, so that an hour's work has a place to go.
+/// The folder is made before anything is measured, so that an hour's work has a place to go. What is in it
+/// stays until the new report is whole.
 Result<void> prepare_report(const OutputPath& folder);
+
+/// Where the report goes: `folder`, but that an interrupted study does not take the place of a finished one
+/// and goes beside it, into FOLDER-interrupted.
+OutputPath report_folder(const OutputPath& folder, bool complete);
 
 /// Sentences and remarks for people, and where the report is.
 void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder);

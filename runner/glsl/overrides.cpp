@@ -138,7 +138,8 @@ std::vector<NamedText> definitions_of(const scene::Scene& scene) {
             if (preprocessed.activity[definition.token] != Activity::inactive &&
                 names.insert(definition.name).second)
                 found.push_back({std::string(definition.name),
-                                 text.substr(definition.begin, definition.end - definition.begin)});
+                                 text.substr(definition.begin, definition.end - definition.begin),
+                                 mapped->lines().locate(tokens[definition.token].line).file});
     }
     return found;
 }

@@ -16,6 +16,7 @@ std::vector<std::string> definition_names(const scene::Scene& scene);
 struct NamedText {
     std::string name;
     std::string text;
+    std::string file{}; ///< in which it is written
 };
 
 /// What the scene defines names as: the text of each one's first definition that no #if takes out.

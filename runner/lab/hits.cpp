@@ -29,6 +29,8 @@ bool wrong(double reference, double test, double tolerance) {
 }
 
 Cause cause_of(double reference, double test, int flags) {
+    if (std::isnan(reference))
+        return Cause::no_truth;
     if (!wrong(reference, test, k_wrong_distance))
         return Cause::right;
     if (std::isnan(test))
@@ -68,7 +70,6 @@ Hits hits_of(const image::Image& image) {
 HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<double>& footprint) {
     assert(reference.size() == test.size() && footprint.size() == test.size());
     HitErrors errors;
-    errors.pixels = test.size();
     std::vector<double> differences;
     size_t false_miss = 0, false_hit = 0, hundredth = 0, tenth = 0, pixel = 0, exhausted = 0, negative = 0,
            none = 0;
@@ -79,6 +80,11 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
         evaluations += double(test.evaluations[i]);
         exhausted += (test.flags[i] & glsl::k_hit_exhausted) != 0;
         negative += (test.flags[i] & glsl::k_hit_negative) != 0;
+        if (std::isnan(expected)) {
+            ++errors.no_truth;
+            continue;
+        }
+        ++errors.pixels;
         none += std::isnan(found);
         false_miss += met(expected) && found == k_miss;
         false_hit += !met(expected) && met(found);
@@ -111,10 +117,10 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
     errors.wrong_hundredth = percent(hundredth, errors.pixels);
     errors.wrong_tenth = percent(tenth, errors.pixels);
     errors.wrong_footprint = percent(pixel, errors.pixels);
-    errors.exhausted = percent(exhausted, errors.pixels);
-    errors.negative = percent(negative, errors.pixels);
     errors.no_answer = percent(none, errors.pixels);
-    errors.evaluations = errors.pixels == 0 ? 0.0 : evaluations / double(errors.pixels);
+    errors.exhausted = percent(exhausted, test.size());
+    errors.negative = percent(negative, test.size());
+    errors.evaluations = test.size() == 0 ? 0.0 : evaluations / double(test.size());
     return errors;
 }
 
@@ -126,9 +132,10 @@ std::string_view to_string(Cause cause) {
     case Cause::tunnel: return "tunnel";
     case Cause::early: return "stopped early";
     case Cause::false_hit: return "false hit";
-    case Cause::no_answer: break;
+    case Cause::no_answer: return "no answer";
+    case Cause::no_truth: break;
     }
-    return "no answer";
+    return "no truth";
 }
 
 std::array<float, 3> colour_of(Cause cause) {
@@ -139,9 +146,10 @@ std::array<float, 3> colour_of(Cause cause) {
     case Cause::tunnel: return {0.80f, 0.47f, 0.65f};
     case Cause::early: return {0.94f, 0.89f, 0.26f};
     case Cause::false_hit: return {0.84f, 0.37f, 0.00f};
-    case Cause::no_answer: break;
+    case Cause::no_answer: return {1.0f, 1.0f, 1.0f};
+    case Cause::no_truth: break;
     }
-    return {1.0f, 1.0f, 1.0f};
+    return {0.45f, 0.46f, 0.48f};
 }
 
 std::vector<Cause> causes(const Hits& reference, const Hits& test) {

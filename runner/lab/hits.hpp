@@ -28,24 +28,27 @@ Hits hits_of(const image::Image& image);
 /// A first hit that is off by more has met another wave, or stopped on its way to this one.
 inline constexpr double k_wrong_distance = 0.1;
 
+/// Over the pixels that have a truth: a reference that gives no answer says nothing of anybody's error.
 struct HitErrors {
-    size_t pixels = 0;
-    size_t both = 0; ///< pixels where reference and test met something: the next six are over them
+    size_t pixels = 0;   ///< that have a truth
+    size_t no_truth = 0; ///< the others
+    size_t both = 0;     ///< pixels where reference and test met something: the next six are over them
     double rms = 0;
     double rms_right = 0; ///< over those of them that are off by at most k_wrong_distance
     double median = 0;
     double p95 = 0;
     double p99 = 0;
     double largest = 0;
-    // Parts of all pixels, percent
+    // Parts of these pixels, percent
     double false_miss = 0;
     double false_hit = 0;
     double wrong_hundredth = 0; ///< false miss or hit, no answer, or off by more than 0.01
     double wrong_tenth = 0;     ///< by more than 0.1
     double wrong_footprint = 0; ///< by more than the width of a pixel there
+    double no_answer = 0;
+    // Of all pixels
     double exhausted = 0;
     double negative = 0;
-    double no_answer = 0;
     double evaluations = 0; ///< of the field a pixel
 };
 
@@ -61,8 +64,9 @@ enum class Cause : uint8_t {
     early,      ///< in front of the surface: accepted too soon
     false_hit,  ///< met something where there is nothing
     no_answer,  ///< NaN or infinity
+    no_truth,   ///< nobody knows: the reference gives no answer
 };
-inline constexpr size_t k_causes = 7;
+inline constexpr size_t k_causes = 8;
 std::string_view to_string(Cause cause);
 
 std::vector<Cause> causes(const Hits& reference, const Hits& test);

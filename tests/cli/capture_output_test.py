@@ -112,6 +112,31 @@ class Formats(CaptureTest):
         version = self.succeed("--version").stdout.decode().strip()
         self.assertEqual(text["tidemark:Software"], version)
 
+    def test_metadata_says_what_the_picture_was_drawn_with(self):
+        self.write("k.glsl", "#define LEVEL 1\n#iUniform float gain = 0.25 in { 0.0, 1.0 }\n#iUniform vec3 tint = vec3(1.0)\n"
+                             "void mainImage(out vec4 c, in vec2 p) { c = vec4(gain * tint * float(LEVEL), 1.0); }\n")
+        report = json.loads(self.succeed(
+            "capture", "k.glsl", "--size", "20x10", "--mouse", "12,7,3,4", "--camera", "40,-5,7.5", "--set", "gain=0.5",
+            "--set", "tint=0,1,0.5", "--define", "LEVEL=2", "--frame", "3", "--json").stdout)
+        text = self.picture("k.png").text
+        self.assertEqual({name: text["tidemark:" + name] for name in ("iMouse", "Camera", "Knobs", "Defines", "Size", "Pass")},
+                         {"iMouse": "12,7,-3,-4", "Camera": "40,-5,7.5", "Knobs": "gain=0.5; tint=vec3(0, 1, 0.5)",
+                          "Defines": "LEVEL=2", "Size": "20x10", "Pass": "Image"})
+        frame, = report["frames"]
+        self.assertEqual((frame["iMouse"], frame["camera"]), ([12, 7, -3, -4], "40,-5,7.5"))
+        self.assertEqual([(knob["name"], knob["value"]) for knob in report["knobs"]],
+                         [("gain", [0.5]), ("tint", [0, 1, 0.5])])
+        self.assertEqual(report["defines"], ["LEVEL=2"])
+
+    def test_metadata_of_a_recording_are_those_of_each_frame(self):
+        self.write("c.glsl", "uniform mat4 iCamera;\nvoid mainImage(out vec4 c, in vec2 p) { c = iCamera[3]; }\n")
+        self.write("r.txt", "1 press left 10 5\n2 move 15 5\n3 release left\n")
+        self.succeed("capture", "c.glsl", "--size", "20x10", "--input", "r.txt", "--frames", "0-2", "-o", "c%d.png")
+        texts = [self.picture(f"c{n}.png").text for n in range(3)]
+        self.assertEqual([text["tidemark:iMouse"] for text in texts], ["0,0,0,0", "10,5,10,5", "15,5,10,-5"])
+        self.assertEqual(texts[0]["tidemark:Camera"], "30,20,10")
+        self.assertNotEqual(texts[2]["tidemark:Camera"], "30,20,10")
+
     def test_other_formats(self):
         for options, start in [("-o a.exr", b"\x76\x2f\x31\x01"), ("-o b.exr --depth float", b"\x76\x2f\x31\x01"),
                                ("-o c.exr --depth half", b"\x76\x2f\x31\x01"), ("-o d.jpg", b"\xff\xd8\xff"),
@@ -175,7 +200,7 @@ class Json(CaptureTest):
         done = self.capture("--frames", "0-4x2", "--fps", "30", "-o", "f%03d.png", "--json")
         report = json.loads(done.stdout)
         self.assertEqual(list(report), ["tidemark", "scene", "size", "driver", "renderer", "pass", "precision",
-                                        "prepare_milliseconds", "left_out", "frames"])
+                                        "knobs", "defines", "prepare_milliseconds", "left_out", "frames"])
         self.assertEqual(report["scene"], "wave.glsl")
         self.assertEqual(report["size"], [7, 5])
         self.assertEqual(f"tidemark {report['tidemark']}\n".encode(), self.succeed("--version").stdout)
@@ -187,7 +212,8 @@ class Json(CaptureTest):
         self.assertEqual([f["iTime"] for f in report["frames"]], [0, 2 / 30, 4 / 30])
         self.assertEqual([f["file"] for f in report["frames"]], ["f000.png", "f002.png", "f004.png"])
         for frame in report["frames"]:
-            self.assertEqual(list(frame), ["frame", "iTime", "file", "sha256", "not_finite", "passes_drawn", "milliseconds"])
+            self.assertEqual(list(frame), ["frame", "iTime", "iMouse", "camera", "file", "sha256", "not_finite",
+                                           "passes_drawn", "milliseconds"])
             self.assertEqual(frame["sha256"], self.picture(frame["file"]).sha256())
             self.assertGreater(frame["milliseconds"], 0)
 

@@ -92,8 +92,36 @@ class Video(ProgramTest):
             self.assertGreater(max(loud), 14000)
             rising = sum(a < 0 <= b for a, b in zip(loud, loud[1:]))
             self.assertLessEqual(abs(rising - 150), 1)  # 15,000 samples of 441 Hz
-        self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", "0-4x2", "-o", "skips.mp4")
-        self.assertEqual(set(self.facts("skips.mp4")), {"video"})
+
+    def test_frames_evenly_apart_take_the_time_that_they_are_apart(self):
+        self.write("s/image.glsl", SCENE)
+        self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) {"
+                                   "return t < 1.0 ? vec2(0.0) : vec2(0.5 * sin(6.283185307 * 441.0 * t)); }")
+        for name in ("s.mp4", "s.webm"):
+            done = self.succeed("capture", "s", *SIZE, "--fps", "20", "--frames", "0-38x2", "-o", name)
+            self.assertEqual(done.stderr.splitlines()[-1], f"wrote {name}: 20 frames, 10 a second")
+            video = self.facts(name)["video"]
+            self.assertEqual((video["r_frame_rate"], video["nb_read_frames"]), ("10/1", "20"))
+            samples = array.array("h", self.decoded(name, "-ac", "1", "-ar", "44100", "-f", "s16le"))
+            self.assertLess(abs(len(samples) - 2 * 44100), 3000)
+            self.assertLess(max(samples[4410:40000]), 400)
+            self.assertGreater(max(samples[48000:80000]), 14000)
+        self.succeed("capture", "a.glsl", *SIZE, "--fps", "60", "--frames", "0-15x3", "-o", "fast.gif")
+        self.assertEqual(self.facts("fast.gif")["video"]["r_frame_rate"], "20/1")
+
+    def test_frames_that_are_not_say_so_and_are_silent(self):
+        self.write("s/image.glsl", SCENE)
+        self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return vec2(sin(t)); }")
+        for frames, why, rate in (("0-4,10-14", "its frames are not evenly apart and come one after another", 10),
+                                  ("2,2", "its frames are not evenly apart and come one after another", 10),
+                                  ("9-0", "its frames go backwards", 10), ("8-0x2", "its frames go backwards", 5)):
+            done = self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", frames, "-o", "s.mp4")
+            self.assertEqual(done.stderr.splitlines()[0], f"the video does not go by the scene's time: {why}, {rate} a second; "
+                                                          "it is silent")
+            facts = self.facts("s.mp4")
+            self.assertEqual((set(facts), facts["video"]["r_frame_rate"]), ({"video"}, f"{rate}/1"))
+        done = self.succeed("capture", "a.glsl", *SIZE, "--fps", "10", "--frames", "0,3,4", "-o", "a.mp4")
+        self.assertIn("come one after another, 10 a second\n", done.stderr)
 
     def test_sound_ends_where_its_samples_can_no_longer_be_counted(self):
         self.write("s/image.glsl", SCENE)

@@ -71,6 +71,56 @@ class Pictures(Compare):
         frame, = self.compared("nan.exr", "nan.exr", "--max-rmse", "0")["frames"]
         self.assertEqual(frame["non_finite"], {"one": 0, "both": 20})
 
+    def test_no_limit_passes_a_nan_or_an_infinity_against_a_number(self):
+        self.write("good.glsl", "void mainImage(out vec4 c, vec2 p) { c = vec4(.5); }")
+        for name, value in (("nan", "sqrt(-p.x)"), ("inf", "1. / (p.x - .5)"), ("minus", "-1. / (p.x - .5)")):
+            self.write(f"{name}.glsl", f"void mainImage(out vec4 c, vec2 p) {{ c = vec4(p.x < 1. ? {value} : .5); }}")
+        for name in ("good", "nan", "inf", "minus"):
+            self.succeed("capture", f"{name}.glsl", "--size", "20x20", "-o", f"{name}_01.exr", "--depth", "float")
+        limits = [("--max-rmse", "1e9"), ("--max-relative-mse", "1e9"), ("--max-difference", "0"),
+                  ("--max-difference", "1e9"), ("--max-flip", "2"), ("--max-differing", "100"), ("--min-psnr", "-1e9"),
+                  ("--min-ssim", "-2")]
+        for left, right in (("good", "nan"), ("inf", "good"), ("nan", "inf"), ("inf", "minus")):
+            for limit in limits if "good" in (left, right) else limits[2:3]:
+                with self.subTest(left=left, right=right, limit=limit):
+                    self.compared(f"{left}_01.exr", f"{right}_01.exr", *limit, code=1)
+            self.compared(f"{left}_##.exr", f"{right}_##.exr", "--max-difference", "0", code=1)
+        for name in ("nan", "inf"):  # the same of them in both is equal
+            every = [word for limit in limits for word in limit if limit != ("--max-difference", "1e9")]
+            self.compared(f"{name}_01.exr", f"{name}_01.exr", *every)
+            self.compared(f"{name}_01.exr", f"{name}_01.exr", "--max-differing", "0", "--min-ssim", "1", "--max-flip", "0")
+        done = self.run_program("compare", "good_01.exr", "nan_01.exr", "--max-difference", "0")
+        self.assertEqual(done.stderr, "largest difference 0 is not within --max-difference 0: NaN or infinity against a "
+                                      "number, or another of them\n")
+
+    def channels(self, name: str, *pixel: int) -> str:
+        self.write(name, png.encode(16, 12, len(pixel), [bytes(pixel) * 16] * 12))
+        return name
+
+    def test_pictures_of_other_channels(self):
+        rgb, grey = self.channels("rgb.png", 40, 40, 40), self.channels("grey.png", 40)
+        opaque, clear = self.channels("opaque.png", 40, 40, 40, 255), self.channels("clear.png", 40, 40, 40, 204)
+        coloured = self.channels("coloured.png", 40, 91, 40)
+        for a, b, largest, note in (
+                (rgb, opaque, 0, "only B has an alpha, 1 throughout: it is not compared"),
+                (opaque, rgb, 0, "only A has an alpha, 1 throughout: it is not compared"),
+                (rgb, clear, 0.2, "A has no alpha: it counts as 1"),
+                (clear, rgb, 0.2, "B has no alpha: it counts as 1"),
+                (opaque, clear, 0.2, None),
+                (grey, rgb, 0, "A is grey, which stands for its red, green and blue"),
+                (coloured, grey, 0.2, "B is grey, which stands for its red, green and blue"),
+                (grey, opaque, 0, "A is grey, which stands for its red, green and blue; only B has an alpha, 1 "
+                                  "throughout: it is not compared"),
+                (clear, grey, 0.2, "B is grey, which stands for its red, green and blue; B has no alpha: it counts "
+                                   "as 1")):
+            with self.subTest(a=a, b=b):
+                frame, = self.compared(a, b)["frames"]
+                self.assertAlmostEqual(frame["largest"], largest)
+                self.assertEqual(frame.get("note"), note)
+                self.assertEqual(frame["equal"], largest == 0)
+                if note:
+                    self.assertIn("; " + note, self.succeed("compare", a, b, "-o", "d.png").stdout.decode())
+
     def test_difference_picture(self):
         self.picture("a.png", 100), self.picture("b.png", 110)
         self.succeed("compare", "a.png", "b.png", "-o", "d.png")

@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import time
+import xml.dom.minidom
 
 from support import png
 from support.program import PROGRAM, ROOT, ProgramTest, environment, main
@@ -81,7 +82,8 @@ class Pictures(Study):
         study = self.study("sum.glsl", "--vary", "STEPS=4,8")
         reference = study["references"]["picture"]
         self.assertRegex(reference["method"], r"STEPS = (32|64|128|256|512)\b")
-        self.assertRegex(reference["self_check"], r"the change from STEPS = \d+")
+        self.assertRegex(reference["self_check"], r"STEPS = 8 to STEPS = \d+: the last change \S+, 0\.25 of the one before, "
+                                                  r"goes on to \S+")
         strict = self.points(study)["STEPS = 8"]["all"]["picture"]["rmse"]
         self.assertLess(reference["uncertainty"], 0.11 * strict)
         self.assertFalse(self.points(study)["STEPS = 4"]["hollow"])
@@ -264,17 +266,6 @@ class Report(Study):
         self.assertEqual(clip, "inset(0px 0px 0px 25%)")
 
 
-class CertifiedHits(Study):
-    def test_octaves_that_are_no_plain_number_are_named_and_never_guessed(self):
-        shaders = ROOT / "shaders"
-        shutil.copytree(shaders / "lib", self.folder / "lib")
-        text = (shaders / "water_surface.glsl").read_text()
-        self.write("water_surface.glsl", re.sub(r"#define OCTAVES \d+", "#define OCTAVES (4 + 3)", text))
-        done = self.run_program("study", "water_surface.glsl", "--vary", "MAX_STEPS=8,16", *QUICK)
-        self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertIn("the reference reads OCTAVES as a plain number, not as '(4 + 3)'", done.stderr)
-
-
 class Baseline(Study):
     def test_itself_is_not_worse_and_a_coarser_scene_is(self):
         self.write("sum.glsl", SUM)
@@ -316,13 +307,132 @@ class Interrupted(Study):
         self.write("slow.glsl", SUM.replace("STEPS 4", "STEPS 20000"))
         program = subprocess.Popen([PROGRAM, "study", "slow.glsl", "--vary", "STEPS=4,8,20000", "--size", "640x360",
                                     "-o", "report"], cwd=self.folder, stderr=subprocess.PIPE, text=True, env=environment())
-        while program.poll() is None and not (self.folder / "report/study.json").exists():
+        while program.poll() is None and not (self.folder / "report").exists():
             time.sleep(0.01)
         program.send_signal(signal.SIGINT)
         words = program.stderr.read()
         program.stderr.close()
         self.assertEqual(program.wait(60), 130, words)
         self.assertIn("interrupted before there was a reference", words)
+
+
+class Kept(Study):
+    """What a finished study has written stays until another is whole."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("sum.glsl", SUM)
+        self.study("sum.glsl", "--vary", "STEPS=4,8")
+        self.before = self.contents()
+
+    def contents(self) -> dict[str, bytes]:
+        return {name: (self.folder / name).read_bytes() for name in self.files() if name.startswith("report/")}
+
+    def test_a_study_that_fails_replaces_nothing(self):
+        self.write("broken.glsl", "#define STEPS 1\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(nothing); }\n")
+        for arguments, code in (("sum.glsl --vary STOPS=4,8", 2), ("sum.glsl --vary STEPS=4,8 --reference STOPS=1", 2),
+                                ("broken.glsl --vary STEPS=4,8", 3), ("none.glsl --vary STEPS=4,8", 3),
+                                ("sum.glsl --vary STEPS=4,8 --device none", 2), ("sum.glsl --vary STEPS=4,8 --set x=1", 2),
+                                ("sum.glsl --vary STEPS=4,8 --baseline none.json", 3),
+                                ("sum.glsl --vary STEPS=4,8 --budget 0", 2)):
+            with self.subTest(arguments=arguments):
+                done = self.run_program("study", *arguments.split(), "-o", "report")
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertEqual(self.contents(), self.before)
+
+    def test_a_full_disk_replaces_nothing(self):
+        # A disk of our own that has room for one report and not for two, gone with the shell.
+        shell = ("unshare", "--user", "--map-root-user", "--mount", "sh", "-c")
+        size = sum((len(data) + 4095) // 4096 for data in self.before.values()) * 4 + 40
+        disk = f"mount -t tmpfs -o size={size}k none disk"
+        (self.folder / "disk").mkdir()
+        if subprocess.run([*shell, disk], cwd=self.folder, stderr=subprocess.DEVNULL).returncode:
+            self.skipTest("this system lets nobody mount a disk of their own")
+        line = (f'{disk} && cp -r report disk && (cd disk/report && sha256sum study.json points.csv) && '
+                '"$0" study sum.glsl --vary STEPS=4,8,16 --size 16x9 --budget 1 -o disk/report; echo $?; '
+                '(cd disk/report && sha256sum study.json points.csv)')
+        done = subprocess.run([*shell, line, PROGRAM], cwd=self.folder, env=environment(), text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        lines = done.stdout.splitlines()
+        self.assertEqual(lines[2], "4", done.stderr)
+        self.assertEqual(lines[:2], lines[3:])
+
+    def test_an_interrupted_one_goes_beside_it(self):
+        self.write("slow.glsl", SUM.replace("STEPS 4", "STEPS 20000"))
+        for _ in range(2):
+            program = subprocess.Popen([PROGRAM, "study", "slow.glsl", "--vary", "STEPS=4,8,20000", "--reference", "STEPS=8",
+                                        "--size", "64x36", "--budget", "1000", "-o", "report/"], cwd=self.folder,
+                                       stderr=subprocess.PIPE, text=True, env=environment())
+            for line in program.stderr:
+                if "rounds timed" in line:
+                    break
+            time.sleep(0.2)
+            program.send_signal(signal.SIGINT)
+            words = program.stderr.read()
+            program.stderr.close()
+            self.assertEqual(program.wait(60), 130)
+            self.assertEqual(self.contents(), self.before)
+            self.assertIn("wrote report-interrupted/report.html\n", words)
+            study = json.loads((self.folder / "report-interrupted/study.json").read_text())
+            self.assertFalse(study["complete"])
+
+    def test_a_baseline_that_is_no_study_is_told_so(self):
+        for text in ('{"schema": 5, "points": []}', '{"schema": "tidemark study 1"}', "[1]",
+                     '{"schema": "tidemark study 1", "points": [{"all": 1, "label": 7}], "views": 3}'):
+            self.write("old.json", text)
+            done = self.run_program("study", "sum.glsl", "--vary", "STEPS=4,8", "--baseline", "old.json", *QUICK, "-o", "r")
+            self.assertEqual(done.returncode, 3, (text, done.stderr))
+            self.assertIn("--baseline 'old.json': ", done.stderr)
+
+
+class Names(Study):
+    """What a study file calls things ends in files that other programs read."""
+
+    HOSTILE = ["$(touch RAN)", "`touch RAN`", "'; system('touch RAN'); '", '"; system("touch RAN"); "', "@touch",
+               "=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(1)", "</script><script>alert(1)</script>", "a,b", "<b>&amp;",
+               "x\nEOD\nsystem('touch RAN')\n!touch RAN\n", "x\ty\x1b]0;z\x07", "{/Symbol a}^2_3", "%s %d \\"]
+
+    def test_are_text_wherever_they_end(self):
+        self.write("sum.glsl", SUM)
+        self.write("sum.study.json", json.dumps({
+            "about": "</p><script>alert(2)</script>\n`touch RAN`",
+            "views": [{"name": name, "time": i} for i, name in enumerate(self.HOSTILE[:4])],
+            "series": [{"name": name, "trust": "heuristic",
+                        "vary": {"STEPS": [2 ** (i % 4 + 1), f"({i} + 2) /* `touch RAN` \" $(touch RAN) */"]}}
+                       for i, name in enumerate(self.HOSTILE)],
+            "reference": {"STEPS": 4096}, "omissions": self.HOSTILE}))
+        study = self.study("sum.glsl")
+        report = self.folder / "report"
+        self.assertEqual({point["series"] for point in study["points"]} - set(self.HOSTILE), {"defaults"})
+
+        if shutil.which("gnuplot"):
+            subprocess.run(["gnuplot", "error-vs-time.gp"], cwd=report, check=True, env=environment(HOME=str(self.folder)))
+            svg = (report / "error-vs-time.svg").read_text()
+            self.assertNotIn("<script", svg)
+            self.assertIn("touch RAN", svg)
+            xml.dom.minidom.parseString(svg)
+        self.assertFalse([name for name in self.files() if "RAN" in name])
+
+        with open(report / "points.csv", newline="") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
+        self.assertEqual(len(rows), 1 + 5 * len(study["points"]))
+        for cell in (cell for row in rows[1:] for cell in row):
+            self.assertFalse([c for c in cell if ord(c) < 32], cell)
+            if cell[:1] in ("=", "+", "-", "@"):
+                float(cell)
+
+        page = (report / "report.html").read_text()
+        self.assertEqual(page.count("<script"), 1)
+        self.assertNotIn("alert(1)</script>", page)
+        self.assertFalse([c for c in page if ord(c) < 32 and c != "\n"])
+
+    def test_knobs_that_are_called_like_a_column(self):
+        self.write("a.glsl", SUM.replace("STEPS", "label"))
+        self.study("a.glsl", "--vary", "label=4,8")
+        rows = list(csv.DictReader((self.folder / "report/points.csv").read_text().splitlines()))
+        self.assertEqual({row["set label"] for row in rows}, {"4", "8"})
+        self.assertEqual({row["label"] for row in rows}, {"defaults", "label = 4", "label = 8"})
 
 
 class BadInput(Study):

@@ -5,7 +5,9 @@
 #include "base/file.hpp"
 #include "gl_test.hpp"
 #include "glsl/overrides.hpp"
-#include "lab/fields/reference.hpp"
+#include "lab/fields/gerstner_waves_field.hpp"
+#include "lab/fields/procedural_ocean_field.hpp"
+#include "lab/fields/water_surface_field.hpp"
 
 #include <algorithm>
 #include <string>
@@ -18,10 +20,12 @@ struct Water {
     const char* scene;
     int octaves;
     double wrong; ///< share of pixels that may be wrong by more than a pixel and 0.1
+    lab::MakeReference reference;
 };
 
-inline constexpr Water k_waters[] = {
-    {"water_surface", 7, 0.004}, {"gerstner_waves", 0, 0.006}, {"procedural_ocean", 3, 0.01}};
+inline constexpr Water k_waters[] = {{"water_surface", 7, 0.004, lab::water_surface_reference},
+                                     {"gerstner_waves", 0, 0.006, lab::gerstner_waves_reference},
+                                     {"procedural_ocean", 3, 0.01, lab::procedural_ocean_reference}};
 
 inline constexpr Extent k_small{64, 36};
 
@@ -51,12 +55,12 @@ protected:
     }
     static lab::Reference reference(const scene::Scene& scene, const Water& water, const FrameInputs& inputs,
                                     Extent extent, lab::Lattice3 lattice = lab::IntegerLattice{}) {
-        const auto made = lab::find_reference(water.scene)({.knobs = scene.knobs,
-                                                            .time = inputs.time,
-                                                            .resolution = {extent.width, extent.height},
-                                                            .mouse = {inputs.mouse.x, inputs.mouse.y},
-                                                            .octaves = water.octaves,
-                                                            .lattice = std::move(lattice)});
+        const auto made = water.reference({.knobs = scene.knobs,
+                                           .time = inputs.time,
+                                           .resolution = {extent.width, extent.height},
+                                           .mouse = {inputs.mouse.x, inputs.mouse.y},
+                                           .octaves = water.octaves,
+                                           .lattice = std::move(lattice)});
         EXPECT_TRUE(made) << to_string(made.error());
         return *made;
     }

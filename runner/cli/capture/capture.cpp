@@ -1,6 +1,7 @@
 #include "base/file.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
+#include "cli/capture/video_pace.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
@@ -89,8 +90,8 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     const auto depth = parse_depth(options.depth, *output, options.frames.pass);
     if (!depth)
         return fail(depth.error());
-    if (output->video() && output->pattern().extension() == ".gif" &&
-        options.frames.fps > image::k_fastest_gif)
+    const double video_fps = pace_of(frames->frames, frames->fps).fps;
+    if (output->video() && output->pattern().extension() == ".gif" && video_fps > image::k_fastest_gif)
         return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
                                                   options.frames.fps, image::k_fastest_gif));
     if (!output->standard_output() && !output->video()) {
@@ -103,7 +104,8 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
         return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
-    return CapturePlan{*std::move(frames), *std::move(output), *depth, options.timeout, options.json};
+    return CapturePlan{*std::move(frames), *std::move(output),    *depth,   options.timeout,
+                       options.json,       options.scene.defines, video_fps};
 }
 
 /// What is read must not be written, even by a frame late in a sequence: it is refused before the first.
@@ -198,9 +200,11 @@ Result<render::Renderer> compile(const scene::Scene& scene, const CaptureOptions
     return renderer;
 }
 
-void say_what_was_written(const std::vector<FrameRecord>& records, bool video) {
-    if (video)
-        say(fmt::format("wrote {}: {} frames", records.front().file, records.size()));
+void say_what_was_written(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
+    if (plan.output.video())
+        say(fmt::format(
+            "wrote {}: {} frames{}", records.front().file, records.size(),
+            plan.video_fps == plan.frames.fps ? "" : fmt::format(", {:.4g} a second", plan.video_fps)));
     else if (records.size() == 1)
         say(fmt::format("wrote {}", records.front().file));
     else if (!records.empty())
@@ -228,18 +232,23 @@ bool wants_sound(const CaptureOptions& options) {
 }
 
 /// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong
-/// is said, and nothing else. Frames that leave some out have no sound.
+/// is said, and nothing else.
 std::optional<StagedFile> draw_sound_of_video(const scene::Scene& scene, glsl::Precision precision,
                                               const CapturePlan& plan, const Interrupt& interrupt) {
+    if (!plan.output.video())
+        return std::nullopt;
     const std::vector<int>& frames = plan.frames.frames;
-    const bool skips = std::adjacent_find(frames.begin(), frames.end(),
-                                          [](int a, int b) { return b != a + 1; }) != frames.end();
-    if (!plan.output.video() || plan.output.pattern().extension() == ".gif" || skips ||
-        !scene.find(scene::PassKind::sound))
+    const VideoPace pace = pace_of(frames, plan.frames.fps);
+    const bool heard =
+        plan.output.pattern().extension() != ".gif" && scene.find(scene::PassKind::sound) != nullptr;
+    if (!pace.not_in_time.empty())
+        say(fmt::format("the video does not go by the scene's time: {}, {:.4g} a second{}", pace.not_in_time,
+                        pace.fps, heard ? "; it is silent" : ""));
+    if (!heard || !pace.not_in_time.empty())
         return std::nullopt;
     const auto first = inputs_of(plan.frames, frames.front()).time;
-    auto samples = draw_sound(scene, precision, std::max(0.0, first), double(frames.size()) / plan.frames.fps,
-                              interrupt);
+    auto samples =
+        draw_sound(scene, precision, std::max(0.0, first), double(frames.size()) / pace.fps, interrupt);
     auto file = StagedFile::create(plan.output.of_frame(0), ".wav");
     Result<void> written = !file      ? fail(std::move(file.error()))
                            : !samples ? fail(std::move(samples.error()))
@@ -285,7 +294,7 @@ Result<int> capture(const CaptureOptions& options) {
     say_what_is_not_finite(options, run.records());
     const bool written = *complete || !plan->output.video(); // of a video nothing is kept but the whole
     if (written && !options.json && !plan->output.standard_output())
-        say_what_was_written(run.records(), plan->output.video());
+        say_what_was_written(run.records(), *plan);
     if (!*complete)
         say(fmt::format("interrupted after {} of {} frames{}", run.records().size(),
                         plan->frames.frames.size(), written ? "" : ": no video was written"));

@@ -5,11 +5,13 @@
 #include "cli/omissions.hpp"
 #include "cli/precision_report.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
 #include "image/files/cubemap_file.hpp"
 #include "render/bands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <malloc.h>
 #include <nlohmann/json.hpp>
 
@@ -40,6 +42,7 @@ render::FrameInputs Capture::inputs_at(int frame) {
     render::FrameInputs inputs = inputs_of(plan_.frames, frame);
     if (replay_)
         replay_->fill(inputs, renderer_.extent().height);
+    seen_ = {frame, inputs.time, inputs.mouse, replay_ ? replay_->camera() : plan_.frames.camera};
     return inputs;
 }
 
@@ -78,7 +81,7 @@ Result<void> Capture::open_output() {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
         auto video = image::VideoWriter::create(
             plan_.output.of_frame(0),
-            {cube ? image::k_panorama : renderer_.extent(), plan_.frames.fps, sound_});
+            {cube ? image::k_panorama : renderer_.extent(), plan_.video_fps, sound_});
         if (!video)
             return fail(std::move(video.error()));
         video_.emplace(*std::move(video));
@@ -107,8 +110,6 @@ void Capture::prepare(Interrupt& interrupt) {
 /// Leaves `work` watched. False: interrupted.
 bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
-    record.frame = frame;
-    record.time = inputs_of(plan_.frames, frame).time;
     record.file = plan_.output.of_frame(frame).string();
     const size_t drawn_before = renderer_.passes_drawn();
     const auto begun = Clock::now(); // the limit is on the frame and on all that lead to it
@@ -124,6 +125,7 @@ bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record
         return true;
     });
     record.passes_drawn = renderer_.passes_drawn() - drawn_before;
+    static_cast<FrameFacts&>(record) = seen_;
     return drawn;
 }
 
@@ -228,13 +230,16 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
 }
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
-    return {plan_.depth,
-            {{"Scene", renderer_.scene().file.string()},
-             {"Frame", fmt::format("{}", record.frame)},
-             {"iTime", fmt::format("{}", record.time)},
-             {"Precision", name_of(renderer_.precision())},
-             {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)},
-             {"Software", fmt::format("tidemark {}", k_version)}}};
+    image::PictureFormat format{plan_.depth, metadata_of(renderer_.scene(), record)};
+    const Extent extent = renderer_.extent();
+    format.metadata.insert(format.metadata.end(),
+                           {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
+                            {"Pass", renderer_.shown_pass().name},
+                            {"Precision", name_of(renderer_.precision())},
+                            {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)}});
+    if (!plan_.defines.empty())
+        format.metadata.emplace_back("Defines", fmt::format("{}", fmt::join(plan_.defines, "; ")));
+    return format;
 }
 
 nlohmann::ordered_json Capture::report() const {
@@ -250,17 +255,22 @@ nlohmann::ordered_json Capture::report() const {
     report["renderer"] = driver_.renderer;
     report["pass"] = renderer_.shown_pass().name;
     add_precision(report, renderer_);
+    report["knobs"] = knobs_of(renderer_.scene());
+    report["defines"] = plan_.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records_)
-        report["frames"].push_back({{"frame", record.frame},
-                                    {"iTime", record.time},
-                                    {"file", record.file},
-                                    {"sha256", record.sha256},
-                                    {"not_finite", record.not_finite},
-                                    {"passes_drawn", record.passes_drawn},
-                                    {"milliseconds", record.milliseconds}});
+        report["frames"].push_back(
+            {{"frame", record.frame},
+             {"iTime", record.time},
+             {"iMouse", {record.mouse.x, record.mouse.y, record.mouse.z, record.mouse.w}},
+             {"camera", to_string(record.camera)},
+             {"file", record.file},
+             {"sha256", record.sha256},
+             {"not_finite", record.not_finite},
+             {"passes_drawn", record.passes_drawn},
+             {"milliseconds", record.milliseconds}});
     return report;
 }
 

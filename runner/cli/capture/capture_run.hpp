@@ -7,6 +7,7 @@
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_name.hpp"
+#include "cli/picture_facts.hpp"
 #include "cli/requests.hpp"
 #include "gl/capabilities.hpp"
 #include "image/files/video_writer.hpp"
@@ -28,14 +29,14 @@ struct CapturePlan {
     FrameRequest frames;
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
-    std::optional<double> timeout; ///< seconds for a frame
-    bool hashes = false;           ///< SHA-256 of every frame's pixels
+    std::optional<double> timeout;    ///< seconds for a frame
+    bool hashes = false;              ///< SHA-256 of every frame's pixels
+    std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
+    double video_fps = 60;
 };
 
 /// One frame as `--json` reports it.
-struct FrameRecord {
-    int frame = 0;
-    double time = 0; ///< iTime
+struct FrameRecord : FrameFacts {
     std::string file;
     std::string sha256;
     double milliseconds = 0;
@@ -81,6 +82,7 @@ private:
     render::Renderer& renderer_;
     gl::Capabilities driver_;
     std::optional<Replay> replay_;
+    FrameFacts seen_; ///< of the inputs that were made last
     Stepper stepper_;
     double prepare_milliseconds_ = 0;
     std::filesystem::path sound_;

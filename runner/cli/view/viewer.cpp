@@ -6,7 +6,7 @@
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
-#include "cli/version.hpp"
+#include "cli/picture_facts.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
@@ -387,11 +387,9 @@ void Viewer::save_picture() {
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
     const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", shown_.frame));
-    const image::PictureFormat format{image::SampleDepth::u8,
-                                      {{"Scene", settings_.scene.path.string()},
-                                       {"Frame", fmt::format("{}", shown_.frame)},
-                                       {"iTime", fmt::format("{}", shown_.time)},
-                                       {"Software", fmt::format("tidemark {}", k_version)}}};
+    const FrameFacts facts{shown_.frame, shown_.time, shown_.mouse,
+                           replay_ ? replay_->camera() : controls_.camera()};
+    const image::PictureFormat format{image::SampleDepth::u8, metadata_of(stage_->renderer().scene(), facts)};
     image::Image picture = stage_->renderer().read_back();
     count_not_finite(stage_->renderer(), picture); // its marks are no alpha
     if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),

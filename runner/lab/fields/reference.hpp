@@ -1,17 +1,18 @@
 // The reference of a scene: its field and the rays of its pixels in double, written anew from the scene's
-// mathematics. What the scene's own GLSL makes of them is judged against it.
+// mathematics. What the scene's own GLSL makes of them is judged against it. It belongs to a text, not to a
+// name: after any edit of the field there is none.
 #pragma once
 
 #include "base/result.hpp"
 #include "lab/fields/field.hpp"
 #include "lab/fields/lattice.hpp"
-#include "scene/knob.hpp"
+#include "scene/scene.hpp"
 
 #include <glm/vec2.hpp>
 
 #include <functional>
 #include <span>
-#include <string_view>
+#include <string>
 
 namespace tidemark::lab {
 
@@ -22,6 +23,7 @@ struct ReferenceInputs {
     glm::dvec2 resolution{640, 360};
     glm::dvec2 mouse{0};                 ///< iMouse.xy
     bool turning_poles = false;          ///< beyond straight up and down the view turns round (TURNING_POLES)
+    bool drift_wraps = false;            ///< after 62.83 s, whatever the knob says (DOCUMENT)
     int octaves = 7;                     ///< of scenes that compile OCTAVES in
     Lattice3 lattice = IntegerLattice{}; ///< of scenes that compile HASH in
 };
@@ -35,7 +37,18 @@ struct Reference {
 
 using MakeReference = Result<Reference> (*)(const ReferenceInputs&);
 
-/// How to make the reference of the scene of that name (Scene::name()); null: it has none.
-MakeReference find_reference(std::string_view scene_name);
+/// A reference that was written for a text, and how that text has it.
+struct FoundReference {
+    MakeReference make = nullptr;
+    std::string field_hash{}; ///< of the text, with the definitions that may vary at fixed values
+    bool sine_lattice = false;
+    bool turning_poles = false;
+    bool drift_wraps = false;
+    int octaves = 7;
+};
+
+/// By the text of its field (lab/fields/field_text.hpp), whatever the scene is called. Fails
+/// (ErrorCode::load) with the reason why no reference applies.
+Result<FoundReference> find_reference(const scene::Scene& scene);
 
 } // namespace tidemark::lab

@@ -47,7 +47,8 @@ Sea sea_of(KnobReader& knobs, const ReferenceInputs& inputs) {
     // The scene lets a sea of sines start again even where its knob says never.
     const double period = knobs.number("drift_period");
     const bool sines = std::holds_alternative<SineLattice>(inputs.lattice);
-    const double seconds = drift_seconds(inputs.time, sines && period <= 0 ? 62.83F : period);
+    const bool wraps = inputs.drift_wraps || (sines && period <= 0);
+    const double seconds = drift_seconds(inputs.time, wraps ? 62.83F : period);
     double height = double(3.14F) * knobs.not_negative("wave_height");
     double frequency = knobs.not_negative("wave_scale");
     // Cells a second are binary32 by definition: over a long time a last bit is whole cells.

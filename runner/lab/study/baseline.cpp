@@ -77,7 +77,7 @@ Result<Comparison> compare_with(std::string_view old_study, const std::string& f
     const auto refuse = [&](std::string_view why) {
         return fail(ErrorCode::load, fmt::format("--baseline '{}': {}", file, why));
     };
-    if (!old->is_object() || old->value("schema", std::string()) != k_study_schema ||
+    if (!old->is_object() || !old->contains("schema") || (*old)["schema"] != k_study_schema ||
         !(*old)["points"].is_array())
         return refuse(
             fmt::format("no study of schema \"{}\"; give the study.json of a report", k_study_schema));
@@ -92,8 +92,8 @@ Result<Comparison> compare_with(std::string_view old_study, const std::string& f
     for (const WorkPrecision& point : set.points) {
         const Json& points = (*old)["points"];
         const auto before = std::ranges::find_if(points, [&](const Json& json) {
-            return json.is_object() && json.contains("all") &&
-                   json.value("label", std::string()) == point.point.label;
+            return json.is_object() && json.contains("all") && json.contains("label") &&
+                   json["label"] == point.point.label;
         });
         if (before == points.end())
             continue;
@@ -102,10 +102,13 @@ Result<Comparison> compare_with(std::string_view old_study, const std::string& f
             continue;
         }
         ++found.compared;
-        compare_errors(set, *before, point, found);
+        if (standard_of(set).none.empty())
+            compare_errors(set, *before, point, found);
         if (same_machine)
             compare_times(*before, point, found);
     }
+    if (const std::string& none = standard_of(set).none; !none.empty())
+        found.notes.push_back("errors are not compared: there is no truth now: " + none);
     if (found.compared == 0)
         found.notes.emplace_back("the two studies have no setting in common");
     return found;

@@ -1,6 +1,6 @@
 #include "base/hash.hpp"
-#include "glsl/overrides.hpp"
 #include "lab/fields/certified_march.hpp"
+#include "lab/study/stricter.hpp"
 #include "lab/study/truth.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cmath>
 #include <thread>
 
@@ -49,8 +48,8 @@ struct NamedLattice {
     std::string name;
 };
 
-Result<NamedLattice> lattice_of(const scene::Scene& scene) {
-    if (glsl::definition_of(scene, "INTEGER_HASH") != "0")
+Result<NamedLattice> lattice_of(const FoundReference& found) {
+    if (!found.sine_lattice)
         return NamedLattice{IntegerLattice{}, "integer lattice, the same on every device"};
     auto lattice = read_sine_lattice();
     if (!lattice)
@@ -86,7 +85,7 @@ bool march(const Reference& reference, Extent extent, const CertifiedOptions& op
                     continue;
                 const CertifiedHit hit = certified_march(reference.field, reference.ray(centre(i, extent)),
                                                          reference.range, options);
-                hits.distance[i] = hit.distance;
+                hits.distance[i] = std::isfinite(hit.distance) ? hit.distance : std::nan("");
                 hits.evaluations[i] = float(hit.samples);
             }
         }
@@ -112,39 +111,19 @@ std::vector<double> footprints(const Reference& reference, Extent extent) {
     return widths;
 }
 
-/// Of the shape, where the scene compiles them in; the error names a definition that is no plain number.
-Result<int> octaves_of(const scene::Scene& scene) {
-    for (const char* name : {"MARCH_OCTAVES", "OCTAVES"}) // a shape may have fewer than its light
-        if (const auto text = glsl::definition_of(scene, name)) {
-            int octaves = 0;
-            const char* end = text->data() + text->size();
-            if (const auto read = std::from_chars(text->data(), end, octaves);
-                read.ec != std::errc{} || read.ptr != end)
-                return fail(
-                    ErrorCode::load,
-                    fmt::format("the reference reads {} as a plain number, not as '{}': give one with "
-                                "--define {}=N, or write it so",
-                                name, *text, name));
-            return octaves;
-        }
-    return ReferenceInputs{}.octaves;
-}
-
-Result<Reference> reference_of(MakeReference make, const scene::Scene& scene, const View& view, Extent extent,
-                               const Lattice3& lattice) {
+Result<Reference> reference_of(const FoundReference& found, const scene::Scene& scene, const View& view,
+                               Extent extent, const Lattice3& lattice) {
     const render::FrameInputs inputs = inputs_of(view, extent);
     ReferenceInputs wanted;
     wanted.knobs = scene.knobs;
     wanted.time = inputs.time;
     wanted.resolution = {extent.width, extent.height};
     wanted.mouse = {inputs.mouse.x, inputs.mouse.y};
-    const auto octaves = octaves_of(scene);
-    if (!octaves)
-        return fail(octaves.error());
-    wanted.octaves = *octaves;
-    wanted.turning_poles = glsl::definition_of(scene, "TURNING_POLES").value_or("0") == "1";
+    wanted.octaves = found.octaves;
+    wanted.turning_poles = found.turning_poles;
+    wanted.drift_wraps = found.drift_wraps;
     wanted.lattice = lattice;
-    return make(wanted);
+    return found.make(wanted);
 }
 
 constexpr CertifiedOptions k_usual{};
@@ -152,8 +131,8 @@ constexpr CertifiedOptions k_usual{};
 constexpr CertifiedOptions k_stricter{k_usual.shortest_step / 10};
 constexpr size_t k_checked = 37;
 
-/// RMS of the change from the usual march to the stricter one, where both ran; a hit that came or went
-/// counts with the range.
+/// RMS of the change from the usual march to the stricter one, where both ran and answered; a hit that came
+/// or went counts with the range.
 struct SelfCheck {
     double squares = 0;
     double largest = 0;
@@ -161,8 +140,11 @@ struct SelfCheck {
     size_t came_or_went = 0;
 
     void add(const Hits& usual, const Hits& stricter) {
-        for (size_t i = 0; i < usual.size(); i += k_checked, ++rays) {
+        for (size_t i = 0; i < usual.size(); i += k_checked) {
             const double change = std::abs(usual.distance[i] - stricter.distance[i]);
+            if (std::isnan(change))
+                continue;
+            ++rays;
             came_or_went += (usual.distance[i] < 0) != (stricter.distance[i] < 0);
             squares += change * change;
             largest = std::max(largest, change);
@@ -170,44 +152,64 @@ struct SelfCheck {
     }
 };
 
+Standard standard_of(const FoundReference& found, const std::vector<Setting>& settings, double lipschitz,
+                     const std::string& lattice, const SelfCheck& check) {
+    Standard standard;
+    standard.method = fmt::format("certified march in double, written for the text of this field (SHA-256 "
+                                  "{}...){}: steps proved by a slope bound of {:.4g} from the knobs, at "
+                                  "least {:g}; {}",
+                                  found.field_hash.substr(0, 12),
+                                  settings.empty() ? "" : fmt::format(" with {}", to_string(settings)),
+                                  lipschitz, k_usual.shortest_step, lattice);
+    standard.field_hash = found.field_hash;
+    standard.uncertainty = std::sqrt(check.squares / double(std::max<size_t>(1, check.rays)));
+    standard.check =
+        fmt::format("a second march with a tenth of the shortest step on {} rays: RMS {:.2g}, largest "
+                    "{:.2g}, {} hits came or went",
+                    check.rays, *standard.uncertainty, check.largest, check.came_or_went);
+    return standard;
+}
+
 } // namespace
 
-Result<std::optional<HitTruth>> certified_hits(const scene::Scene& scene, const Study& study,
-                                               const KeepGoing& keep_going) {
-    const MakeReference make = find_reference(scene.name());
-    if (!make)
-        return std::optional<HitTruth>{};
-    const auto set = with(scene, study.reference);
+Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& study,
+                                     const KeepGoing& keep_going) {
+    const std::vector<Setting> settings = strictest(study, 0);
+    const auto set = with(scene, settings);
     if (!set)
         return fail(set.error());
-    const auto lattice = lattice_of(*set);
+    const auto found = find_reference(*set);
+    if (!found)
+        return CertifiedHits{{}, found.error().message};
+    const auto lattice = lattice_of(*found);
     if (!lattice)
         return fail(lattice.error());
     HitTruth truth;
     SelfCheck check;
     for (const View& view : study.views) {
-        auto reference = reference_of(make, *set, view, study.extent, lattice->lattice);
+        auto reference = reference_of(*found, *set, view, study.extent, lattice->lattice);
         if (!reference)
-            return fail(std::move(reference.error()));
+            return CertifiedHits{{}, reference.error().message};
         Hits hits, stricter;
         if (!march(*reference, study.extent, k_usual, 1, keep_going, hits) ||
             !march(*reference, study.extent, k_stricter, k_checked, keep_going, stricter))
-            return std::optional<HitTruth>{};
+            return CertifiedHits{{}, "interrupted"};
         check.add(hits, stricter);
         truth.views.push_back(std::move(hits));
         truth.footprints.push_back(footprints(*reference, study.extent));
         truth.references.push_back(*std::move(reference));
     }
+    size_t rays = 0, blind = 0;
+    for (const Hits& hits : truth.views) {
+        rays += hits.size();
+        blind += size_t(std::ranges::count_if(hits.distance, [](double t) { return std::isnan(t); }));
+    }
+    if (double(blind) > k_most_blind * double(rays))
+        return CertifiedHits{{}, fmt::format("its field is NaN on {} of {} rays", blind, rays)};
     const double lipschitz = truth.references.empty() ? 0 : truth.references.front().field.lipschitz;
-    truth.standard.method = fmt::format("certified march in double: steps proved by a slope bound of {:.4g} "
-                                        "from the knobs, at least {:g}; {}",
-                                        lipschitz, k_usual.shortest_step, lattice->name);
-    truth.standard.uncertainty = std::sqrt(check.squares / double(std::max<size_t>(1, check.rays)));
-    truth.standard.check =
-        fmt::format("a second march with a tenth of the shortest step on {} rays: RMS {:.2g}, largest "
-                    "{:.2g}, {} hits came or went",
-                    check.rays, *truth.standard.uncertainty, check.largest, check.came_or_went);
-    return std::optional<HitTruth>(std::move(truth));
+    truth.standard = standard_of(*found, settings, lipschitz, lattice->name, check);
+    truth.standard.blind = blind;
+    return CertifiedHits{std::move(truth), {}};
 }
 
 } // namespace tidemark::lab

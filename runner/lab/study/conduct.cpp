@@ -1,7 +1,10 @@
 #include "lab/study/conduct.hpp"
 
 #include "gl/capabilities.hpp"
+#include "glsl/overrides.hpp"
+#include "lab/study/curves.hpp"
 #include "lab/study/outcome.hpp"
+#include "lab/study/stricter.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +14,18 @@
 
 namespace tidemark::lab {
 namespace {
+
+/// The scene's own numbers by name, but those of the files that it includes: definitions, then knobs.
+std::vector<Setting> numbers_of(const scene::Scene& scene) {
+    const bool bare = scene.image().bare_file;
+    std::vector<Setting> numbers;
+    for (const glsl::NamedText& definition : glsl::definitions_of(scene))
+        if (number_of(definition.text) && (!bare || definition.file == scene.file.string()))
+            numbers.push_back({definition.name, definition.text});
+    for (const scene::Knob& knob : scene.knobs)
+        numbers.push_back({knob.name, scene::to_string(knob)});
+    return numbers;
+}
 
 class Conductor {
 public:
@@ -40,7 +55,9 @@ public:
             },
             findings_.set);
         set().circumstances.complete = complete && !stopped_;
+        find_idle(set(), sights_);
         judge(set());
+        observe_orders(set());
         findings_.evidence.reference = std::move(truth_.pictures);
         for (Sight& sight : sights_)
             findings_.evidence.pictures.push_back(std::move(sight.pictures));
@@ -72,6 +89,13 @@ private:
         for (const auto& settings : all)
             if (auto good = with(scene_, settings); !good)
                 return fail(std::move(good.error()));
+        const std::vector<std::string> names = set_names(set());
+        for (const std::string& name : names)
+            set().scene_values.push_back({name, value_of(scene_, name)});
+        set().held = numbers_of(scene_);
+        std::erase_if(set().held, [&](const Setting& setting) {
+            return std::ranges::find(names, setting.name) != names.end();
+        });
         return {};
     }
 
@@ -141,25 +165,39 @@ private:
         if (!pictures->not_promoted.empty())
             remark("the reference is in single precision: " + pictures->not_promoted);
         set().picture_standard = std::move(pictures->standard);
-        truth_.pictures = std::move(pictures->views);
+        if (set().picture_standard.none.empty()) {
+            truth_.pictures = std::move(pictures->views);
+            truth_.blind = std::move(pictures->blind);
+        }
         auto certified = certified_hits(scene_, study(), [this] { return going(); });
         if (!certified)
             return fail(std::move(certified.error()));
-        if (*certified) {
-            set().hit_standard = std::move((*certified)->standard);
-            truth_.hits = std::move((*certified)->views);
-            truth_.footprints = std::move((*certified)->footprints);
-            truth_.references = std::move((*certified)->references);
+        if (certified->truth) {
+            set().hit_standard = std::move(certified->truth->standard);
+            truth_.hits = std::move(certified->truth->views);
+            truth_.footprints = std::move(certified->truth->footprints);
+            truth_.references = std::move(certified->truth->references);
             check_pictures_by_hits(pictures->hits);
         } else if (!pictures->hits.empty()) {
-            set().hit_standard = std::move(pictures->hit_standard);
-            truth_.hits = std::move(pictures->hits);
-            truth_.footprints.assign(study().views.size(), plain_footprint(study().extent));
+            take_drawn_hits(*pictures, certified->why_not);
         }
         if (study().precision != glsl::Precision::single && set().has_hits())
             allow_for_read_back(set().hit_standard);
         watch_.advance();
         return {};
+    }
+
+    /// Where no march has a proof, what the scene itself converges to.
+    void take_drawn_hits(PictureTruth& drawn, const std::string& why_no_proof) {
+        remark("no march in double holds the hits: " + why_no_proof +
+               (drawn.hit_standard.none.empty() ? "; they are held against the scene's own" : ""));
+        if (!drawn.hit_standard.none.empty()) {
+            remark("there is no truth about the hits: " + drawn.hit_standard.none);
+            return;
+        }
+        set().hit_standard = std::move(drawn.hit_standard);
+        truth_.hits = std::move(drawn.hits);
+        truth_.footprints.assign(study().views.size(), plain_footprint(study().extent));
     }
 
     /// Distances computed in double come out of mainHit as floats: no error is known better than that.
@@ -217,7 +255,7 @@ private:
     /// Each source's settings are added to those before; the step from one sight to the next is its share,
     /// and the algorithm's is what then remains.
     void take_sources_away() {
-        if (study().sources.empty() && study().model.empty())
+        if ((study().sources.empty() && study().model.empty()) || truth_.pictures.empty())
             return;
         watch_.begin("points taken apart", set().points.size());
         const Sight true_sight{truth_.pictures, truth_.hits};
@@ -258,7 +296,7 @@ private:
         recipe.settings.insert(recipe.settings.end(), study().model.begin(), study().model.end());
         const auto sight = sight_of(recipe);
         if (sight) // of the picture alone: hits are a matter of the field
-            return Share{"model", 0, pooled_rmse((*sight)->pictures, true_sight.pictures)};
+            return Share{"model", 0, pooled_rmse((*sight)->pictures, true_sight.pictures, truth_.blind)};
         remark("the share of the model is missing: " + to_string(sight.error()));
         return std::nullopt;
     }

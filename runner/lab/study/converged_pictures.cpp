@@ -1,59 +1,40 @@
 #include "lab/stopwatch.hpp"
+#include "lab/study/convergence.hpp"
 #include "lab/study/stricter.hpp"
 #include "lab/study/truth.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tidemark::lab {
 namespace {
 
 constexpr int k_most_steps = 6;
-/// A reference is good enough when the next stricter one differs by this part of what the strictest point
-/// does.
+/// From three changes on a ratio that rises is seen to rise.
+constexpr size_t k_wanted_changes = 3;
+/// A reference is good enough when its own error is this part of what the strictest point's is.
 constexpr double k_settled = 0.1;
-
 /// A step that takes longer, seconds, is the last: the next one would take twice as long, doubles several
-/// times.
-constexpr double k_longest_step = 20;
+/// times. Longer while there are no two changes to tell anything from.
+constexpr double k_longest_step = 10, k_longest_first_step = 30;
+/// What arithmetic in floats leaves at the end of a long sum, and what rounding a double to a float does, in
+/// halves of a unit in the last place.
+constexpr double k_float_noise = 64, k_double_noise = 2;
 
 /// What one setting of the scene shows in all views.
 struct Shown {
     std::vector<Setting> settings;
     std::vector<image::Image> pictures;
     std::vector<Hits> hits;
-    std::string precision = "in single precision";
+    std::vector<std::string> kept_hashes;
     double seconds = 0; ///< that it took
 };
 
-Result<std::optional<Shown>> show(const scene::Scene& scene, const Study& study, const Recipe& recipe,
-                                  const KeepGoing& keep_going) {
-    const Stopwatch watch;
-    auto specimen = Specimen::create(scene, recipe, study.extent);
-    if (!specimen)
-        return fail(std::move(specimen.error()));
-    Shown shown{recipe.settings, {}, {}};
-    for (const View& view : study.views) {
-        if (!keep_going())
-            return std::optional<Shown>{};
-        shown.pictures.push_back(specimen->picture(view));
-        if (!specimen->has_hits())
-            continue;
-        auto hits = specimen->hits(view);
-        if (!hits)
-            return fail(std::move(hits.error()));
-        shown.hits.push_back(*std::move(hits));
-    }
-    shown.seconds = watch.elapsed().wall * 1e-3;
-    if (recipe.precision != glsl::Precision::single) {
-        const auto kept = specimen->kept_hashes();
-        shown.precision =
-            "promoted to double" +
-            (kept.empty() ? "" : fmt::format(" (hashes kept in floats: {})", fmt::join(kept, ", ")));
-    }
-    return std::optional<Shown>(std::move(shown));
+std::vector<double> plain_footprints(size_t views, Extent extent) {
+    return std::vector<double>(views * extent.pixels(), 1.0 / extent.height);
 }
 
 double rms_of_hits(const std::vector<Hits>& left, const std::vector<Hits>& right, Extent extent) {
@@ -62,116 +43,317 @@ double rms_of_hits(const std::vector<Hits>& left, const std::vector<Hits>& right
         all_left.append(left[i]);
         all_right.append(right[i]);
     }
-    std::vector<double> footprint;
-    for (size_t i = 0; i < left.size(); ++i) {
-        const auto plain = plain_footprint(extent);
-        footprint.insert(footprint.end(), plain.begin(), plain.end());
-    }
-    return hit_errors(all_left, all_right, footprint).rms;
+    return hit_errors(all_left, all_right, plain_footprints(left.size(), extent)).rms;
 }
 
-/// A change of two references and how it was come by.
-struct Change {
-    double pictures = 0;
-    double hits = 0;
+/// Pixels that are no numbers.
+void add_blind(const image::Image& image, PixelMask& blind) {
+    blind.resize(image.extent.pixels(), false);
+    const auto samples = image.f32();
+    const auto channels = size_t(image.channels);
+    for (size_t i = 0; i < samples.size(); ++i)
+        if (!std::isfinite(samples[i]))
+            blind[i / channels] = true;
+}
+
+double noise_of(const std::vector<image::Image>& pictures, const std::vector<PixelMask>& blind) {
+    std::vector<image::Image> black;
+    for (const image::Image& picture : pictures)
+        black.emplace_back(picture.extent, picture.channels, picture.type);
+    return 0x1p-24 * pooled_rmse(pictures, black, blind);
+}
+
+double noise_of(const std::vector<Hits>& hits) {
+    double squares = 0;
+    size_t count = 0;
+    for (const Hits& view : hits)
+        for (const double distance : view.distance)
+            if (distance >= 0) {
+                squares += distance * distance;
+                ++count;
+            }
+    return 0x1p-24 * std::sqrt(squares / double(std::max<size_t>(1, count)));
+}
+
+/// The scene at ever stricter settings, and what is known of the last of them.
+class Ladder {
+public:
+    Ladder(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going)
+        : scene_(scene), study_(study), keep_going_(keep_going), precision_(study.precision) {}
+
+    Result<PictureTruth> climb() {
+        if (auto begun = begin(); !begun)
+            return fail(std::move(begun.error()));
+        while (step_up())
+            ;
+        return truth();
+    }
+
+private:
+    enum class What { pictures, hits };
+
+    bool named() const { return !study_.reference.empty(); }
+    bool has_hits() const { return !first_.hits.empty(); }
+
+    Result<std::optional<Shown>> show(std::vector<Setting> settings) {
+        const Stopwatch watch;
+        auto specimen = Specimen::create(scene_, {settings, precision_}, study_.extent);
+        if (!specimen)
+            return fail(std::move(specimen.error()));
+        Shown shown{std::move(settings), {}, {}, specimen->kept_hashes()};
+        for (const View& view : study_.views) {
+            if (!keep_going_())
+                return std::optional<Shown>{};
+            shown.pictures.push_back(specimen->picture(view));
+            if (!specimen->has_hits())
+                continue;
+            auto hits = specimen->hits(view);
+            if (!hits)
+                return fail(std::move(hits.error()));
+            shown.hits.push_back(*std::move(hits));
+        }
+        shown.seconds = watch.elapsed().wall * 1e-3;
+        return std::optional<Shown>(std::move(shown));
+    }
+
+    /// The first rung, in double where it can be had.
+    Result<void> begin() {
+        const bool to_promote = precision_ == glsl::Precision::single;
+        if (to_promote) {
+            precision_ = glsl::Precision::promoted;
+            auto promoted = show(strictest(study_, 0));
+            if (promoted && *promoted && (*promoted)->seconds <= k_longest_step) {
+                take_first(**std::move(promoted));
+                return {};
+            }
+            not_promoted_ = !promoted    ? to_string(promoted.error())
+                            : !*promoted ? "interrupted"
+                                         : fmt::format("in double it took {:.0f} s", (*promoted)->seconds);
+            precision_ = glsl::Precision::single;
+        }
+        auto first = show(strictest(study_, 0));
+        if (!first)
+            return fail(std::move(first.error()));
+        if (!*first)
+            return fail(ErrorCode::check_failed, "interrupted before there was a reference");
+        take_first(**std::move(first));
+        return {};
+    }
+
+    void take_first(Shown shown) {
+        first_ = last_ = std::move(shown);
+        blind_.resize(first_.pictures.size());
+        note_blind(first_);
+    }
+
+    void note_blind(const Shown& shown) {
+        for (size_t view = 0; view < shown.pictures.size(); ++view)
+            add_blind(shown.pictures[view], blind_[view]);
+    }
+
+    double apart(What what, const Shown& a, const Shown& b) const {
+        return what == What::pictures ? pooled_rmse(a.pictures, b.pictures, blind_)
+                                      : rms_of_hits(a.hits, b.hits, study_.extent);
+    }
+
+    double rounding(What what) const {
+        const double noise = precision_ == glsl::Precision::single ? k_float_noise : k_double_noise;
+        return noise * (what == What::pictures ? noise_of(first_.pictures, blind_) : noise_of(first_.hits));
+    }
+
+    std::vector<double>& changes(What what) { return what == What::pictures ? changes_ : hit_changes_; }
+
+    Remainder remainder(What what) { return remainder_of(changes(what), rounding(what)); }
+
+    /// Nothing more to be learned by going on.
+    bool is_settled(What what) {
+        const Remainder left = remainder(what);
+        if (left.still || !left.error || changes(what).size() < k_wanted_changes)
+            return left.still;
+        return named() || *left.error <= k_settled * apart(what, first_, last_);
+    }
+
+    /// Draws the next rung; false: the last one it is.
+    bool step_up() {
+        const double longest = changes_.size() < 2 ? k_longest_first_step : k_longest_step;
+        if (step_ == k_most_steps)
+            return false;
+        if (last_.seconds > longest) {
+            stopped_ = fmt::format("a step took {:.0f} s", last_.seconds);
+            return false;
+        }
+        std::vector<Setting> settings = strictest(study_, step_ + 1);
+        if (settings == last_.settings)
+            return false;
+        auto next = show(settings);
+        if (!next || !*next) {
+            stopped_ =
+                next ? "interrupted" : fmt::format("the scene does not compile with {}", to_string(settings));
+            return false;
+        }
+        ++step_;
+        note_blind(**next);
+        changes_.push_back(apart(What::pictures, last_, **next));
+        if (has_hits())
+            hit_changes_.push_back(apart(What::hits, last_, **next));
+        last_ = **std::move(next);
+        return !(is_settled(What::pictures) && (!has_hits() || is_settled(What::hits)));
+    }
+
+    /// Where nothing moves any more, settings off the ladder must not move it either, and how it came to rest
+    /// tells how much a stop in the scene itself may hide.
+    Remainder look_around(What what, Remainder still) {
+        for (const double factor : {1.37, 1.71}) {
+            const std::vector<Setting> settings = beside(study_, step_, factor);
+            if (settings == last_.settings)
+                continue;
+            const auto other = show(settings);
+            if (!other || !*other)
+                return {{}, fmt::format("it could not be looked at with {}", to_string(settings)), false};
+            const double change = apart(what, last_, **other);
+            if (!(change <= rounding(what)))
+                return {{},
+                        fmt::format("it does not settle: {} and {} show the same, but {} is {:.2g} from it",
+                                    to_string(strictest(study_, step_ - 1)), to_string(last_.settings),
+                                    to_string(settings), change),
+                        false};
+            still.how += fmt::format("; {} shows the same", to_string(settings));
+        }
+        return look_back(what, std::move(still));
+    }
+
+    /// The last two changes that were more than rounding, the later first: on the ladder, and below it.
+    std::vector<double> last_moves(What what) {
+        std::vector<double> moves;
+        for (size_t i = changes(what).size(); i-- > 0 && moves.size() < 2;)
+            if (changes(what)[i] > rounding(what))
+                moves.push_back(changes(what)[i]);
+        Shown stricter = first_;
+        for (int back = 1; back <= k_most_steps && moves.size() < 2; ++back) {
+            const std::vector<Setting> settings = strictest(study_, -back);
+            if (settings == stricter.settings)
+                break;
+            auto coarser = show(settings);
+            if (!coarser || !*coarser)
+                break;
+            if (const double change = apart(what, stricter, **coarser); !(change <= rounding(what)))
+                moves.push_back(change);
+            stricter = **std::move(coarser);
+        }
+        return moves;
+    }
+
+    Remainder look_back(What what, Remainder still) {
+        const std::vector<double> moves = last_moves(what);
+        if (moves.empty())
+            return still;
+        const Remainder trend =
+            moves.size() > 1 ? remainder_of({moves[1], moves[0]}, rounding(what)) : Remainder{};
+        still.error = std::max(*still.error, trend.error.value_or(moves[0]));
+        still.how +=
+            fmt::format("; the change before was {:.2g}, and had it gone on instead of ending there, "
+                        "{:.2g} would be missing",
+                        moves[0], *still.error);
+        return still;
+    }
+
+    /// What is known of the truth's own error.
+    Standard standard(What what) {
+        Standard standard;
+        const Shown& best = named() ? first_ : last_;
+        standard.method =
+            fmt::format("the scene itself with {}, {}{}", to_string(best.settings),
+                        precision_ == glsl::Precision::single ? "in single precision" : "promoted to double",
+                        best.kept_hashes.empty()
+                            ? ""
+                            : fmt::format(" (hashes kept in floats: {})", fmt::join(best.kept_hashes, ", ")));
+        Remainder left = remainder(what);
+        if (left.still)
+            left = look_around(what, std::move(left));
+        if (!stopped_.empty())
+            left.how += "; " + stopped_;
+        standard.check = changes(what).empty() ? left.how
+                                               : fmt::format("{} to {}: {}", to_string(first_.settings),
+                                                             to_string(last_.settings), left.how);
+        if (left.error)
+            standard.uncertainty = *left.error + (named() ? apart(what, first_, last_) : 0.0);
+        else if (!named())
+            standard.none = left.how + "; name a truth with --reference";
+        return standard;
+    }
+
+    void refuse_blind(Standard& standard, size_t blind) const {
+        standard.blind = blind;
+        const size_t pixels = study_.extent.pixels() * study_.views.size();
+        if (double(blind) > k_most_blind * double(pixels))
+            standard.none = fmt::format("{:.3g} % of its pixels are NaN or infinite",
+                                        100.0 * double(blind) / double(pixels));
+    }
+
+    PictureTruth truth() {
+        PictureTruth truth;
+        truth.standard = standard(What::pictures);
+        if (has_hits())
+            truth.hit_standard = standard(What::hits);
+        Shown best = named() ? first_ : last_;
+        size_t blind = 0, blind_hits = 0;
+        for (const PixelMask& view : blind_)
+            blind += size_t(std::ranges::count(view, true));
+        for (const Hits& view : best.hits)
+            blind_hits += size_t(
+                std::ranges::count_if(view.distance, [](double distance) { return std::isnan(distance); }));
+        refuse_blind(truth.standard, blind);
+        refuse_blind(truth.hit_standard, blind_hits);
+        truth.settings = std::move(best.settings);
+        truth.views = std::move(best.pictures);
+        truth.blind = std::move(blind_);
+        truth.hits = std::move(best.hits);
+        truth.precision = precision_;
+        truth.not_promoted = std::move(not_promoted_);
+        return truth;
+    }
+
+    const scene::Scene& scene_;
+    const Study& study_;
+    const KeepGoing& keep_going_;
+    glsl::Precision precision_;
+    std::string not_promoted_;
+    std::string stopped_; ///< why the ladder ends where it could go on
+    Shown first_;         ///< the settings that were asked for, or the study's strictest
+    Shown last_;
+    int step_ = 0; ///< of `last_`
+    std::vector<double> changes_;
+    std::vector<double> hit_changes_;
+    std::vector<PixelMask> blind_; ///< by view
 };
-
-Change change_of(const Shown& a, const Shown& b, Extent extent) {
-    return {pooled_rmse(a.pictures, b.pictures), a.hits.empty() ? 0 : rms_of_hits(a.hits, b.hits, extent)};
-}
-
-PictureTruth truth_of(Shown shown, const std::optional<Change>& change, const std::string& how) {
-    PictureTruth truth;
-    truth.standard.method =
-        fmt::format("the scene itself with {}, {}", to_string(shown.settings), shown.precision);
-    truth.standard.check = how;
-    if (change)
-        truth.standard.uncertainty = change->pictures;
-    if (!shown.hits.empty()) {
-        truth.hit_standard = truth.standard;
-        if (change)
-            truth.hit_standard.uncertainty = change->hits;
-    }
-    truth.settings = std::move(shown.settings);
-    truth.views = std::move(shown.pictures);
-    truth.hits = std::move(shown.hits);
-    return truth;
-}
 
 } // namespace
 
 std::vector<double> plain_footprint(Extent extent) {
-    return std::vector<double>(extent.pixels(), 1.0 / extent.height);
+    return plain_footprints(1, extent);
 }
 
-double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right) {
+double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right,
+                   const std::vector<PixelMask>& blind) {
     double squares = 0;
     size_t samples = 0;
     for (size_t i = 0; i < left.size(); ++i) {
-        const auto difference = image::compare(left[i], right[i]);
-        squares += difference ? difference->rmse * difference->rmse * double(left[i].samples()) : NAN;
-        samples += left[i].samples();
+        const auto a = left[i].f32(), b = right[i].f32();
+        const auto channels = size_t(left[i].channels);
+        for (size_t k = 0; k < a.size(); ++k) {
+            if (i < blind.size() && !blind[i].empty() && blind[i][k / channels])
+                continue;
+            const double change = double(a[k]) - double(b[k]); // a NaN stays one
+            squares += change * change;
+            ++samples;
+        }
     }
     return std::sqrt(squares / double(std::max<size_t>(1, samples)));
 }
 
 Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
                                         const KeepGoing& keep_going) {
-    auto first = show(scene, study, {strictest(study, 0), study.precision}, keep_going);
-    if (!first)
-        return fail(std::move(first.error()));
-    if (!*first)
-        return fail(ErrorCode::check_failed, "interrupted before there was a reference");
-    Shown best = **first;
-    const Shown& strictest_point = **first;
-    std::optional<Change> change;
-    std::string how =
-        "none: no knob of the study is a number that could go on; name a stricter setting with --reference";
-    for (int step = 1; step <= k_most_steps; ++step) {
-        std::vector<Setting> settings = strictest(study, step);
-        if (settings == best.settings)
-            break;
-        auto next = show(scene, study, {settings, study.precision}, keep_going);
-        if (!next || !*next) {
-            if (change)
-                break;
-            how = next ? "none: interrupted"
-                       : fmt::format("none: the scene does not compile with {}", to_string(settings));
-            break;
-        }
-        const Change changed = change_of(best, **next, study.extent);
-        const bool grew = change && changed.pictures > change->pictures;
-        if (grew) // past the best that floats can do: the pair before was nearer
-            break;
-        how = fmt::format("the change from {}: RMSE {:.2g}", to_string(best.settings), changed.pictures);
-        change = changed;
-        const bool named = !study.reference.empty();
-        if (named) { // it stays the reference that was asked for
-            how = fmt::format("the change to {}: RMSE {:.2g}", to_string(settings), changed.pictures);
-            break;
-        }
-        best = **std::move(next);
-        if (changed.pictures <= k_settled * pooled_rmse(strictest_point.pictures, best.pictures) ||
-            best.seconds > k_longest_step)
-            break;
-    }
-    // What is in double already, like the points, is stricter by its settings alone.
-    const bool to_promote = study.precision == glsl::Precision::single;
-    std::string not_promoted;
-    if (to_promote && best.seconds > k_longest_step)
-        not_promoted = fmt::format("it took {:.0f} s in floats already", best.seconds);
-    if (to_promote && not_promoted.empty()) {
-        auto promoted = show(scene, study, {best.settings, glsl::Precision::promoted}, keep_going);
-        not_promoted = !promoted ? to_string(promoted.error()) : !*promoted ? "interrupted" : "";
-        if (promoted && *promoted)
-            best = **std::move(promoted);
-    }
-    PictureTruth truth = truth_of(std::move(best), change, how);
-    truth.precision = !to_promote            ? study.precision
-                      : not_promoted.empty() ? glsl::Precision::promoted
-                                             : glsl::Precision::single;
-    truth.not_promoted = std::move(not_promoted);
-    return truth;
+    return Ladder(scene, study, keep_going).climb();
 }
 
 } // namespace tidemark::lab

@@ -1,5 +1,7 @@
 #include "lab/study/diagram.hpp"
 
+#include "lab/study/one_line.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,12 +15,22 @@ constexpr const char* k_colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                      "#e69f00", "#56b4e9", "#7f7f00"};
 constexpr const char* k_grey = "#555555";
 
-/// A string of gnuplot's that means nothing but itself.
+/// A string of gnuplot's that means nothing but itself: between apostrophes it runs no command in backquotes.
+/// Apostrophes of its own become typographic ones: two for one, as the manual has it, end a string that they
+/// begin.
 std::string quoted_text(std::string_view text) {
     std::string quoted = "'";
-    for (const char c : text)
-        quoted += c == '\'' ? "''" : c == '\n' ? " " : std::string(1, c);
+    for (const char c : one_line(text))
+        quoted += c == '\'' ? "\u2019" : std::string(1, c);
     return quoted + "'";
+}
+
+/// A word of a data block: nothing there is a command, but a line that is EOD ends it, and a quote the word.
+std::string data_text(std::string_view text) {
+    std::string word = "\"";
+    for (const char c : one_line(text))
+        word += c == '"' || c == '\\' ? '\'' : c;
+    return word + '"';
 }
 
 struct Mark {
@@ -46,12 +58,9 @@ std::vector<Mark> marks_of(const WorkPrecisionSet& set, Across across, size_t se
 
 std::string block(const std::string& name, const std::vector<Mark>& marks) {
     std::string text = fmt::format("${} << EOD\n", name);
-    for (const Mark& mark : marks) {
-        std::string label = mark.label;
-        std::ranges::replace(label, '"', '\'');
-        text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {} \"{}\"\n", mark.cost, mark.error, mark.low,
-                            mark.high, mark.hollow ? 1 : 0, label);
-    }
+    for (const Mark& mark : marks)
+        text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {} {}\n", mark.cost, mark.error, mark.low, mark.high,
+                            mark.hollow ? 1 : 0, data_text(mark.label));
     return text + "EOD\n";
 }
 

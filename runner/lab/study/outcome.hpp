@@ -18,7 +18,8 @@ struct Sight {
 
 /// The truth about each view. `hits` may be empty; `references` may be, too.
 struct Truth {
-    std::vector<image::Image> pictures;
+    std::vector<image::Image> pictures; ///< empty: there is no truth about them
+    std::vector<PixelMask> blind;       ///< of each view: pixels that have none
     std::vector<Hits> hits;
     std::vector<std::vector<double>> footprints;
     std::vector<Reference> references;

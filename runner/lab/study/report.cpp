@@ -24,65 +24,81 @@ public:
     Report(const OutputPath& folder, Findings& findings)
         : folder_(folder), set_(findings.set), evidence_(findings.evidence) {}
 
+    /// Makes all of it before the first file appears: a report that cannot be written replaces none.
     Result<void> write() {
-        for (const auto part : {&Report::write_diagrams, &Report::write_maps})
-            if (auto done = (this->*part)(); !done)
-                return done;
+        make_diagrams();
+        if (auto done = make_maps(); !done)
+            return done;
         // Last, for they hold the remarks of all others.
-        const std::pair<const char*, std::string> texts[] = {{"points.csv", to_csv(set_)},
-                                                             {"study.json", to_json(set_)},
-                                                             {"report.html", to_html(set_, media_)}};
-        for (const auto& [name, text] : texts)
-            if (auto done = write_file(folder_ / name, text); !done)
+        add("points.csv", to_csv(set_));
+        add("report.html", to_html(set_, media_));
+        add("study.json", to_json(set_));
+        return put_files();
+    }
+
+private:
+    void add(fs::path name, std::string bytes) { files_.emplace_back(std::move(name), std::move(bytes)); }
+
+    Result<void> put_files() const {
+        std::vector<StagedFile> staged;
+        for (const auto& [name, bytes] : files_) {
+            if (auto made = make_folder(name.has_parent_path() ? folder_ / name.parent_path() : folder_);
+                !made)
+                return made;
+            auto file = StagedFile::create(folder_ / name);
+            if (!file)
+                return fail(std::move(file.error()));
+            if (auto done = file->write(std::as_bytes(std::span(bytes))); !done)
+                return done;
+            staged.push_back(*std::move(file));
+        }
+        for (StagedFile& file : staged)
+            if (auto done = file.commit(); !done)
                 return done;
         return {};
     }
 
-private:
     void remark(std::string text) {
         auto& remarks = set_.circumstances.remarks;
         if (std::ranges::find(remarks, text) == remarks.end())
             remarks.push_back(std::move(text));
     }
 
-    Result<void> write_diagrams() {
-        if (auto done = write_diagram(Across::time, "error-vs-time"); !done)
-            return done;
-        if (!set_.has_hits())
-            return {};
-        return write_diagram(Across::work, "error-vs-work");
+    void make_diagrams() {
+        make_diagram(Across::time, "error-vs-time");
+        if (set_.has_hits())
+            make_diagram(Across::work, "error-vs-work");
     }
 
-    /// The script is written in any case: who has gnuplot elsewhere can run it there.
-    Result<void> write_diagram(Across across, const std::string& name) {
+    /// The script is there in any case: who has gnuplot elsewhere can run it there.
+    void make_diagram(Across across, const std::string& name) {
         const std::string script = diagram_script(set_, across, name);
         if (script.empty()) {
-            remark(fmt::format("{} has no point: every error is 0, or nothing was timed", name));
-            return {};
+            remark(fmt::format("{} has no point: every error is 0 or unknown, or nothing was timed", name));
+            return;
         }
-        const OutputPath file = folder_ / (name + ".gp");
-        if (auto done = write_file(file, script); !done)
-            return done;
-        // It would write through any link that lies in the report's folder.
+        add(name + ".gp", script);
         const ScratchFolder scratch;
+        const fs::path file = scratch.path() / (name + ".gp");
         std::string folder = scratch.path().string();
         for (size_t at = 0; (at = folder.find('\'', at)) != folder.npos; at += 2)
             folder.insert(at, 1, '\'');
-        const auto drawn = image::output_of(
-            {"gnuplot", "-e", fmt::format("cd '{}'", folder), fs::absolute(file.path()).string()},
-            size_t{1} << 16);
+        const auto written = write_file(file, script);
+        const auto drawn =
+            written ? image::output_of({"gnuplot", "-d", "-e", fmt::format("cd '{}'", folder), file.string()},
+                                       size_t{1} << 16)
+                    : Result<std::string>(fail(written.error()));
         if (!drawn) {
             remark(fmt::format("no diagrams: {} (the data are in points.csv, the script is {}.gp)",
                                drawn.error().message, name));
-            return {};
+            return;
         }
         for (const char* ending : {".svg", ".png"})
-            if (const auto picture = read_file(scratch.path() / (name + ending)))
-                if (auto done = write_file(folder_ / (name + ending), *picture); !done)
-                    return done;
-        if (const auto svg = read_file(scratch.path() / (name + ".svg")))
-            media_.diagrams.push_back({name, "data:image/svg+xml;base64," + base64(*svg)});
-        return {};
+            if (auto picture = read_file(scratch.path() / (name + ending)))
+                add(name + ending, *std::move(picture));
+        if (const auto svg = std::ranges::find(files_, fs::path(name + ".svg"), &File::first);
+            svg != files_.end())
+            media_.diagrams.push_back({name, "data:image/svg+xml;base64," + base64(svg->second)});
     }
 
     /// The view on which the scene as it is does worst: there the differences are to be seen.
@@ -93,15 +109,17 @@ private:
         return worst == views.end() ? 0 : size_t(worst - views.begin());
     }
 
-    /// Writes a picture and returns it for the page.
+    /// Keeps a picture, and returns it for the page.
     Result<std::string> keep(const std::string& name, const image::Image& picture) {
-        const OutputPath file = folder_ / "maps" / (name + ".png");
+        const fs::path file = scratch_.path() / (name + ".png");
         if (auto done = image::write_picture(file, picture); !done)
             return fail(std::move(done.error()));
-        const auto bytes = read_file(file.path(), size_t{1} << 30);
+        auto bytes = read_file(file, size_t{1} << 30);
         if (!bytes)
             return fail(bytes.error());
-        return "data:image/png;base64," + base64(*bytes);
+        std::string source = "data:image/png;base64," + base64(*bytes);
+        add(fs::path("maps") / (name + ".png"), *std::move(bytes));
+        return source;
     }
 
     Result<void> show(const std::string& label, const std::string& name, const image::Image& picture) {
@@ -112,11 +130,9 @@ private:
         return {};
     }
 
-    Result<void> write_maps() {
+    Result<void> make_maps() {
         if (evidence_.reference.empty())
             return {};
-        if (auto made = make_folder(folder_ / "maps"); !made)
-            return made;
         const size_t view = shown_view();
         media_.pictures_view = set_.study.views[view].name;
         const image::Image& reference = evidence_.reference[view];
@@ -150,6 +166,9 @@ private:
     WorkPrecisionSet& set_;
     const Evidence& evidence_;
     PageMedia media_;
+    ScratchFolder scratch_;
+    using File = std::pair<fs::path, std::string>;
+    std::vector<File> files_; ///< names in the folder, and what is in them
 };
 
 } // namespace

@@ -1,10 +1,13 @@
 #include "lab/study/report_data.hpp"
 
+#include "lab/study/one_line.hpp"
+#include "lab/study/stricter.hpp"
 #include "lab/study/verdict.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -64,6 +67,8 @@ const std::vector<Column>& columns() {
             hit("negative_sample_percent", &HitErrors::negative),
             hit("no_answer_percent", &HitErrors::no_answer),
             hit("evaluations_per_pixel", &HitErrors::evaluations),
+            {"hits", "no_truth_pixels",
+             [](const Outcome& o) { return o.hits ? double(o.hits->no_truth) : missing(); }},
             {"hits", "normal_degrees_median",
              [](const Outcome& o) { return o.normal_degrees.value_or(missing()); }},
             picture("rmse", [](const Metrics& m) { return m.samples.rmse; }),
@@ -76,6 +81,7 @@ const std::vector<Column>& columns() {
                     [](const Metrics& m) {
                         return double(m.samples.one_non_finite + m.samples.both_non_finite);
                     }),
+            {"picture", "no_truth_pixels", [](const Outcome& o) { return double(o.no_truth); }},
         };
         for (const auto& [group, clock] :
              {std::pair{"wall_ms", &Outcome::wall}, {"cpu_ms", &Outcome::cpu}, {"gpu_ms", &Outcome::gpu}}) {
@@ -125,14 +131,36 @@ Json outcome_json(const WorkPrecisionSet& set, const Outcome& outcome) {
 }
 
 Json standard_json(const Standard& standard) {
-    return {{"method", standard.method},
-            {"uncertainty", standard.uncertainty ? number(*standard.uncertainty) : Json(nullptr)},
-            {"self_check", standard.check}};
+    Json json = {{"method", standard.method},
+                 {"uncertainty", standard.uncertainty ? number(*standard.uncertainty) : Json(nullptr)},
+                 {"self_check", standard.check},
+                 {"no_truth_pixels", standard.blind}};
+    if (!standard.none.empty())
+        json["none"] = standard.none;
+    if (!standard.field_hash.empty())
+        json["field_sha256"] = standard.field_hash;
+    return json;
 }
 
-std::string series_name(const WorkPrecisionSet& set, const Point& point) {
-    return point.series < set.study.series.size() ? set.study.series[point.series].name
-                                                  : std::string(k_defaults);
+Json idle_json(const std::vector<IdleKnob>& idle) {
+    Json json = Json::array();
+    for (const IdleKnob& knob : idle)
+        json.push_back({{"knob", knob.name}, {"series", knob.series}});
+    return json;
+}
+
+Json orders_json(const std::vector<ObservedOrder>& orders) {
+    Json json = Json::array();
+    for (const ObservedOrder& order : orders) {
+        json.push_back({{"series", order.series},
+                        {"knob", order.knob},
+                        {"fixed", settings_json(order.fixed)},
+                        {"order", order.order ? number(*order.order) : Json(nullptr)},
+                        {"fit", order.how}});
+        if (order.order)
+            json.back()["uncertainty"] = number(order.uncertainty);
+    }
+    return json;
 }
 
 Trust trust_of(const WorkPrecisionSet& set, const Point& point) {
@@ -149,6 +177,7 @@ Json point_json(const WorkPrecisionSet& set, const WorkPrecision& point) {
         return json;
     }
     json["hollow"] = point.hollow;
+    json["idle"] = point.idle;
     json["on_front"] = point.on_front;
     json["compile_ms"] = number(point.compile_milliseconds);
     json["first_draw_ms"] = number(point.first_draw_milliseconds);
@@ -175,11 +204,44 @@ Json views_json(const Study& study) {
 
 // ---- CSV ------------------------------------------------------------------------------------------------
 
+/// A field that a spreadsheet takes for the text it is: quoted, on one line, no formula.
 std::string csv_text(std::string_view text) {
+    constexpr std::string_view k_begin_formulas = "=+-@";
     std::string quoted = "\"";
-    for (const char c : text)
+    const bool formula = !text.empty() && k_begin_formulas.find(text.front()) != k_begin_formulas.npos;
+    if (formula && !number_of(std::string(text)))
+        quoted += "'";
+    for (const char c : one_line(text))
         quoted += c == '"' ? "\"\"" : std::string(1, c);
     return quoted + '"';
+}
+
+/// A name that no other column has.
+std::string free_name(std::string name, const std::vector<std::string>& taken) {
+    while (std::ranges::find(taken, name) != taken.end())
+        name = "set " + name;
+    return name;
+}
+
+/// The heads of all columns: those of a point, the knobs that points set, the numbers of an outcome.
+std::vector<std::string> csv_heads(const std::vector<std::string>& knobs) {
+    std::vector<std::string> first{"series", "trust",    "label",      "view",         "hollow",
+                                   "idle",   "on_front", "compile_ms", "first_draw_ms"};
+    std::vector<std::string> last;
+    for (const Column& column : columns()) {
+        const std::string name = std::string(column.group) + "_" + column.name;
+        const bool timed = std::string_view(column.group).ends_with("_ms");
+        const bool known = std::ranges::find(last, column.name) != last.end();
+        last.push_back(timed || known ? name : column.name);
+    }
+    std::vector<std::string> taken = first;
+    taken.insert(taken.end(), last.begin(), last.end());
+    for (const std::string& knob : knobs) {
+        first.push_back(free_name(knob, taken));
+        taken.push_back(first.back());
+    }
+    first.insert(first.end(), last.begin(), last.end());
+    return first;
 }
 
 } // namespace
@@ -211,6 +273,9 @@ std::string to_json(const WorkPrecisionSet& set) {
           {"warm_up_rounds", facts.warm_up_rounds},
           {"timed_rounds", facts.timed_rounds}}},
         {"verdict", sentences(set)},
+        {"idle", idle_json(set.idle)},
+        {"orders", orders_json(set.orders)},
+        {"held", settings_json(set.held)},
         {"remarks", facts.remarks},
         {"points", Json::array()}};
     if (set.has_pictures())
@@ -223,22 +288,27 @@ std::string to_json(const WorkPrecisionSet& set) {
 }
 
 std::string to_csv(const WorkPrecisionSet& set) {
-    std::string text = "series,trust,label,view,hollow,on_front,compile_ms,first_draw_ms";
-    for (const Column& column : columns())
-        text += fmt::format(
-            ",{}{}", std::string_view(column.group).ends_with("_ms") ? std::string(column.group) + "_" : "",
-            column.name);
+    const std::vector<std::string> knobs = set_names(set);
+    std::string text;
+    for (const std::string& head : csv_heads(knobs))
+        text += (text.empty() ? "" : ",") +
+                (std::ranges::find(knobs, head) == knobs.end() && head.find_first_of("\", ") == head.npos
+                     ? head
+                     : csv_text(head));
     text += '\n';
     for (const WorkPrecision& point : set.points) {
         if (!point.measured())
             continue;
+        std::string values;
+        for (const std::string& knob : knobs)
+            values += "," + csv_text(value_at(set, point.point, knob));
         for (size_t view = 0; view <= point.views.size(); ++view) {
             const bool all = view == point.views.size();
-            text +=
-                fmt::format("{},{},{},{},{},{},{:.6g},{:.6g}", csv_text(series_name(set, point.point)),
-                            to_string(trust_of(set, point.point)), csv_text(point.point.label),
-                            csv_text(all ? "all" : set.study.views[view].name), int(point.hollow),
-                            int(point.on_front), point.compile_milliseconds, point.first_draw_milliseconds);
+            text += fmt::format(
+                "{},{},{},{},{},{},{},{:.6g},{:.6g}{}", csv_text(series_name(set, point.point)),
+                to_string(trust_of(set, point.point)), csv_text(point.point.label),
+                csv_text(all ? "all" : set.study.views[view].name), int(point.hollow), int(point.idle),
+                int(point.on_front), point.compile_milliseconds, point.first_draw_milliseconds, values);
             for (const Column& column : columns()) {
                 const Outcome& outcome = all ? point.all : point.views[view];
                 const double value = measured(set, outcome, column.group) ? column.of(outcome) : missing();

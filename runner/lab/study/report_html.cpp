@@ -1,5 +1,7 @@
 #include "lab/study/report_html.hpp"
 
+#include "lab/study/curves.hpp"
+#include "lab/study/one_line.hpp"
 #include "lab/study/verdict.hpp"
 
 #include <fmt/format.h>
@@ -44,12 +46,13 @@ show();
 
 std::string escaped(std::string_view text) {
     std::string safe;
-    for (const char c : text)
+    for (const char c : one_line(text))
         switch (c) {
         case '&': safe += "&amp;"; break;
         case '<': safe += "&lt;"; break;
         case '>': safe += "&gt;"; break;
         case '"': safe += "&quot;"; break;
+        case '\'': safe += "&#39;"; break;
         default: safe += c;
         }
     return safe;
@@ -67,8 +70,10 @@ struct Column {
 
 void add_picture_columns(std::vector<Column>& columns) {
     columns.push_back({"PSNR dB", [](const WorkPrecision& p) { return number(p.all.picture.samples.psnr); }});
-    columns.push_back(
-        {"SSIM", [](const WorkPrecision& p) { return fmt::format("{:.5f}", p.all.picture.ssim); }});
+    columns.push_back({"SSIM", [](const WorkPrecision& p) {
+                           const double ssim = p.all.picture.ssim;
+                           return std::isfinite(ssim) ? fmt::format("{:.5f}", ssim) : number(ssim);
+                       }});
     columns.push_back({"FLIP", [](const WorkPrecision& p) { return number(p.all.picture.flip); }});
     columns.push_back({"not finite", [](const WorkPrecision& p) {
                            const auto& s = p.all.picture.samples;
@@ -231,10 +236,42 @@ std::string list(const std::vector<std::string>& items) {
 }
 
 std::string standard(const char* name, const Standard& standard) {
-    return fmt::format("<dt>Reference of the {}</dt><dd>{}.<br>Its own error: {}; self-check: {}.</dd>\n",
+    if (!standard.none.empty())
+        return fmt::format("<dt>Reference of the {}</dt><dd>none: {}.</dd>\n", name, escaped(standard.none));
+    return fmt::format("<dt>Reference of the {}</dt><dd>{}.<br>Its own error: {}; self-check: {}.{}</dd>\n",
                        name, escaped(standard.method),
                        standard.uncertainty ? figure(*standard.uncertainty) : std::string("unknown"),
-                       escaped(standard.check));
+                       escaped(standard.check),
+                       standard.blind > 0 ? fmt::format("<br>It is NaN or infinite in {} pixels, of which no "
+                                                        "error is told.",
+                                                        standard.blind)
+                                          : std::string());
+}
+
+std::string orders(const WorkPrecisionSet& set) {
+    std::vector<std::string> items;
+    for (const ObservedOrder& order : set.orders) {
+        std::string fixed;
+        for (const Setting& setting : order.fixed)
+            fixed += fmt::format("{}{} = {}", fixed.empty() ? ", at " : ", ", setting.name, setting.value);
+        items.push_back(to_string(order) + fixed);
+    }
+    if (items.empty())
+        return {};
+    return "<h2>How fast the error falls</h2>\n<p>The power of the knob by which it falls, over points that "
+           "are not hollow.</p>\n" +
+           list(items);
+}
+
+std::string held(const WorkPrecisionSet& set) {
+    std::string items;
+    for (const Setting& setting : set.held)
+        items += fmt::format("{}{} = {}", items.empty() ? "" : ", ", setting.name, setting.value);
+    if (items.empty())
+        return {};
+    return fmt::format("<dt>Held fixed</dt><dd>{}. The truth has the same, so that no figure tells what they "
+                       "cost.</dd>\n",
+                       escaped(items));
 }
 
 std::string method(const WorkPrecisionSet& set) {
@@ -244,6 +281,7 @@ std::string method(const WorkPrecisionSet& set) {
         html += standard("hits", set.hit_standard);
     if (set.has_pictures())
         html += standard("pictures", set.picture_standard);
+    html += held(set);
     html += fmt::format(
         "<dt>Time</dt><dd>{}; {} warm-up rounds, then {} rounds; in each every setting has its turn with "
         "every view "
@@ -292,7 +330,7 @@ std::string to_html(const WorkPrecisionSet& set, const PageMedia& media) {
     html += "<h2>Settings</h2>\n" + points_table(set);
     html += fmt::format("<h2>View by view</h2>\n<p>{} / time.</p>\n", escaped(error_name(set))) +
             views_table(set);
-    html += slider(media) + causes_table(set) + shares_table(set) + method(set);
+    html += orders(set) + slider(media) + causes_table(set) + shares_table(set) + method(set);
     std::vector<std::string> left_out = set.study.omissions;
     left_out.insert(left_out.end(), set.circumstances.remarks.begin(), set.circumstances.remarks.end());
     if (!left_out.empty())

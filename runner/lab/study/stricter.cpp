@@ -7,7 +7,6 @@
 #include <cmath>
 
 namespace tidemark::lab {
-namespace {
 
 std::optional<double> number_of(const std::string& text) {
     double number = 0;
@@ -15,6 +14,8 @@ std::optional<double> number_of(const std::string& text) {
     const bool whole_text = error == std::errc{} && end == text.data() + text.size();
     return whole_text && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
+
+namespace {
 
 /// GLSL takes `64` for an int and `64.0` for a float: the kind stays.
 bool is_int(const std::string& text) {
@@ -56,8 +57,9 @@ std::optional<double> ratio_of(const Axis& axis) {
 std::optional<std::string> beyond(const Axis& axis, int steps) {
     if (axis.values.empty())
         return std::nullopt;
-    if (steps == 0)
-        return axis.values.back();
+    if (steps <= 0)
+        return size_t(-steps) < axis.values.size() ? std::optional(axis.values.end()[steps - 1])
+                                                   : std::nullopt;
     const auto ratio = ratio_of(axis);
     if (!ratio)
         return std::nullopt;
@@ -83,12 +85,27 @@ std::vector<Axis> axes_of(const Study& study) {
     return axes;
 }
 
+namespace {
+
+/// Of an axis that varies this knob: how its values go on; nothing where none does.
+std::optional<double> ratio_of(const Study& study, std::string_view name) {
+    std::vector<Axis> axes = axes_of(study);
+    for (const Series& series : study.series)
+        axes.insert(axes.end(), series.axes.begin(), series.axes.end());
+    for (const Axis& axis : axes)
+        if (const auto ratio = ratio_of(axis); ratio && axis.name == name)
+            return ratio;
+    return std::nullopt;
+}
+
+} // namespace
+
 std::vector<Setting> strictest(const Study& study, int steps) {
     std::vector<Setting> settings;
     if (study.reference.empty()) {
         for (const Axis& axis : axes_of(study))
-            for (int i = steps; i >= 0; --i)
-                if (auto value = beyond(axis, i)) {
+            for (int i = std::abs(steps); i >= 0; --i)
+                if (auto value = beyond(axis, steps < 0 ? -i : i)) {
                     settings.push_back({axis.name, *std::move(value)});
                     break;
                 }
@@ -96,12 +113,26 @@ std::vector<Setting> strictest(const Study& study, int steps) {
     }
     for (const Setting& named : study.reference) {
         settings.push_back(named);
-        // Twice or half, as some series goes.
-        for (const Series& series : study.series)
-            for (const Axis& axis : series.axes)
-                if (const auto ratio = ratio_of(axis); ratio && axis.name == named.name && steps > 0)
-                    settings.back().value =
-                        scaled(named.value, std::pow(*ratio > 1 ? 2.0 : 0.5, steps)).value_or(named.value);
+        if (const auto ratio = ratio_of(study, named.name); ratio && steps != 0) // twice or half
+            settings.back().value =
+                scaled(named.value, std::pow(*ratio > 1 ? 2.0 : 0.5, steps)).value_or(named.value);
+    }
+    return settings;
+}
+
+std::vector<Setting> beside(const Study& study, int steps, double factor) {
+    std::vector<Setting> settings = strictest(study, steps);
+    for (Setting& setting : settings) {
+        const auto ratio = ratio_of(study, setting.name);
+        auto value = ratio ? scaled(setting.value, *ratio > 1 ? factor : 1 / factor) : std::nullopt;
+        if (!value)
+            continue;
+        if (is_int(*value)) {
+            const long long was = std::stoll(setting.value), is = std::stoll(*value);
+            const bool flipped = (was - is) % 2 != 0;
+            value = fmt::format("{}", flipped ? is : is + (*ratio > 1 ? 1 : is > 1 ? -1 : 0));
+        }
+        setting.value = *std::move(value);
     }
     return settings;
 }

@@ -9,8 +9,12 @@
 
 namespace tidemark::lab {
 
+/// A value that is a plain, finite number.
+std::optional<double> number_of(const std::string& text);
+
 /// The axis continued by so many values: in the ratio of its last two, at least a factor of two. Nothing for
-/// texts that are no numbers, a single value, and whole numbers that would come below 1.
+/// texts that are no numbers, a single value, and whole numbers that would come below 1. Below 0: so many
+/// values back.
 std::optional<std::string> beyond(const Axis& axis, int steps);
 
 /// Every knob that a study turns, with its values from coarse to strict: the axes of its last series and
@@ -19,7 +23,11 @@ std::vector<Axis> axes_of(const Study& study);
 
 /// The settings at which the study is most exact, `steps` further than it goes itself: its reference settings
 /// where it names some, twice as strict at each step, else the end of each axis. Equal to those of `steps` -
-/// 1 where nothing can go on.
+/// 1 where nothing can go on. Below 0: so many steps coarser.
 std::vector<Setting> strictest(const Study& study, int steps);
+
+/// The same settings, but that each number which could go on is `factor` (1 to 2) stricter, and odd where it
+/// was even: what repeats itself on the way of `strictest` shows there.
+std::vector<Setting> beside(const Study& study, int steps, double factor);
 
 } // namespace tidemark::lab

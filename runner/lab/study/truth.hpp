@@ -13,6 +13,9 @@
 
 namespace tidemark::lab {
 
+/// Where more of a truth's pixels are no numbers, the rest is no truth either.
+inline constexpr double k_most_blind = 0.1;
+
 /// The truth about the hits of each view.
 struct HitTruth {
     Standard standard;
@@ -21,16 +24,22 @@ struct HitTruth {
     std::vector<Reference> references;           ///< of each view, where there is one in double
 };
 
-/// Marches the scene's reference in double, for scenes that have one (lab/fields/reference.hpp). Nothing: it
-/// has none, or it was stopped.
-Result<std::optional<HitTruth>> certified_hits(const scene::Scene& scene, const Study& study,
-                                               const KeepGoing& keep_going);
+struct CertifiedHits {
+    std::optional<HitTruth> truth;
+    std::string why_not; ///< where there is none
+};
+
+/// Marches the reference that was written for the text of the scene's field (lab/fields/reference.hpp), in
+/// double.
+Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& study,
+                                     const KeepGoing& keep_going);
 
 /// The truth about the pictures, and about the hits where there is nothing better.
 struct PictureTruth {
     Standard standard;
     std::vector<image::Image> views;
-    std::vector<Hits> hits; ///< empty without mainHit
+    std::vector<PixelMask> blind; ///< of each view: pixels that have no truth
+    std::vector<Hits> hits;       ///< empty without mainHit; NaN: no truth
     Standard hit_standard;
     std::vector<Setting> settings; ///< that it was drawn with
     glsl::Precision precision = glsl::Precision::single;
@@ -38,13 +47,14 @@ struct PictureTruth {
 };
 
 /// Draws the scene with the study's reference settings or, without any, with the strictest value of every
-/// axis, made stricter until the picture stays the same; then once more with these settings in double
-/// precision, which is the truth where the scene can be promoted. `keep_going` false: the best so far.
+/// axis, made stricter until what further steps would change is small beside the error of the strictest
+/// point; in double precision where the scene can be promoted. `keep_going` false: the best so far.
 Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
                                         const KeepGoing& keep_going);
 
-/// Root of the mean square over the samples of all pictures.
-double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right);
+/// Root of the mean square over the samples of all pictures, but for `blind` pixels (by view; empty: none).
+double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right,
+                   const std::vector<PixelMask>& blind);
 
 /// One part of the height for every pixel: for scenes whose rays are not known.
 std::vector<double> plain_footprint(Extent extent);

@@ -12,19 +12,29 @@ bool timed(const WorkPrecision& point) {
     return point.measured() && point.all.time().runs > 0;
 }
 
+/// What a picture's PSNR is at least, whatever the truth's own error made of it; NaN: unknown.
+double least_psnr(const WorkPrecisionSet& set, const WorkPrecision& point) {
+    const auto& truth = set.picture_standard.uncertainty;
+    return truth ? -20 * std::log10(point.all.picture.samples.rmse + *truth) : std::nan("");
+}
+
+/// Even if the truth's own error is against it.
 bool keeps(const WorkPrecisionSet& set, const WorkPrecision& point) {
     const Promise& promise = set.study.promise;
     const auto& hits = point.all.hits;
-    if (set.has_hits() && !(hits && hits->wrong_tenth <= promise.most_wrong_percent))
+    // A wrong hit is told from a right one where the truth is good to a tenth of what parts them.
+    const bool told = set.hit_standard.uncertainty && *set.hit_standard.uncertainty <= 0.1 * k_wrong_distance;
+    if (set.has_hits() && !(told && hits && hits->wrong_tenth <= promise.most_wrong_percent))
         return false;
-    return !set.has_pictures() || point.all.picture.samples.psnr >= promise.least_psnr;
+    return !set.has_pictures() || least_psnr(set, point) >= promise.least_psnr;
 }
 
 template <class Wanted>
 const WorkPrecision* cheapest(const WorkPrecisionSet& set, Wanted wanted) {
     const WorkPrecision* best = nullptr;
     for (const WorkPrecision& point : set.points)
-        if (timed(point) && wanted(point) && (!best || point.all.time().median < best->all.time().median))
+        if (timed(point) && !point.idle && wanted(point) &&
+            (!best || point.all.time().median < best->all.time().median))
             best = &point;
     return best;
 }
@@ -47,19 +57,26 @@ std::string quality_of(const WorkPrecisionSet& set, const WorkPrecision& point) 
     return (set.has_hits() && point.all.hits
                 ? fmt::format("{} % wrong, ", figure(point.all.hits->wrong_tenth))
                 : "") +
-           fmt::format("{:.1f} dB", point.all.picture.samples.psnr);
+           (point.hollow ? fmt::format("hollow: at least {:.1f} dB", least_psnr(set, point))
+                         : fmt::format("{:.1f} dB", point.all.picture.samples.psnr));
 }
 
 std::string cheapest_sentence(const WorkPrecisionSet& set) {
+    if (!set.picture_standard.uncertainty)
+        return fmt::format("no verdict on {}: the truth's own error is unknown", promise_of(set));
     const WorkPrecision* best = cheapest_good(set);
     if (!best)
-        return fmt::format("no setting of this study has {}", promise_of(set));
+        return fmt::format("no setting of this study is sure to have {}", promise_of(set));
     return fmt::format("cheapest setting with {}: {} ({}; {})", promise_of(set), best->point.label,
                        cost_of(*best), quality_of(set, *best));
 }
 
 std::string equal_error_sentence(const WorkPrecisionSet& set) {
     const WorkPrecision& defaults = set.points.front();
+    if (defaults.measured() && defaults.hollow)
+        return fmt::format("no verdict at equal error: {} are too near the truth to be told from its own "
+                           "error (hollow)",
+                           set.words.defaults);
     const WorkPrecision* best = cheapest_as_exact(set);
     if (!best || !timed(defaults))
         return {};
@@ -77,6 +94,30 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
     return fmt::format("at equal error {:.2f} x [{:.2f}, {:.2f}] {} than {}: {}", gain->ratio,
                        gain->confidence.low, gain->confidence.high, gain->ratio > 1 ? "faster" : "slower",
                        set.words.defaults, best->point.label);
+}
+
+/// Nothing to choose from: the scene as it is, and what shows the same.
+bool all_idle(const WorkPrecisionSet& set) {
+    return !set.idle.empty() &&
+           std::all_of(set.points.begin() + 1, set.points.end(),
+                       [](const WorkPrecision& point) { return point.idle || !point.measured(); });
+}
+
+void add_verdicts(const WorkPrecisionSet& set, std::vector<std::string>& found) {
+    for (const IdleKnob& knob : set.idle)
+        found.push_back(fmt::format("{} changes nothing here: {} shows the same to the bit at all its values",
+                                    knob.name,
+                                    knob.series == knob.name ? "the scene" : "'" + knob.series + "'"));
+    if (!set.picture_standard.none.empty())
+        found.push_back("there is no truth about the pictures: " + set.picture_standard.none);
+    if (all_idle(set))
+        return;
+    if (set.has_pictures() && set.picture_standard.none.empty()) // a promise is about what is to be seen
+        found.push_back(cheapest_sentence(set));
+    if (!standard_of(set).none.empty())
+        return;
+    if (std::string sentence = equal_error_sentence(set); !sentence.empty())
+        found.push_back(std::move(sentence));
 }
 
 } // namespace
@@ -104,15 +145,13 @@ const WorkPrecision* cheapest_good(const WorkPrecisionSet& set) {
 
 const WorkPrecision* cheapest_as_exact(const WorkPrecisionSet& set) {
     const double error = error_of(set, set.points.front().all);
-    return cheapest(set, [&](const WorkPrecision& point) { return error_of(set, point.all) <= error; });
+    return cheapest(
+        set, [&](const WorkPrecision& point) { return !point.hollow && error_of(set, point.all) <= error; });
 }
 
 std::vector<std::string> sentences(const WorkPrecisionSet& set) {
     std::vector<std::string> found;
-    if (set.has_pictures()) // a promise is about what is to be seen
-        found.push_back(cheapest_sentence(set));
-    if (std::string sentence = equal_error_sentence(set); !sentence.empty())
-        found.push_back(std::move(sentence));
+    add_verdicts(set, found);
     const auto drifted = std::ranges::count_if(
         set.points, [](const WorkPrecision& point) { return point.measured() && point.all.time().drifted; });
     if (drifted > 0)
@@ -120,13 +159,31 @@ std::vector<std::string> sentences(const WorkPrecisionSet& set) {
             fmt::format("times of {} of {} points drifted while they were measured: the machine was busy",
                         drifted, set.points.size()));
     const auto hollow = std::ranges::count_if(set.points, &WorkPrecision::hollow);
-    if (hollow > 0)
+    if (hollow > 0 && standard_of(set).none.empty())
         found.push_back(
             fmt::format("{} too near the reference to be told from its own error (hollow)",
                         hollow == 1 ? std::string("1 point is") : fmt::format("{} points are", hollow)));
+    for (const auto& [what, blind] :
+         {std::pair{"pictures", set.picture_standard.blind}, {"hits", set.hit_standard.blind}})
+        if (blind > 0)
+            found.push_back(
+                fmt::format("the truth about the {} is NaN or infinite in {}, of which no error is "
+                            "told",
+                            what, blind == 1 ? std::string("1 pixel") : fmt::format("{} pixels", blind)));
     if (!set.circumstances.complete)
         found.push_back("incomplete: the study was interrupted");
     return found;
+}
+
+std::string held_sentence(const WorkPrecisionSet& set) {
+    constexpr size_t k_told = 8;
+    if (set.held.empty())
+        return {};
+    const size_t told = std::min(k_told, set.held.size());
+    const std::vector<Setting> first(set.held.begin(), set.held.begin() + long(told));
+    return fmt::format(
+        "held fixed, in the truth too, so that no figure tells what it costs: {}{}", to_string(first),
+        told < set.held.size() ? fmt::format(" and {} more (study.json)", set.held.size() - told) : "");
 }
 
 } // namespace tidemark::lab

@@ -29,6 +29,31 @@ std::string error_name(const WorkPrecisionSet& set) {
     return set.has_hits() ? set.words.distance_error : "RMSE of the picture";
 }
 
+const Standard& standard_of(const WorkPrecisionSet& set) {
+    return set.has_hits() ? set.hit_standard : set.picture_standard;
+}
+
+std::vector<std::string> set_names(const WorkPrecisionSet& set) {
+    std::vector<std::string> names;
+    for (const WorkPrecision& point : set.points)
+        for (const Setting& setting : point.point.settings)
+            if (std::ranges::find(names, setting.name) == names.end())
+                names.push_back(setting.name);
+    return names;
+}
+
+std::string value_at(const WorkPrecisionSet& set, const Point& point, const std::string& name) {
+    for (const std::vector<Setting>& settings : {merged(point.settings), set.scene_values})
+        if (const auto found = std::ranges::find(settings, name, &Setting::name); found != settings.end())
+            return found->value;
+    return {};
+}
+
+std::string series_name(const WorkPrecisionSet& set, const Point& point) {
+    return point.series < set.study.series.size() ? set.study.series[point.series].name
+                                                  : std::string(k_defaults);
+}
+
 std::vector<double> mean_of_views(const std::vector<std::vector<double>>& clock) {
     std::vector<double> means(clock.empty() ? 0 : clock.front().size(), 0.0);
     for (const std::vector<double>& view : clock)
@@ -38,14 +63,13 @@ std::vector<double> mean_of_views(const std::vector<std::vector<double>>& clock)
 }
 
 void judge(WorkPrecisionSet& set) {
-    const auto& uncertainty =
-        set.has_hits() ? set.hit_standard.uncertainty : set.picture_standard.uncertainty;
+    const auto& uncertainty = standard_of(set).uncertainty;
     for (WorkPrecision& point : set.points) {
         const double error = error_of(set, point.all);
         point.hollow = point.measured() && (!uncertainty || !(error >= k_solid * *uncertainty));
-        point.on_front = timed(point) && !std::isnan(error) &&
+        point.on_front = timed(point) && !point.idle && !std::isnan(error) &&
                          std::ranges::none_of(set.points, [&](const WorkPrecision& other) {
-                             return timed(other) && dominates(set, other, point);
+                             return timed(other) && !other.idle && dominates(set, other, point);
                          });
     }
 }

@@ -15,9 +15,13 @@
 
 namespace tidemark::lab {
 
+/// One for each pixel; empty: none.
+using PixelMask = std::vector<bool>;
+
 /// One point on one view, or on all views together.
 struct Outcome {
-    image::PictureMetrics picture;
+    image::PictureMetrics picture; ///< over the pixels that have a truth
+    size_t no_truth = 0;           ///< pixels of the picture that have none
     std::optional<HitErrors> hits; ///< of scenes with mainHit
     std::optional<double>
         normal_degrees; ///< median angle between the true normals at the true and the found hit
@@ -52,6 +56,7 @@ struct WorkPrecision {
     double compile_milliseconds = 0;
     double first_draw_milliseconds = 0;
     bool hollow = false;   ///< its error is under ten times the reference's uncertainty
+    bool idle = false;     ///< shows what an earlier point shows, from which only idle knobs part it
     bool on_front = false; ///< no other point is both cheaper and better
 
     /// By the clock that the study goes by.
@@ -63,7 +68,26 @@ struct WorkPrecision {
 struct Standard {
     std::string method;                ///< in words; empty: there is none
     std::optional<double> uncertainty; ///< in the unit of the error; nothing: unknown
-    std::string check;                 ///< how the uncertainty was found
+    std::string check;                 ///< how the uncertainty was found, or why it is unknown
+    std::string none{};                ///< why there is no truth after all; no error is told then
+    size_t blind = 0;                  ///< pixels of all views that have no truth
+    std::string field_hash{};          ///< of a reference written for a text
+};
+
+/// A knob that changes nothing: all pictures of a curve, and where its rays end, are the same to the bit.
+struct IdleKnob {
+    std::string name;
+    std::string series;
+};
+
+/// How the error of a curve falls, as a power of its last knob.
+struct ObservedOrder {
+    std::string series;
+    std::string knob;
+    std::vector<Setting> fixed;  ///< its other knobs
+    std::optional<double> order; ///< above 0: the error falls towards the strict end
+    double uncertainty = 0;      ///< standard error of the fit
+    std::string how;             ///< the fit in words, or why there is none
 };
 
 /// How the figures came about.
@@ -98,6 +122,10 @@ struct WorkPrecisionSet {
     Standard hit_standard;
     Standard picture_standard;
     std::vector<WorkPrecision> points; ///< points_of(study), in that order
+    std::vector<Setting> scene_values; ///< of every knob that a point sets: what the scene itself has
+    std::vector<Setting> held;         ///< numbers of the scene that no point sets: the truth has them, too
+    std::vector<IdleKnob> idle;
+    std::vector<ObservedOrder> orders;
 
     bool has_hits() const { return !hit_standard.method.empty(); }
     bool has_pictures() const { return !picture_standard.method.empty(); }
@@ -106,11 +134,19 @@ struct WorkPrecisionSet {
 /// The error that diagrams and verdicts are about: RMS of t where there are hits, else RMSE of the picture.
 double error_of(const WorkPrecisionSet& set, const Outcome& outcome);
 std::string error_name(const WorkPrecisionSet& set);
+const Standard& standard_of(const WorkPrecisionSet& set);
 
 /// The mean over the views of each round, of one clock.
 std::vector<double> mean_of_views(const std::vector<std::vector<double>>& clock);
 
-/// Marks hollow points and the Pareto front of error and median time.
+/// Names that points set, each once, in the order in which they come.
+std::vector<std::string> set_names(const WorkPrecisionSet& set);
+/// What a point has for a knob: its own setting, else the scene's.
+std::string value_at(const WorkPrecisionSet& set, const Point& point, const std::string& name);
+/// Of a series' name: the scene's defaults have none of their own.
+std::string series_name(const WorkPrecisionSet& set, const Point& point);
+
+/// Marks hollow points and the Pareto front of error and median time. Idle points are on no front.
 void judge(WorkPrecisionSet& set);
 
 } // namespace tidemark::lab

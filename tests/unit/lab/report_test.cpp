@@ -86,9 +86,38 @@ TEST(Verdict, says_when_nothing_is_good_enough_and_when_it_was_cut_short) {
     WorkPrecisionSet set = set_of({point(1, "defaults", 0.1, 10)});
     set.circumstances.complete = false;
     EXPECT_THAT(sentences(set),
-                ElementsAre("no setting of this study has PSNR >= 50 dB",
+                ElementsAre("no setting of this study is sure to have PSNR >= 50 dB",
                             "nothing in this study is as exact as the scene's defaults and cheaper",
                             "incomplete: the study was interrupted"));
+}
+
+TEST(Verdict, compares_no_hollow_points_and_counts_the_truths_own_error_against_a_promise) {
+    WorkPrecisionSet set = usual();
+    set.picture_standard.uncertainty = 0.0015; // only the defaults' and "8" are ten times as much
+    judge(set);
+    EXPECT_EQ(set.points[0].hollow, true);
+    EXPECT_EQ(cheapest_good(set)->point.label, "32"); // 60 dB, 52 with the truth's error against it
+    EXPECT_THAT(sentences(set), testing::Contains(HasSubstr("hollow: at least 52.0 dB")));
+    EXPECT_THAT(sentences(set),
+                testing::Contains("no verdict at equal error: the scene's defaults are too near the "
+                                  "truth to be told from its own error (hollow)"));
+    set.picture_standard.uncertainty = 0.01;
+    judge(set);
+    EXPECT_EQ(cheapest_good(set), nullptr);
+    set.picture_standard.uncertainty.reset();
+    judge(set);
+    EXPECT_EQ(sentences(set)[0], "no verdict on PSNR >= 50 dB: the truth's own error is unknown");
+    set.picture_standard.none = "it does not converge";
+    EXPECT_THAT(sentences(set), ElementsAre("there is no truth about the pictures: it does not converge"));
+}
+
+TEST(Verdict, never_names_a_point_that_is_idle) {
+    WorkPrecisionSet set = usual();
+    set.points[2].idle = set.points[3].idle = true;
+    judge(set);
+    EXPECT_EQ(cheapest_good(set)->point.label, "64");
+    EXPECT_EQ(cheapest_as_exact(set)->point.label, "defaults");
+    EXPECT_FALSE(set.points[2].on_front);
 }
 
 TEST(Data, json_has_everything_and_null_for_what_is_no_number) {
@@ -131,7 +160,7 @@ TEST(Diagram, texts_are_no_commands) {
     set.study.series[0].name = "x'; system('rm') ; \n'";
     set.points[1].point.knob = "a\"b";
     const std::string script = diagram_script(set, Across::time, "t");
-    EXPECT_THAT(script, HasSubstr("title 'x''; system(''rm'') ;  '' (heuristic)'"));
+    EXPECT_THAT(script, HasSubstr("title 'x\u2019; system(\u2019rm\u2019) ;  \u2019 (heuristic)'"));
     EXPECT_THAT(script, HasSubstr("\"a'b\""));
 }
 
@@ -227,7 +256,7 @@ TEST(Data, what_a_set_has_not_is_left_out) {
     EXPECT_THAT(page, Not(HasSubstr("float target")));
     EXPECT_THAT(sentences(set), ElementsAre(HasSubstr("faster than the bake's own setting: 16")));
     EXPECT_THAT(diagram_script(set, Across::work, "x"), testing::IsEmpty()); // nobody counted
-    EXPECT_THAT(diagram_script(set, Across::time, "x"), HasSubstr("title 'the bake''s own setting'"));
+    EXPECT_THAT(diagram_script(set, Across::time, "x"), HasSubstr("title 'the bake\u2019s own setting'"));
 }
 
 // ---- Clocks ---------------------------------------------------------------------------------------------

@@ -185,6 +185,29 @@ TEST(Stricter, goes_on_as_the_values_went) {
     EXPECT_EQ(beyond({"N", {"1000000000", "2000000000"}}, 1), std::nullopt); // no int
 }
 
+TEST(Stricter, goes_back_as_the_values_came) {
+    EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, -1), "32");
+    EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, -2), "16");
+    EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, -3), std::nullopt);
+    Study study;
+    study.series = series_of({{"N", {"16", "32"}}});
+    EXPECT_EQ(strictest(study, -1)[0].value, "16");
+    EXPECT_EQ(strictest(study, -5)[0].value, "16");
+    study.reference = {{"N", "256"}};
+    EXPECT_EQ(strictest(study, -2)[0].value, "64");
+}
+
+TEST(Stricter, settings_beside_the_ladder_are_odd_for_even) {
+    Study study;
+    study.series = series_of({{"S", {"A", "B"}}, {"E", {"0.2", "0.1"}}, {"N", {"8", "16"}}});
+    EXPECT_THAT(beside(study, 1, 1.37),
+                ElementsAre(Setting{"S", "B"}, Setting{"E", "0.0364963504"}, Setting{"N", "45"}));
+    EXPECT_THAT(beside(study, 1, 1.71)[2], (Setting{"N", "55"}));
+    study.series = series_of({{"STRIDE", {"8", "4"}}});
+    EXPECT_EQ(beside(study, 0, 1.37)[0].value, "3");
+    EXPECT_EQ(beside(study, 2, 1.37)[0].value, "1"); // nothing is stricter
+}
+
 TEST(Stricter, all_axes_of_a_command_line_go_on) {
     Study study;
     study.series = series_of({{"A", {"1", "2"}}, {"B", {"0.1", "0.01"}}});

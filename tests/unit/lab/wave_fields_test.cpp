@@ -1,6 +1,9 @@
 // The fields of gerstner_waves and procedural_ocean against their own bounds and against geometry.
 #include "dense_march.hpp"
-#include "lab/fields/reference.hpp"
+#include "glsl/overrides.hpp"
+#include "lab/fields/field_text.hpp"
+#include "lab/fields/gerstner_waves_field.hpp"
+#include "lab/fields/procedural_ocean_field.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/geometric.hpp>
@@ -12,16 +15,22 @@
 namespace tidemark::lab {
 namespace {
 
-class WaveFields : public testing::TestWithParam<const char*> {
+struct Waves {
+    const char* scene;
+    MakeReference make;
+};
+
+class WaveFields : public testing::TestWithParam<Waves> {
 protected:
     scene::Scene scene() const {
-        auto loaded = scene::load_scene(std::string(TIDEMARK_SOURCE_DIR "/shaders/") + GetParam() + ".glsl");
+        auto loaded =
+            scene::load_scene(std::string(TIDEMARK_SOURCE_DIR "/shaders/") + GetParam().scene + ".glsl");
         EXPECT_TRUE(loaded) << to_string(loaded.error());
         return *std::move(loaded);
     }
     Reference reference(const scene::Scene& scene, double time) const {
-        const auto made = find_reference(GetParam())(
-            {.knobs = scene.knobs, .time = time, .resolution = {64, 36}, .octaves = 3});
+        const auto made =
+            GetParam().make({.knobs = scene.knobs, .time = time, .resolution = {64, 36}, .octaves = 3});
         EXPECT_TRUE(made) << to_string(made.error());
         return *made;
     }
@@ -72,14 +81,16 @@ TEST_P(WaveFields, CertifiedMarchAgreesWithADenseOne) {
     EXPECT_GT(hits, 15);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, WaveFields, testing::Values("gerstner_waves", "procedural_ocean"),
-                         [](const auto& scene) { return std::string(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Scenes, WaveFields,
+                         testing::Values(Waves{"gerstner_waves", gerstner_waves_reference},
+                                         Waves{"procedural_ocean", procedural_ocean_reference}),
+                         [](const auto& waves) { return std::string(waves.param.scene); });
 
 TEST(GerstnerWavesField, NegativeScalesAreRefused) {
     auto loaded = scene::load_scene(TIDEMARK_SOURCE_DIR "/shaders/gerstner_waves.glsl");
     ASSERT_TRUE(loaded);
     ASSERT_TRUE(scene::override_knob(*loaded, "wave_scale=-0.5"));
-    EXPECT_FALSE(find_reference("gerstner_waves")({.knobs = loaded->knobs}));
+    EXPECT_FALSE(gerstner_waves_reference({.knobs = loaded->knobs}));
 }
 
 /// The document's four waves: where they put the water that rests at `rest`.
@@ -100,7 +111,7 @@ TEST(GerstnerWavesField, IsZeroWhereTheDocumentsWavesPutTheWater) {
     auto loaded = scene::load_scene(TIDEMARK_SOURCE_DIR "/shaders/gerstner_waves.glsl");
     ASSERT_TRUE(loaded);
     for (const double time : {0.0, 3.5, 60.0}) {
-        const auto r = find_reference("gerstner_waves")({.knobs = loaded->knobs, .time = time});
+        const auto r = gerstner_waves_reference({.knobs = loaded->knobs, .time = time});
         ASSERT_TRUE(r);
         std::mt19937 random(9);
         std::uniform_real_distribution<double> wide(-50, 50);
@@ -113,14 +124,9 @@ TEST(GerstnerWavesField, IsZeroWhereTheDocumentsWavesPutTheWater) {
 TEST(GerstnerWavesField, HasTheBoundsThatAreProvedByHand) {
     auto loaded = scene::load_scene(TIDEMARK_SOURCE_DIR "/shaders/gerstner_waves.glsl");
     ASSERT_TRUE(loaded);
-    const auto r = find_reference("gerstner_waves")({.knobs = loaded->knobs});
+    const auto r = gerstner_waves_reference({.knobs = loaded->knobs});
     EXPECT_NEAR(r->field.lipschitz, 1.5119, 1e-4);
     EXPECT_NEAR(r->field.highest, 0.8515, 1e-4);
-}
-
-TEST(FindReference, KnowsTheMarchedScenesAndNoOther) {
-    EXPECT_NE(find_reference("water_surface"), nullptr);
-    EXPECT_EQ(find_reference("pseudo3d_water"), nullptr);
 }
 
 } // namespace

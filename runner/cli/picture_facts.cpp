@@ -1,0 +1,33 @@
+#include "cli/picture_facts.hpp"
+
+#include "cli/version.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::cli {
+
+std::string to_string(const render::OrbitCamera& camera) {
+    const glm::dvec3& target = camera.target;
+    return fmt::format("{},{},{}", camera.azimuth, camera.elevation, camera.distance) +
+           (target == glm::dvec3(0) ? "" : fmt::format(" around {},{},{}", target.x, target.y, target.z));
+}
+
+std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene,
+                                                             const FrameFacts& facts) {
+    const glm::vec4& mouse = facts.mouse;
+    std::vector<std::pair<std::string, std::string>> metadata{
+        {"Scene", scene.file.string()},
+        {"Frame", fmt::format("{}", facts.frame)},
+        {"iTime", fmt::format("{}", facts.time)},
+        {"iMouse", fmt::format("{},{},{},{}", mouse.x, mouse.y, mouse.z, mouse.w)},
+        {"Camera", to_string(facts.camera)},
+        {"Software", fmt::format("tidemark {}", k_version)}};
+    std::string knobs;
+    for (const scene::Knob& knob : scene.knobs)
+        knobs += fmt::format("{}{}={}", knobs.empty() ? "" : "; ", knob.name, scene::to_string(knob));
+    if (!knobs.empty())
+        metadata.emplace_back("Knobs", std::move(knobs));
+    return metadata;
+}
+
+} // namespace tidemark::cli

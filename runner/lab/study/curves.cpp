@@ -1,0 +1,190 @@
+#include "lab/study/curves.hpp"
+
+#include "lab/study/stricter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+namespace tidemark::lab {
+namespace {
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * 8) == 0);
+}
+
+/// The same pictures, and rays that end in the same places: how much work that was does not count.
+bool shows_same(const Sight& a, const Sight& b) {
+    return a.pictures == b.pictures && a.hits.size() == b.hits.size() &&
+           std::equal(a.hits.begin(), a.hits.end(), b.hits.begin(),
+                      [](const Hits& x, const Hits& y) { return same_bits(x.distance, y.distance); });
+}
+
+/// Whether two points have the same values for all knobs but these.
+bool same_but(const WorkPrecisionSet& set, const Point& a, const Point& b,
+              const std::vector<std::string>& names, const std::vector<std::string>& but) {
+    return std::ranges::all_of(names, [&](const std::string& name) {
+        return std::ranges::find(but, name) != but.end() || value_at(set, a, name) == value_at(set, b, name);
+    });
+}
+
+/// Of the points of `series` and the scene as it is: whether no two that only `knob` parts differ, and some
+/// do not.
+bool is_idle(const WorkPrecisionSet& set, const std::vector<Sight>& sights,
+             const std::vector<std::string>& names, size_t series, const std::string& knob) {
+    bool compared = false;
+    for (size_t i = 1; i < set.points.size(); ++i) {
+        const WorkPrecision& point = set.points[i];
+        if (point.point.series != series || !point.measured())
+            continue;
+        for (size_t k = 0; k < i; ++k) {
+            const WorkPrecision& other = set.points[k];
+            if (!other.measured() || !same_but(set, point.point, other.point, names, {knob}) ||
+                value_at(set, point.point, knob) == value_at(set, other.point, knob))
+                continue;
+            if (!shows_same(sights[i], sights[k]))
+                return false;
+            compared = true;
+        }
+    }
+    return compared;
+}
+
+/// One curve's points that tell something of the order, from coarse to strict.
+struct Curve {
+    std::vector<Setting> fixed;
+    std::vector<double> knob, error; ///< logarithms
+    std::vector<std::string> values;
+    size_t points = 0; ///< hollow and other ones, too
+};
+
+double slope_between(const Curve& curve, size_t i) {
+    return (curve.error[i + 1] - curve.error[i]) / (curve.knob[i + 1] - curve.knob[i]);
+}
+
+/// Least squares: the slope and its standard error.
+std::pair<double, double> fit(const Curve& curve) {
+    const auto n = double(curve.knob.size());
+    double x = 0, y = 0, xx = 0, xy = 0, rest = 0;
+    for (size_t i = 0; i < curve.knob.size(); ++i) {
+        x += curve.knob[i] / n;
+        y += curve.error[i] / n;
+    }
+    for (size_t i = 0; i < curve.knob.size(); ++i) {
+        xx += (curve.knob[i] - x) * (curve.knob[i] - x);
+        xy += (curve.knob[i] - x) * (curve.error[i] - y);
+    }
+    const double slope = xy / xx;
+    for (size_t i = 0; i < curve.knob.size(); ++i)
+        rest += std::pow(curve.error[i] - y - slope * (curve.knob[i] - x), 2);
+    return {slope, std::sqrt(rest / (n - 2) / xx)};
+}
+
+constexpr size_t k_fewest_points = 3;
+/// One power describes slopes that lie within this, or this part of it, whichever is more.
+constexpr double k_spread = 0.25;
+
+/// `truth`: the truth's own error.
+ObservedOrder order_of(const Curve& curve, const std::string& knob, double truth) {
+    ObservedOrder order;
+    order.knob = knob;
+    order.fixed = curve.fixed;
+    if (curve.knob.size() < k_fewest_points) {
+        order.how = fmt::format("{} of {} points have an error that can be told from the truth's own, and it "
+                                "takes {}",
+                                curve.knob.size(), curve.points, k_fewest_points);
+        return order;
+    }
+    double least = INFINITY, most = -INFINITY;
+    for (size_t i = 0; i + 1 < curve.knob.size(); ++i) {
+        least = std::min(least, slope_between(curve, i));
+        most = std::max(most, slope_between(curve, i));
+    }
+    const auto [slope, deviation] = fit(curve);
+    const double towards = curve.knob.back() > curve.knob.front() ? -1 : 1;
+    const double allowed = std::max(k_spread, k_spread * std::abs(slope));
+    if (!(most - slope <= allowed && slope - least <= allowed)) {
+        order.how =
+            fmt::format("no one power: between neighbours it is {:.2f} to {:.2f}",
+                        std::min(towards * least, towards * most), std::max(towards * least, towards * most));
+        return order;
+    }
+    const double smallest = std::exp(*std::ranges::min_element(curve.error));
+    const double span = std::abs(curve.knob.back() - curve.knob.front());
+    order.order = towards * slope;
+    order.uncertainty = std::hypot(deviation, truth / smallest / span);
+    order.how = fmt::format("least squares of log error over log {} at {} points, {} to {}", knob,
+                            curve.knob.size(), curve.values.front(), curve.values.back());
+    return order;
+}
+
+} // namespace
+
+void find_idle(WorkPrecisionSet& set, const std::vector<Sight>& sights) {
+    const std::vector<std::string> names = set_names(set);
+    for (size_t series = 0; series < set.study.series.size(); ++series) {
+        std::vector<std::string> idle;
+        for (const Axis& axis : set.study.series[series].axes)
+            if (is_idle(set, sights, names, series, axis.name)) {
+                idle.push_back(axis.name);
+                set.idle.push_back({axis.name, set.study.series[series].name});
+            }
+        if (idle.empty())
+            continue;
+        for (size_t i = 1; i < set.points.size(); ++i) {
+            WorkPrecision& point = set.points[i];
+            if (point.point.series != series || !point.measured())
+                continue;
+            for (size_t k = 0; k < i && !point.idle; ++k)
+                point.idle = set.points[k].measured() &&
+                             same_but(set, point.point, set.points[k].point, names, idle) &&
+                             shows_same(sights[i], sights[k]);
+        }
+    }
+}
+
+void observe_orders(WorkPrecisionSet& set) {
+    const double truth = standard_of(set).uncertainty.value_or(0.0);
+    for (size_t series = 0; series < set.study.series.size(); ++series) {
+        if (set.study.series[series].axes.empty())
+            continue;
+        const std::string& knob = set.study.series[series].axes.back().name;
+        std::vector<Curve> curves;
+        for (const WorkPrecision& point : set.points) {
+            if (point.point.series != series || !point.measured())
+                continue;
+            std::vector<Setting> fixed = merged(point.point.settings);
+            std::erase_if(fixed, [&](const Setting& setting) { return setting.name == knob; });
+            auto curve = std::ranges::find(curves, fixed, &Curve::fixed);
+            if (curve == curves.end())
+                curve = curves.insert(curves.end(), Curve{std::move(fixed), {}, {}, {}, 0});
+            ++curve->points;
+            const std::string text = value_at(set, point.point, knob);
+            const auto value = number_of(text);
+            const double error = error_of(set, point.all);
+            if (point.hollow || !value || !(*value > 0) || !(error > 0) || !std::isfinite(error))
+                continue;
+            curve->knob.push_back(std::log(*value));
+            curve->error.push_back(std::log(error));
+            curve->values.push_back(text);
+        }
+        for (const Curve& curve : curves)
+            if (curve.points >= k_fewest_points) {
+                set.orders.push_back(order_of(curve, knob, truth));
+                set.orders.back().series = set.study.series[series].name;
+            }
+    }
+}
+
+std::string to_string(const ObservedOrder& order) {
+    std::string where = order.series == order.knob ? "" : fmt::format(" ({})", order.series);
+    if (!order.order)
+        return fmt::format("no observed order in {}{}: {}", order.knob, where, order.how);
+    return fmt::format("observed order in {}{}: {:.2f} +- {:.2f}, {}", order.knob, where, *order.order,
+                       std::max(order.uncertainty, 0.005), order.how);
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,267 @@
+"""`study`: what its figures are worth: truths that converge, that do not, that are no number; which text a reference in
+double belongs to; knobs that do nothing; what is held fixed; the order of an error."""
+import csv
+import json
+import math
+import re
+import shutil
+
+from support.program import ROOT, ProgramTest, main
+
+QUICK = ["--size", "16x9", "--budget", "1"]
+
+
+def scene(value: str, before: str = "") -> str:
+    return (f"{before}\nvoid mainImage(out vec4 c, in vec2 p) {{\n{value}\nc = vec4(vec3(x), 1.0); }}\n")
+
+
+def sum_of(term: str, count: str = "N") -> str:
+    return scene(f"float x = 0.0; for (int k = 1; k <= {count}; ++k) {{ float f = float(k); x += {term}; }}", "#define N 4")
+
+
+class Truth(ProgramTest):
+    def study(self, text: str, *arguments: str, name: str = "a.glsl", size=()) -> dict:
+        self.write(name, text)
+        done = self.run_program("study", name, *arguments, "--json", *QUICK, *size, "-o", "report")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.words = done.stderr
+        return json.loads(done.stdout)
+
+    def page(self) -> str:
+        return (self.folder / "report/report.html").read_text()
+
+    def expect_no_truth(self, study: dict, why: str) -> None:
+        self.assertRegex(study["references"]["picture"]["none"], why)
+        self.assertTrue([line for line in study["verdict"] if line.startswith("there is no truth about the pictures: ")])
+        self.assertFalse([line for line in study["verdict"] if "cheapest" in line or "equal error" in line])
+        for point in study["points"]:
+            self.assertIsNone(point["all"]["picture"]["rmse"])
+            self.assertTrue(point["hollow"])
+        self.assertRegex(self.words, "there is no truth about the pictures: .*" + why)
+        self.assertIn("Reference of the pictures</dt><dd>none: ", self.page())
+
+
+class OwnError(Truth):
+    """Every pixel has one value, so that the error of the truth is known."""
+
+    def expect_bound(self, text: str, limit: float, value, vary="N=4,8,16,32", most=3.0) -> None:
+        study = self.study(text, "--vary", vary)
+        reference = study["references"]["picture"]
+        steps = int(re.search(r"N = (\d+)", reference["method"]).group(1))
+        really = abs(limit - value(steps))
+        self.assertLessEqual(really, 1.001 * reference["uncertainty"], reference)
+        self.assertLess(reference["uncertainty"], most * really + 1e-6, reference)
+
+    def test_slow_sums(self):
+        self.expect_bound(sum_of("pow(f, -1.1) / 16.0"), 10.5844484649508098 / 16,
+                          lambda n: math.fsum(k ** -1.1 for k in range(1, n + 1)) / 16)
+        self.expect_bound(sum_of("pow(f, -1.5) / 4.0"), 2.6123753486854883 / 4,
+                          lambda n: math.fsum(k ** -1.5 for k in range(1, n + 1)) / 4)
+        self.expect_bound(sum_of("1.0 / (f * f)"), math.pi ** 2 / 6,
+                          lambda n: math.fsum(1 / k ** 2 for k in range(1, n + 1)))
+
+    def test_fast_ones(self):
+        self.expect_bound(sum_of("pow(0.9, f) / 9.0"), 1, lambda n: 1 - 0.9 ** n, vary="N=16,32,64", most=1e9)
+        self.expect_bound(scene("float x = 0.0; for (int k = 0; k < N; ++k) x += exp((float(k) + 0.5) / float(N)) / "
+                                "(2.0 * float(N));", "#define N 4"), (math.e - 1) / 2,
+                          lambda n: sum(math.exp((k + 0.5) / n) for k in range(n)) / (2 * n))
+
+    def test_what_does_not_converge_has_no_truth(self):
+        self.expect_no_truth(self.study(sum_of("1.0 / f"), "--vary", "N=4,8,16,32"), "it does not converge: ")
+        self.expect_no_truth(self.study(sum_of("0.01"), "--vary", "N=4,8"), "it does not converge: ")
+
+    def test_a_chaotic_map_gives_no_verdict(self):
+        study = self.study(scene("float x = 0.1 + 0.8 * p.x / iResolution.x; for (int k = 0; k < N; ++k) "
+                                 "x = 3.99 * x * (1.0 - x);", "#define N 4"), "--vary", "N=4,8,16,32")
+        self.assertTrue(all(point["hollow"] for point in study["points"]))
+        self.assertFalse([line for line in study["verdict"] if line.startswith(("cheapest", "at equal error"))])
+
+    def test_a_cycle_that_only_even_steps_hide_is_found(self):
+        two = scene("float x = 0.25; for (int k = 0; k < N; ++k) x = 0.125 / x;", "#define N 2")
+        self.expect_no_truth(self.study(two, "--vary", "N=2,4,8"),
+                             r"it does not settle: N = 8 and N = 16 show the same, but N = \d+ is 0\.25 from it")
+
+    def test_a_loop_that_is_capped_is_not_certain(self):
+        study = self.study(sum_of("1.0 / (f * f)", "min(N, 64)"), "--vary", "N=8,16,32,64")
+        reference = study["references"]["picture"]
+        self.assertGreater(reference["uncertainty"], 0.8 / 64)
+        self.assertIn("had it gone on instead of ending there", reference["self_check"])
+        strictest = {point["label"]: point for point in study["points"]}["N = 64"]
+        self.assertTrue(strictest["hollow"])
+
+    def test_nothing_to_go_on_is_no_truth(self):
+        text = scene("float x = FINE ? 0.25 : 0.5;", "#define FINE false")
+        self.expect_no_truth(self.study(text, "--vary", "FINE=false,true"),
+                             "no knob of the study is a number that could go on; name a truth with --reference")
+        study = self.study(text, "--vary", "FINE=false,true", "--reference", "FINE=true")
+        self.assertIsNone(study["references"]["picture"]["uncertainty"])
+        self.assertEqual(study["points"][0]["all"]["picture"]["rmse"], 0.25)
+        self.assertEqual(study["verdict"][0], "no verdict on PSNR >= 50 dB: the truth's own error is unknown")
+
+
+class NotANumber(Truth):
+    MIDPOINT = ("float x = 0.0; for (int k = 0; k < N; ++k) x += exp(-3.0 * (float(k) + 0.5) / float(N)) / float(N);"
+                "if ({}) x = sqrt(-1.0 - p.x);")
+
+    def test_pixels_of_a_truth_that_is_nan_are_in_no_error(self):
+        plain = self.study(scene(self.MIDPOINT.format("false"), "#define N 4"), "--vary", "N=4,8,16")
+        study = self.study(scene(self.MIDPOINT.format("p.x < 1.0"), "#define N 4"), "--vary", "N=4,8,16")
+        reference = study["references"]["picture"]
+        self.assertEqual(reference["no_truth_pixels"], 2 * 9)
+        self.assertAlmostEqual(reference["uncertainty"] / plain["references"]["picture"]["uncertainty"], 1, places=4)
+        for one, other in zip(study["points"], plain["points"]):
+            mine, whole = one["all"]["picture"], other["all"]["picture"]
+            self.assertAlmostEqual(mine["rmse"] / whole["rmse"], 1, places=4)
+            self.assertAlmostEqual(mine["psnr_db"], whole["psnr_db"], places=3)
+            self.assertEqual((mine["no_truth_pixels"], mine["non_finite_pixels"]), (18, 18))
+        self.assertIn("the truth about the pictures is NaN or infinite in 18 pixels, of which no error is told",
+                      study["verdict"])
+        self.assertIn("is NaN or infinite in 18 pixels", self.words)
+        self.assertIn("It is NaN or infinite in 18 pixels", self.page())
+
+    def test_a_truth_of_too_many_is_none(self):
+        self.expect_no_truth(self.study(scene(self.MIDPOINT.format("p.x < 4.0"), "#define N 4"), "--vary", "N=4,8,16"),
+                             r"25 % of its pixels are NaN or infinite")
+        self.expect_no_truth(self.study(scene(self.MIDPOINT.format("N > 8"), "#define N 4"), "--vary", "N=4,8,16"),
+                             r"100 % of its pixels are NaN or infinite")
+
+    def test_a_point_that_is_nan_where_the_truth_is_not_has_no_number(self):
+        study = self.study(scene(self.MIDPOINT.format("N == 8 && p.x < 1.0"), "#define N 4"), "--vary", "N=4,8,16")
+        bad = study["points"][2]["all"]["picture"]
+        self.assertEqual((bad["rmse"], bad["non_finite_pixels"], bad["no_truth_pixels"]), (None, 18, 0))
+
+    def test_hits_of_a_truth_that_is_nan_are_in_no_error(self):
+        def plane(bad: str) -> str:
+            return (scene("float x = 0.5;", "#define N 4") +
+                    "#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) {\nfloat t = 0.0;\n"
+                    "for (int i = 0; i < N; ++i) t += 0.5 * (5.0 - t);\n"
+                    f"hit = vec4({bad} ? sqrt(-p.x) : t, float(N), 0, 0);\n}}\n#endif\n")
+        plain = self.study(plane("false"), "--vary", "N=4,8,16")
+        study = self.study(plane("p.x < 1.0"), "--vary", "N=4,8,16")
+        for one, other in zip(study["points"], plain["points"]):
+            mine, whole = one["all"]["hits"], other["all"]["hits"]
+            self.assertEqual((mine["no_truth_pixels"], mine["no_answer_percent"]), (18, 0))
+            self.assertAlmostEqual(mine["rms_t"], whole["rms_t"], places=6)
+            self.assertEqual(mine["false_hit_percent"], 0)
+            self.assertEqual(one["all"]["causes"]["no truth"], 18)
+        self.assertEqual(study["references"]["hits"]["no_truth_pixels"], 18)
+
+
+class WhatIsKnown(Truth):
+    def test_a_knob_that_does_nothing_is_named_and_gives_no_verdict(self):
+        study = self.study(scene("float x = p.x / 16.0;", "#define FOO 1"), "--vary", "FOO=1,2,4,8")
+        self.assertEqual(study["idle"], [{"knob": "FOO", "series": "FOO"}])
+        self.assertEqual(study["verdict"][0], "FOO changes nothing here: the scene shows the same to the bit at all its values")
+        self.assertFalse([line for line in study["verdict"] if "cheapest" in line or "equal error" in line])
+        self.assertTrue(all(point["idle"] for point in study["points"][1:]))
+        self.assertIn("FOO changes nothing here", self.words)
+
+    def test_one_of_two_knobs_does_nothing(self):
+        text = scene("float x = 0.0; for (int k = 0; k < N; ++k) x += exp((float(k) + 0.5) / float(N)) / "
+                     "(4.0 * float(N));", "#define FOO 1\n#define N 4")
+        self.write("a.study.json", json.dumps({
+            "series": [{"name": "steps", "vary": {"N": [4, 8, 16]}}, {"name": "nothing", "vary": {"FOO": [1, 2, 3]}}],
+            "reference": {"N": 256}}))
+        study = self.study(text)
+        self.assertEqual(study["idle"], [{"knob": "FOO", "series": "nothing"}])
+        idle = {point["label"] for point in study["points"] if point["idle"]}
+        self.assertEqual(idle, {"FOO = 1", "FOO = 2", "FOO = 3"})
+        self.assertFalse([point for point in study["points"] if point["idle"] and point["on_front"]])
+        self.assertRegex("\n".join(study["verdict"]), r"cheapest setting with PSNR >= 50 dB: (N = \d+|defaults) \(")
+
+    def test_observed_order(self):
+        rules = {"midpoint": ("(float(k) + 0.5)", 2), "left": ("float(k)", 1)}
+        for name, (place, order) in rules.items():
+            study = self.study(scene(f"float x = 0.0; for (int k = 0; k < N; ++k) x += exp({place} / float(N)) / "
+                                     "(4.0 * float(N));", "#define N 4"), "--vary", "N=4,8,16,32")
+            observed, = study["orders"]
+            self.assertEqual((observed["series"], observed["knob"], observed["fixed"]), ("N", "N", {}))
+            self.assertAlmostEqual(observed["order"], order, delta=0.1)
+            self.assertLess(abs(observed["order"] - order), 3 * observed["uncertainty"] + 0.05)
+            self.assertRegex(observed["fit"], r"least squares of log error over log N at [34] points, 4 to (16|32)")
+            self.assertRegex(self.words, rf"observed order in N: {observed['order']:.2f} \+- 0\.\d\d, least squares")
+            self.assertIn("observed order in N: ", self.page())
+        step = scene("float x = 0.0; for (float t = 0.5 * H; t < 1.0; t += H) x += 0.25 * H * exp(t);", "#define H 0.25")
+        observed, = self.study(step, "--vary", "H=0.25,0.125,0.0625,0.03125")["orders"]
+        self.assertAlmostEqual(observed["order"], 2, delta=0.1)  # falls with the step, too
+
+    def test_no_order_where_there_is_none(self):
+        geometric = scene("float x = 0.0; float y = 0.5; for (int k = 0; k < N; ++k) { x += y; y *= 0.5; }", "#define N 1")
+        observed, = self.study(geometric, "--vary", "N=1,2,4,8")["orders"]
+        self.assertIsNone(observed["order"])
+        self.assertRegex(observed["fit"], r"no one power: between neighbours it is \d\.\d\d to \d\.\d\d")
+        self.assertNotIn("observed order", self.words)
+        observed, = self.study(sum_of("1.0 / f"), "--vary", "N=4,8,16,32")["orders"]
+        self.assertIsNone(observed["order"])
+
+    def test_what_is_held_fixed_is_said(self):
+        text = scene("float x = 0.0; for (int k = 0; k < STEPS; ++k) x += exp((float(k) + 0.5) / float(STEPS)) / "
+                     "(4.0 * float(STEPS)); x += EPS * gain;",
+                     "#define STEPS 4\n#define EPS 0.01\n#iUniform float gain = 0.5\n#define NAME x")
+        study = self.study(text, "--vary", "STEPS=4,8,16")
+        self.assertEqual(study["held"], {"EPS": "0.01", "gain": "0.5"})
+        self.assertIn("held fixed, in the truth too, so that no figure tells what it costs: EPS = 0.01, gain = 0.5\n",
+                      self.words)
+        self.assertIn("<dt>Held fixed</dt><dd>EPS = 0.01, gain = 0.5.", self.page())
+        self.assertEqual(self.study(text, "--vary", "STEPS=4,8,16", "--vary", "EPS=0.1,0.05")["held"], {"gain": "0.5"})
+
+    def test_each_truth_has_its_own_check(self):
+        text = (scene("float x = 0.0; for (int k = 0; k < N; ++k) x += exp((float(k) + 0.5) / float(N)) / "
+                      "(4.0 * float(N));", "#define N 4") +
+                "#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) {\nfloat t = 0.0;\n"
+                "for (int i = 0; i < N; ++i) t += 5.0 / float(N * (N + i));\nhit = vec4(t, float(N), 0, 0);\n}\n#endif\n")
+        references = self.study(text, "--vary", "N=4,8,16")["references"]
+        self.assertNotEqual(references["hits"]["self_check"], references["picture"]["self_check"])
+        self.assertNotEqual(references["hits"]["uncertainty"], references["picture"]["uncertainty"])
+
+    def test_columns_of_the_settings(self):
+        text = scene("float x = 0.0; for (int k = 0; k < N; ++k) x += exp((float(k) + 0.5) / float(N)) * view / "
+                     "(4.0 * float(N));", "#define N 4\n#define view 1.0")
+        self.study(text, "--vary", "view=1.0,0.5", "--vary", "N=4,8,16")
+        rows = list(csv.DictReader((self.folder / "report/points.csv").read_text().splitlines()))
+        self.assertEqual([(row["set view"], row["N"]) for row in rows if row["view"] == "all"],
+                         [("1.0", "4"), ("1.0", "4"), ("1.0", "8"), ("1.0", "16"), ("0.5", "4"), ("0.5", "8"), ("0.5", "16")])
+
+
+class Certified(Truth):
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(ROOT / "shaders/lib", self.folder / "lib")
+        self.text = (ROOT / "shaders/water_surface.glsl").read_text()
+
+    def test_a_copy_under_another_name_keeps_its_reference(self):
+        study = self.study("// mine\n" + self.text, "--vary", "MAX_STEPS=16,64", name="my_sea.glsl")
+        hits = study["references"]["hits"]
+        self.assertIn("certified march in double, written for the text of this field (SHA-256 ", hits["method"])
+        self.assertRegex(hits["field_sha256"], r"\A[0-9a-f]{64}\Z")
+        self.assertNotIn("no march in double", self.words)
+
+    def test_an_edited_field_has_none_whatever_its_name(self):
+        moved = self.text.replace("return sea_step * (position.y + crests", "return sea_step * (position.y - 1.5 + crests")
+        self.assertNotEqual(moved, self.text)
+        study = self.study(moved, "--vary", "MAX_STEPS=64,128", name="water_surface.glsl")
+        said = r"no march in double holds the hits: no reference was written for the text of this field \(SHA-256 \w{12}\.\.\.\)"
+        self.assertRegex(self.words, said)
+        self.assertTrue([remark for remark in study["remarks"] if re.match(said, remark)])
+        self.assertRegex(self.page(), said)
+        hits = study["references"].get("hits")
+        if hits:
+            self.assertNotIn("certified", hits["method"])
+            self.assertNotIn("field_sha256", hits)
+            self.assertLess(study["points"][0]["all"]["hits"]["wrong_0.1_percent"], 5)
+
+    def test_octaves_that_are_no_plain_number_are_named_and_never_guessed(self):
+        study = self.study(re.sub(r"#define OCTAVES \d+", "#define OCTAVES (4 + 3)", self.text),
+                           "--vary", "MAX_STEPS=16,64", name="water_surface.glsl")
+        self.assertIn("the reference reads OCTAVES as a plain number, not as '(4 + 3)'", self.words)
+        self.assertNotIn("field_sha256", study["references"].get("hits", {}))
+
+    def test_no_scene_is_known_by_its_name(self):
+        names = [path.stem for path in (ROOT / "shaders").glob("*.glsl")]
+        for source in (ROOT / "runner").rglob("*.?pp"):
+            for name in names:
+                self.assertNotIn(f'"{name}', source.read_text(), source)
+
+
+if __name__ == "__main__":
+    main()
