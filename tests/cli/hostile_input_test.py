@@ -157,5 +157,44 @@ class OtherFiles(ProgramTest):
             self.assertEqual(done.returncode, 3)
 
 
+class Cache(ProgramTest):
+    """Programs are kept from run to run where that is safe, and nobody hears of it where it is not."""
+
+    def capture_in(self, **variables: str | None) -> None:
+        self.write("a.glsl", GOOD)
+        done = self.succeed("capture", "a.glsl", "--size", "4x4", env=environment(**variables))
+        said = [line for line in done.stderr.splitlines() if not line.endswith("---disabling.")]  # the driver's own
+        self.assertEqual(said, ["wrote a.png"])
+
+    def test_nowhere_to_keep_anything(self):
+        self.write("file", "")
+        (self.folder / "read-only").mkdir(mode=0o555)
+        os.symlink("round", self.folder / "round")
+        os.mkfifo(self.folder / "pipe")
+        for place in ("none", "file", "read-only", "round", "pipe", "a" * 300):
+            path = str(self.folder / place)
+            for variables in ({"HOME": path, "XDG_CACHE_HOME": None}, {"XDG_CACHE_HOME": path},
+                              {"HOME": place, "XDG_CACHE_HOME": None}, {"HOME": path, "XDG_CACHE_HOME": place}):
+                with self.subTest(**variables):
+                    self.capture_in(**variables)
+
+    def test_what_lies_in_its_place(self):
+        programs = self.folder / "cache/tidemark/programs"
+        self.capture_in(XDG_CACHE_HOME=str(self.folder / "cache"))
+        if not programs.exists():
+            self.skipTest("this driver has no form of its own for a program")
+        entry, = programs.iterdir()
+        self.assertEqual(programs.stat().st_mode & 0o777, 0o700)
+        letter = self.write("letter", "somebody's")
+        for plant in (lambda: os.mkfifo(entry), lambda: os.symlink(letter, entry), entry.mkdir):
+            entry.unlink()
+            plant()
+            self.capture_in(XDG_CACHE_HOME=str(self.folder / "cache"))
+            self.assertEqual(letter.read_text(), "somebody's")
+            if entry.is_dir():
+                entry.rmdir()
+                entry.touch()
+
+
 if __name__ == "__main__":
     main()

@@ -134,6 +134,16 @@ class Broken(ReloadTest):
         self.write("later.glsl", "#define MARK 5.0\n")
         self.expect_mark(view, 5)
 
+    def test_include_of_what_is_no_file(self):
+        view = self.start()
+        self.write("a.glsl", probe.shader(MARK, '#include ""'))
+        view.wait_for_title(r'\Aa\.glsl:1: error: #include "" names no file')
+        self.write("a.glsl", probe.shader(MARK, '#include "/"'))
+        view.wait_for_title(r"\Aa\.glsl:1: error: '/' lies outside")
+        self.expect_mark(view, 1)
+        self.write("a.glsl", marked(2))
+        self.expect_mark(view, 2)
+
     def test_new_include_that_is_broken_may_be_mended(self):
         view = self.start()
         self.write("new.glsl", "#define MARK 6.0\n#iUniform flaot x = 1.0\n")
