@@ -2,6 +2,7 @@
 
 #include "base/file.hpp"
 #include "image/files/child_process.hpp"
+#include "image/files/video_check.hpp"
 #include "image/files/video_times.hpp"
 
 #include <fmt/format.h>
@@ -221,6 +222,8 @@ Result<VideoFrames> VideoFrames::open(const std::filesystem::path& path) {
     auto times = parse_video_times(*text);
     if (!times)
         return refuse(path, times.error());
+    if (!is_whole_video(path))
+        return refuse(path, "the file is damaged or cut short");
     if (times->guessed)
         if (Result<void> replaced = replace_guessed_times(path, *times); !replaced)
             return refuse(path, replaced.error().message);

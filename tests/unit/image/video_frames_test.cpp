@@ -301,6 +301,27 @@ TEST_F(Video, a_damaged_or_shortened_file_gives_frames_or_a_message) {
     }
 }
 
+TEST_F(Video, a_file_that_was_cut_is_no_video) {
+    const std::pair<std::string, std::vector<std::string>> kinds[] = {
+        {"a.mkv", k_lossless},
+        {"a.webm", {"-c:v", "libvpx", "-b:v", "1M"}},
+        {"late.mp4", {"-c:v", "mpeg4"}},
+        {"early.mp4", {"-c:v", "mpeg4", "-movflags", "+faststart"}},
+        {"a.ogv", {"-c:v", "libtheora"}},
+        {"a.gif", {}},
+        {"a.avi", {"-c:v", "mpeg4"}},
+    };
+    for (const auto& [name, encoder] : kinds) {
+        const std::string whole = bytes_of(make(name, encoder, 20));
+        EXPECT_TRUE(VideoFrames::open(put(name, whole))) << name;
+        for (size_t i = 0; i < 10; ++i) {
+            const size_t length = i < 9 ? whole.size() * (i + 1) / 10 : whole.size() - 1;
+            EXPECT_FALSE(VideoFrames::open(put(name, whole.substr(0, length))))
+                << name << " cut to " << length;
+        }
+    }
+}
+
 TEST_F(Video, a_child_in_the_middle_of_its_work_is_ended_with_its_owner) {
     const fs::path path = make("a.mkv", k_lossless, 200);
     {
