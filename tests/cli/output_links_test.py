@@ -1,6 +1,5 @@
 """Where outputs go when a scene's folder is a stranger's: behind no link that was not named, over no file that the
 command reads, into a device and never in its place."""
-import hashlib
 import json
 import os
 import pathlib
@@ -132,15 +131,6 @@ class Links(ProgramTest):
                 self.refuse(["import", "x.json", "--force"], f"x/{name}")
                 shutil.rmtree(self.folder / "x")
 
-    def test_import_removes_nothing_elsewhere(self):
-        """The list of what import wrote comes with the folder."""
-        self.write("x.json", json.dumps({"Shader": {"info": {"name": "x"}, "renderpass": [
-            {"name": "Image", "type": "image", "code": PLAIN, "inputs": [], "outputs": [{"id": 37, "channel": 0}]}]}}))
-        digits = hashlib.sha256(b"before").hexdigest()
-        up = os.path.relpath(self.victim, self.folder / "x")
-        self.write("x/.tidemark-import", f"{digits}  {up}\n{digits}  {self.victim}\n")
-        self.succeed("import", "x.json")
-
     def test_bake(self):
         self.link("noise.png")
         self.refuse(["bake", "noise"], "noise.png")
@@ -220,7 +210,7 @@ class ReadAndWritten(ProgramTest):
 
     def test_study(self):
         self.write("folder/image.glsl", KNOB)
-        self.write("folder/study.json", json.dumps({"series": [{"name": "s", "settings": [{"level": 0.2}]}]}))
+        self.write("folder/study.json", json.dumps({"series": [{"name": "s", "vary": {"level": [0.2, 0.4]}}]}))
         self.refuse(["study", "folder", "-o", "folder"], "folder/study.json")
 
     def test_heights_of_an_island(self):
