@@ -14,6 +14,8 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <set>
 #include <system_error>
@@ -107,9 +109,19 @@ std::string without_digits(std::string stem) {
     return stem;
 }
 
-/// The process is gone: neither does this machine know its number, nor does another hold the file.
+/// Dead, whether or not somebody has asked how it died.
+bool has_ended(pid_t process) {
+    if (::kill(process, 0) != 0 && errno == ESRCH)
+        return true;
+    std::ifstream file(fmt::format("/proc/{}/stat", process));
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const size_t name_end = text.rfind(") "); // the name may have any character in it
+    return name_end != text.npos && (text[name_end + 2] == 'Z' || text[name_end + 2] == 'X');
+}
+
+/// Neither does its process live, nor does one that this machine does not know hold the file.
 bool is_abandoned(const fs::path& path, pid_t process) {
-    if (::kill(process, 0) == 0 || errno != ESRCH)
+    if (!has_ended(process))
         return false;
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat facts {};

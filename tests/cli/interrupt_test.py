@@ -1,4 +1,5 @@
 """Capture that is stopped: by Ctrl-C, which finishes the frame in hand, and by force."""
+import fcntl
 import re
 import shutil
 import signal
@@ -58,6 +59,9 @@ class Interrupted(ProgramTest):
         names = self.expect_whole_pictures()
         for name in self.files() - {"wave.glsl", *names}:
             self.assertRegex(name, r"\A\.wave\.\d{4}\.part-\d+-\d+\.png\Z")
+        for name in self.files() - {"wave.glsl", *names}:
+            with (self.folder / name).open() as file:
+                fcntl.flock(file, fcntl.LOCK_EX)  # whoever wrote it is gone
         self.succeed("capture", "wave.glsl", "--size", "16x16", "--frames", "0-1")  # the next run tidies up
         self.assertEqual(self.files(), {"wave.glsl", *names})
 

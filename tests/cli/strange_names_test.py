@@ -58,7 +58,7 @@ class Patterns(ProgramTest):
         self.write("a.glsl", PLAIN)
         for name in ("-y.mp4", "concat:a.mp4", "pipe:1.webm", "http:x.gif", "%d.mp4", "a b'c.mp4"):
             with self.subTest(name):
-                done = self.succeed("capture", "a.glsl", *SMALL, "--frames", "0-1", f"--output={name}")
+                done = self.succeed("capture", "a.glsl", *SMALL, "--fps", "50", "--frames", "0-1", f"--output={name}")
                 self.assertEqual(done.stderr, f"wrote {name}: 2 frames\n")
                 self.assertEqual(self.files(), {"a.glsl", name})
                 (self.folder / name).unlink()
