@@ -135,9 +135,7 @@ class Links(ProgramTest):
         self.link("noise.png")
         self.refuse(["bake", "noise"], "noise.png")
         self.link("island.exr")
-        self.refuse(["bake", "island", "--size", "64"], "island.exr")
-        self.link("ramps/water_colours.png")
-        names = {p.name for p in (self.folder / "ramps").iterdir()}
+        self.refuse(["bake", "island"], "island.exr")
         (self.folder / "empty").mkdir()
         self.succeed("bake", "ramps", "-o", "empty")
         name = sorted(p.name for p in (self.folder / "empty").iterdir())[0]
@@ -267,7 +265,7 @@ class Streams(ProgramTest):
                 if not name.endswith((".png", ".exr")) and not shutil.which("ffmpeg"):
                     continue
                 (self.folder / name).symlink_to("/dev/null")
-                self.succeed("capture", "a.glsl", *SMALL, "--frames", "0", "-o", name)
+                self.succeed("capture", "a.glsl", *SMALL, "--fps", "50", "-o", name)
                 self.assertTrue((self.folder / name).is_symlink())
         self.succeed("capture", "a.glsl", *SMALL, "-o", "n.png", "--tile", "8")
         self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
