@@ -112,8 +112,8 @@ class Links(ProgramTest):
         self.assertIn("'knob-study/maps'", done.stderr)
 
     def test_check(self):
-        self.link("shots/finite.png")
-        self.refuse(["check", "broken.glsl", "--probe", "finite", "-o", "shots"], "shots/finite.png")
+        self.link("shots/times.png")
+        self.refuse(["check", "broken.glsl", "--probe", "times", "-o", "shots"], "shots/times.png")
 
     def test_import(self):
         project = {"ver": "0.1", "info": {"id": "x", "name": "x"},
