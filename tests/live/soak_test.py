@@ -89,6 +89,7 @@ class Soak(LiveTest):
         for edit in range(EDITS // 4):
             self.edit()
         self.restore()
+        view.wait_for_title(r" (fps|still)\Z")
         self.expect_what_is_there(view)
 
 

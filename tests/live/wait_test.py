@@ -22,6 +22,7 @@ class Wait(LiveTest):
         return view
 
     def expect_mark(self, view: View, mark: float) -> None:
+        view.wait_for_title(r" (fps|still)\Z")  # before, there is no picture to save
         view.wait_until_told(MARK, lambda told: told["mark"] == mark)
 
     def test_a_file_that_does_not_compile(self):

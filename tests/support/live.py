@@ -110,7 +110,7 @@ class View:
     save_key = "s"
 
     def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str,
-                 first_title: str | None = " (fps|still)$", **variables: str) -> None:
+                 first_title: str | None = " (fps|still)(, .*)?$", **variables: str) -> None:
         """Waits for the window and its title, unless that is None."""
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")

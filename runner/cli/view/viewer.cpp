@@ -84,8 +84,8 @@ Result<Viewer> Viewer::open(Settings settings) {
             return fail(std::move(place.error()));
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
     auto window = platform::Window::create(settings.frames.extent, name + " - tidemark");
-    if (!window)
-        return fail(std::move(window.error()));
+    if (!window) // nothing can be waited for
+        return fail(std::move(first.scene ? window.error() : first.scene.error()));
     auto live =
         LiveScene::create(settings.scene, std::move(first), *window, {options_for(*window, settings), {}});
     if (!live)
@@ -235,7 +235,7 @@ std::string Viewer::trace_command() const {
     if (!settings_.frames.input && mouse != glm::vec4(0))
         options.mouse = fmt::format("{},{},{},{}{}", mouse.x, mouse.y, std::abs(mouse.z), std::abs(mouse.w),
                                     mouse.z > 0 ? ",down" : "");
-    const render::OrbitCamera& camera = controls_.camera();
+    const render::OrbitCamera camera = replay_ ? replay_->camera() : controls_.camera();
     const render::OrbitCamera& initial = settings_.frames.camera;
     if (camera.azimuth != initial.azimuth || camera.elevation != initial.elevation ||
         camera.distance != initial.distance)
@@ -349,10 +349,11 @@ void Viewer::obey(Key key, double now) {
 
 /// Whoever cannot get at a window that a frame holds wants to be rid of that frame, and keep the window.
 void Viewer::escape(double now) {
-    if (given_up_ && of_the_hold_)
+    if (given_up_ && now - given_up_at_ < k_hold_seconds)
         return; // pressed again, for the same frame
     if (stage_ && (of_the_hold_ || (slow_ && moving()))) {
         given_up_ = true;
+        given_up_at_ = now;
         clock_.rest();
         say(fmt::format(
             "{}: given up, a frame takes {:.1f} s: it goes on when a file of it is saved, or with "

@@ -103,11 +103,12 @@ private:
     std::string title_;
     render::FrameInputs shown_; ///< inputs of the frame on show
     double next_draw_ = 0;
-    double listened_at_ = 0;         ///< to what people do, last
-    double held_seconds_ = 0;        ///< so long nobody listened before that
-    bool of_the_hold_ = false;       ///< what people did then is being handled
-    bool drew_ = false;              ///< since then
-    bool slow_ = false;              ///< the frame that was drawn last held the window
+    double listened_at_ = 0;   ///< to what people do, last
+    double held_seconds_ = 0;  ///< so long nobody listened before that
+    bool of_the_hold_ = false; ///< what people did then is being handled
+    bool drew_ = false;        ///< since then
+    bool slow_ = false;        ///< the frame that was drawn last held the window
+    double given_up_at_ = 0;
     bool given_up_ = false;          ///< frames take too long: none until somebody asks for one, or saves
     double touched_at_ = 0;          ///< when somebody last changed what is drawn, or its size
     std::set<platform::Key> obeyed_; ///< keys that are down and that the scene knows nothing of
