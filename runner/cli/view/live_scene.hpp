@@ -29,6 +29,7 @@ public:
     struct View {
         render::RenderOptions options;
         render::FrameInputs inputs; ///< of the next frame, about
+        std::shared_ptr<Rehearsal> rehearsal{};
     };
 
     /// Watches the files of `scene`, which is what `request` asked for, and begins to build it. `window` is

@@ -1,5 +1,7 @@
 #include "cli/view/stage_builder.hpp"
 
+#include "glsl/driver_load.hpp"
+
 #include <algorithm>
 #include <mutex>
 
@@ -9,7 +11,10 @@ namespace {
 /// Compiling keeps a core busy, and the picture on show wants one too.
 constexpr size_t k_most_at_once = 3;
 
-Result<Stage> build(StageBuilder::Order order) {
+Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
+    if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
+        if (auto tried = order.rehearsal->try_out(unwanted); !tried)
+            return fail(std::move(tried.error()));
     if (order.settle)
         return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
     return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
@@ -43,7 +48,10 @@ void StageBuilder::launch(Order order) {
     newest_ = std::make_shared<Job>();
     std::thread thread([job = newest_, wake = wake_, order = std::move(order)]() mutable {
         {
-            auto built = build(std::move(order));
+            auto built = build(std::move(order), [&job] {
+                const std::lock_guard lock(job->mutex);
+                return job->abandoned;
+            });
             const std::lock_guard lock(job->mutex);
             if (!job->abandoned)
                 job->outcome.emplace(std::move(built));

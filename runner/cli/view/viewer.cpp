@@ -67,8 +67,8 @@ Result<Viewer> Viewer::open(Settings settings) {
     auto window = platform::Window::create(settings.frames.extent, scene->name() + " - tidemark");
     if (!window)
         return fail(std::move(window.error()));
-    auto live =
-        LiveScene::create(settings.scene, *std::move(scene), *window, {options_for(*window, settings), {}});
+    auto live = LiveScene::create(settings.scene, *std::move(scene), *window,
+                                  {options_for(*window, settings), {}, settings.rehearsal});
     if (!live)
         return fail(std::move(live.error()));
     return Viewer(std::move(settings), *std::move(window), *std::move(live));
@@ -284,7 +284,7 @@ void Viewer::save_picture() {
 }
 
 LiveScene::View Viewer::view() const {
-    return {options_for(window_, settings_), shown_};
+    return {options_for(window_, settings_), shown_, settings_.rehearsal};
 }
 
 Result<void> Viewer::follow_scene(double now) {

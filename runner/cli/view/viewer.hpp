@@ -31,6 +31,7 @@ public:
         std::filesystem::path record =
             {};             ///< where what people do is written; empty: nowhere. Excludes frames.input
         bool plain = false; ///< never settles
+        std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
 
     /// Opens the window and begins to compile. Fails like `load` and Window do.
