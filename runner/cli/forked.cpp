@@ -1,6 +1,7 @@
 #include "cli/forked.hpp"
 
 #include "base/doing.hpp"
+#include "cli/memory_limit.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -60,16 +61,30 @@ std::optional<std::string> read_line(int fd) {
     ::_exit(0); // no destructors of a driver that may hang in them
 }
 
-/// Reads to the end or the deadline, and whatever was told until then. True: the end.
-bool read_all(int fd, Clock::time_point deadline, std::string& output, const Tell& hear) {
+/// Between two looks at what a child takes.
+constexpr long k_look_ms = 50;
+
+/// Why a child that still runs is to be ended, noted in `result`.
+bool has_to_end(pid_t child, const ForkedLimits& limits, Clock::time_point deadline, ForkedResult& result) {
+    result.timed_out = Clock::now() >= deadline;
+    result.over_memory = limits.memory > 0 && memory_of(child) > limits.memory;
+    result.unwanted = limits.unwanted && limits.unwanted();
+    return result.timed_out || result.over_memory || result.unwanted;
+}
+
+/// Reads to the end, or until the child has to end, and whatever was told until then. True: the end.
+bool read_all(int fd, pid_t child, const ForkedLimits& limits, Clock::time_point deadline,
+              ForkedResult& result, const Tell& hear) {
+    const bool looks = limits.memory > 0 || limits.unwanted;
+    std::string& output = result.output;
     std::array<char, 1 << 14> block;
     size_t heard = 0;
     for (;;) {
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
         pollfd wait{fd, POLLIN, 0};
-        const int ready = ::poll(&wait, 1, int(std::clamp<long>(left, 0, 1'000'000)));
-        if (ready == 0 && Clock::now() >= deadline)
+        const int ready = ::poll(&wait, 1, int(std::clamp<long>(left, 0, looks ? k_look_ms : 1'000'000)));
+        if (ready == 0 && has_to_end(child, limits, deadline, result))
             return false;
         if (ready <= 0)
             continue;
@@ -140,31 +155,32 @@ ForkedHelper::~ForkedHelper() {
     status_of(child_);
 }
 
-Result<ForkedResult> ForkedHelper::ask(std::string_view question, double seconds, const Tell& hear) {
+Result<ForkedResult> ForkedHelper::ask(std::string_view question, const ForkedLimits& limits,
+                                       const Tell& hear) {
     ForkedResult result;
     const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                             std::chrono::duration<double>(std::min(seconds, 3e7)));
+                                             std::chrono::duration<double>(std::min(limits.seconds, 3e7)));
     write_line(question_, question);
     ::close(question_);
-    result.timed_out = !read_all(answer_, deadline, result.output, hear);
+    const bool ended = read_all(answer_, child_, limits, deadline, result, hear);
     ::close(answer_);
-    if (result.timed_out)
+    if (!ended)
         ::kill(child_, SIGKILL);
     const int status = status_of(std::exchange(child_, -1));
-    if (!result.timed_out && WIFSIGNALED(status))
+    if (ended && WIFSIGNALED(status))
         result.signal = WTERMSIG(status);
-    if (result.timed_out || result.signal != 0)
+    if (!ended || result.signal != 0)
         result.doing = Doing::left_behind();
     result.output.resize(result.output.rfind('\n') + 1);
     return result;
 }
 
-Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, double seconds,
+Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, const ForkedLimits& limits,
                                 const Tell& hear) {
     auto helper = ForkedHelper::start([&work](const std::string&, const Tell& tell) { work(tell); });
     if (!helper)
         return fail(std::move(helper.error()));
-    return helper->ask({}, seconds, hear);
+    return helper->ask({}, limits, hear);
 }
 
 } // namespace tidemark::cli

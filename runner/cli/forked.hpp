@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -11,18 +12,33 @@
 namespace tidemark::cli {
 
 struct ForkedResult {
-    std::string output;     ///< all that the work told, whole lines only
-    bool timed_out = false; ///< it was ended after `seconds`
-    int signal = 0;         ///< that ended it otherwise; 0: it came to its end
-    std::string doing{};    ///< where it did not come to its end: what a driver was at, if one was
+    std::string output;       ///< all that the work told, whole lines only
+    bool timed_out = false;   ///< it was ended after `seconds`
+    bool over_memory = false; ///< or when it had taken more memory than it may
+    bool unwanted = false;    ///< or because nobody wanted it any more
+    int signal = 0;           ///< that ended it otherwise; 0: it came to its end
+    std::string doing{};      ///< where it did not come to its end: what a driver was at, if one was
 };
 
 /// Tells one line to the parent; what was told survives the end of the work.
 using Tell = std::function<void(std::string_view line)>;
 
+/// What ends the work before its own end. `unwanted` is asked some twenty times a second, where there is one.
+struct ForkedLimits {
+    double seconds = 0;
+    uint64_t memory = 0; ///< bytes; 0: none
+    std::function<bool()> unwanted{};
+};
+
 /// Runs `work` in a child and waits for it; `hear` is called with each line as it comes.
 Result<ForkedResult> run_forked(
-    const std::function<void(const Tell&)>& work, double seconds, const Tell& hear = [](std::string_view) {});
+    const std::function<void(const Tell&)>& work, const ForkedLimits& limits,
+    const Tell& hear = [](std::string_view) {});
+inline Result<ForkedResult> run_forked(
+    const std::function<void(const Tell&)>& work, double seconds,
+    const Tell& hear = [](std::string_view) {}) {
+    return run_forked(work, ForkedLimits{.seconds = seconds}, hear);
+}
 
 /// A child made early, while it may be, that sleeps until its work is asked for.
 class ForkedHelper {
@@ -36,7 +52,11 @@ public:
 
     /// Once, with one line: gives the child its question and waits for it; `hear` as in run_forked.
     Result<ForkedResult> ask(
-        std::string_view question, double seconds, const Tell& hear = [](std::string_view) {});
+        std::string_view question, const ForkedLimits& limits, const Tell& hear = [](std::string_view) {});
+    Result<ForkedResult> ask(
+        std::string_view question, double seconds, const Tell& hear = [](std::string_view) {}) {
+        return ask(question, ForkedLimits{.seconds = seconds}, hear);
+    }
 
 private:
     ForkedHelper() = default;

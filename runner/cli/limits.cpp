@@ -7,13 +7,19 @@
 
 namespace tidemark::cli {
 
+void add_memory_option(CLI::App& command, LimitOptions& options) {
+    command.add_option("--memory", options.memory, "What compiling and drawing may take, as in 2G [50%]")
+        ->type_name("SIZE");
+}
+
 void add_limit_options(CLI::App& app, LimitOptions& options) {
     for (CLI::App* command : app.get_subcommands({})) {
         if (!command->get_option_no_throw("SCENE") || !command->get_option_no_throw("--set"))
             continue;
-        command->add_option("--memory", options.memory, "What compiling and drawing may take, as in 2G [50%]")
-            ->type_name("SIZE");
-        if (!command->get_option_no_throw("--timeout") && command->get_name() != "view")
+        if (command->get_option_no_throw("--memory")) // view's
+            continue;
+        add_memory_option(*command, options);
+        if (!command->get_option_no_throw("--timeout"))
             command
                 ->add_option("--timeout", options.timeout,
                              "Give up where the driver takes longer to compile a pass or to draw")

@@ -18,7 +18,9 @@ struct LimitOptions {
     std::optional<double> timeout;
 };
 
-/// --memory for every sub-command that has a driver draw; --timeout for those that have none of their own.
+void add_memory_option(CLI::App& command, LimitOptions& options);
+
+/// --memory for every sub-command that has a driver draw and has none of its own; --timeout likewise.
 void add_limit_options(CLI::App& app, LimitOptions& options);
 
 /// Without --memory: half of the machine's.

@@ -143,7 +143,8 @@ Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, cons
         return fail(std::move(context.error()));
     building_since_ = now_seconds();
     settling_ = settle;
-    builder_.start({*std::move(context), std::move(scene), view.options, view.inputs, settle});
+    builder_.start(
+        {*std::move(context), std::move(scene), view.options, view.inputs, settle, view.rehearsal});
     return {};
 }
 

@@ -37,6 +37,7 @@ public:
     struct View {
         render::RenderOptions options;
         render::FrameInputs inputs; ///< of the next frame, about
+        std::shared_ptr<Rehearsal> rehearsal{};
     };
 
     /// Prints the scene's warnings. Options that do not fit the scene are an ErrorCode::usage.

@@ -1,5 +1,7 @@
 #include "cli/view/stage_builder.hpp"
 
+#include "glsl/driver_load.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,16 +15,19 @@ namespace {
 /// Compiling keeps a core busy, and the picture on show wants one too.
 constexpr size_t k_most_at_once = 3;
 
-Result<Stage> build(StageBuilder::Order order) {
+Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
+    if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
+        if (auto tried = order.rehearsal->try_out(unwanted); !tried)
+            return fail(std::move(tried.error()));
     if (order.settle)
         return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
     return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
 }
 
 /// The picture on show goes on, whatever becomes of the next one.
-Result<Stage> build_or_say_why(StageBuilder::Order order) {
+Result<Stage> build_or_say_why(StageBuilder::Order order, const std::function<bool()>& unwanted) {
     try {
-        return build(std::move(order));
+        return build(std::move(order), unwanted);
     } catch (const std::exception& error) {
         return fail(ErrorCode::load, fmt::format("the scene cannot be built: {}", error.what()));
     }
@@ -57,7 +62,10 @@ void StageBuilder::launch(Order order) {
     try {
         std::thread thread([job = newest_, wake = wake_, order = std::move(order)]() mutable {
             {
-                auto built = build_or_say_why(std::move(order));
+                auto built = build_or_say_why(std::move(order), [&job] {
+                    const std::lock_guard lock(job->mutex);
+                    return job->abandoned;
+                });
                 const std::lock_guard lock(job->mutex);
                 if (!job->abandoned)
                     job->outcome.emplace(std::move(built));

@@ -2,6 +2,7 @@
 // be interrupted: what is not wanted any more is abandoned, and ends by itself.
 #pragma once
 
+#include "cli/view/rehearsal.hpp"
 #include "cli/view/stage.hpp"
 
 #include <functional>
@@ -19,8 +20,9 @@ public:
         platform::WindowContext context;
         scene::Scene scene;
         render::RenderOptions options;
-        render::FrameInputs first; ///< inputs of its first frame
-        bool settle = false;       ///< Stage::settle instead of Stage::create
+        render::FrameInputs first;              ///< inputs of its first frame
+        bool settle = false;                    ///< Stage::settle instead of Stage::create
+        std::shared_ptr<Rehearsal> rehearsal{}; ///< of what is no modest scene; none: nothing is tried out
     };
 
     /// `wake` is called on another thread when there is something to `take`.

@@ -2,8 +2,13 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/limits.hpp"
 #include "cli/options.hpp"
+#include "cli/view/rehearsal.hpp"
 #include "cli/view/viewer.hpp"
+#include "platform/headless_context.hpp"
+#include "render/renderer.hpp"
+#include "render/sound_renderer.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,13 +22,36 @@ namespace {
 
 /// X11 counts the pixels of a window in 16 bits, half of them below zero; beyond that it takes another size.
 constexpr int k_largest_window = 32767;
+constexpr Extent k_played{16, 16};
 
 struct ViewOptions {
     SceneRequest scene;
     FrameOptions frames;
     std::string record;
     bool plain = false;
+    LimitOptions limits;
 };
+
+/// In a process of its own: all that the window will have its driver do, once, small and in no window. What
+/// is wrong otherwise, the window's own driver says.
+void play(const SceneRequest& request, const std::string& pass) {
+    const auto context = platform::HeadlessContext::create();
+    if (!context)
+        return;
+    auto scene = load(request);
+    if (!scene)
+        return;
+    if (scene->find(scene::PassKind::sound))
+        if (auto sound = render::SoundRenderer::create(*scene, {}, precision_of(request)))
+            sound->draw_rows(0, 1);
+    auto renderer = render::Renderer::create(*std::move(scene),
+                                             {k_played, image::SampleType::u8, pass, precision_of(request)});
+    if (!renderer)
+        return;
+    renderer->warm_up({});
+    renderer->draw({});
+    renderer->read_back();
+}
 
 Result<int> view(const ViewOptions& options) {
     auto frames = resolve(options.frames);
@@ -32,7 +60,11 @@ Result<int> view(const ViewOptions& options) {
     if (const Extent size = frames->extent; std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
                                                   size.width, size.height, k_largest_window));
+    const auto limits = resolve(options.limits);
+    if (!limits)
+        return fail(limits.error());
     Viewer::Settings settings{options.scene, *std::move(frames)};
+    settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits->memory);
     settings.pass = options.frames.pass;
     settings.record = OutputPath::typed(options.record);
     settings.plain = options.plain;
@@ -73,6 +105,7 @@ void add_view(CLI::App& app, Action& chosen) {
         ->excludes("--input");
     command->get_option("--fps")->description(
         "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
+    add_memory_option(*command, options->limits);
     command->add_flag("--plain", options->plain,
                       "Stays with the scene's text as it is when nobody touches it for a while");
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });

@@ -86,8 +86,8 @@ Result<Viewer> Viewer::open(Settings settings) {
     auto window = platform::Window::create(settings.frames.extent, name + " - tidemark");
     if (!window) // nothing can be waited for
         return fail(std::move(first.scene ? window.error() : first.scene.error()));
-    auto live =
-        LiveScene::create(settings.scene, std::move(first), *window, {options_for(*window, settings), {}});
+    auto live = LiveScene::create(settings.scene, std::move(first), *window,
+                                  {options_for(*window, settings), {}, settings.rehearsal});
     if (!live)
         return fail(std::move(live.error()));
     return Viewer(std::move(settings), *std::move(window), *std::move(live));
@@ -401,7 +401,7 @@ void Viewer::save_picture() {
 }
 
 LiveScene::View Viewer::view() const {
-    return {options_for(window_, settings_), shown_};
+    return {options_for(window_, settings_), shown_, settings_.rehearsal};
 }
 
 Result<void> Viewer::follow_scene(double now) {

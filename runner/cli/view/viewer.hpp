@@ -33,6 +33,7 @@ public:
         OutputPath record = {};  ///< where what people do is written; empty: nowhere. Excludes frames.input
         bool plain = false;      ///< never settles
         FrameOptions typed = {}; ///< what `frames` was made of, for commands that are printed
+        std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
 
     /// Opens the window and begins to compile. Fails where options are wrong, and as Window does.

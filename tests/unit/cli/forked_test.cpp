@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <vector>
 
 namespace tidemark::cli {
 namespace {
@@ -34,6 +35,30 @@ TEST(Forked, AHelperAnswersItsQuestion) {
     const auto run = helper->ask("how deep?", 60);
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "asked: how deep?\ndone\n");
+}
+
+TEST(Forked, MemoryHasALimit) {
+    const auto run = run_forked(
+        [](const Tell& tell) {
+            tell("before");
+            std::vector<char> much(size_t{200} << 20, 1);
+            ::sleep(60);
+            tell(std::string(1, much[7]));
+        },
+        {.seconds = 60, .memory = uint64_t{100} << 20});
+    ASSERT_TRUE(run);
+    EXPECT_TRUE(run->over_memory);
+    EXPECT_FALSE(run->timed_out);
+    EXPECT_EQ(run->output, "before\n");
+}
+
+TEST(Forked, WhatNobodyWantsIsEnded) {
+    int asked = 0;
+    const auto run = run_forked([](const Tell&) { ::sleep(60); },
+                                {.seconds = 60, .unwanted = [&] { return ++asked == 3; }});
+    ASSERT_TRUE(run);
+    EXPECT_TRUE(run->unwanted);
+    EXPECT_EQ(run->signal, 0);
 }
 
 TEST(Forked, WhatTheDriverWasAtIsKnown) {
