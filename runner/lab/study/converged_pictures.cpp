@@ -122,7 +122,7 @@ private:
         if (to_promote) {
             precision_ = glsl::Precision::promoted;
             auto promoted = show(strictest(study_, 0));
-            if (promoted && *promoted && (*promoted)->seconds <= k_longest_step) {
+            if (promoted && *promoted && (*promoted)->seconds <= k_longest_first_step) {
                 take_first(**std::move(promoted));
                 return {};
             }
