@@ -38,6 +38,7 @@ void DoingPage::note(std::string_view what, int64_t since, bool starting) {
     std::memcpy(what_, what.data(), std::min(what.size(), k_longest));
     since_ = since;
     starting_ = starting;
+    has_driver_ = has_driver_ || starting;
     size_ = uint32_t(std::min(what.size(), k_longest));
 }
 

@@ -21,6 +21,8 @@ public:
         bool starting = false; ///< the driver itself is being started
     };
     Seen seen() const;
+    /// Whether a driver was ever started: then it has threads of its own.
+    bool has_driver() const { return has_driver_; }
 
 private:
     friend class Doing;
@@ -29,6 +31,7 @@ private:
     static constexpr size_t k_longest = 480;
     std::atomic<uint32_t> size_;
     std::atomic<bool> starting_;
+    std::atomic<bool> has_driver_;
     std::atomic<int64_t> since_; ///< nanoseconds of the steady clock
     char what_[k_longest];
 };

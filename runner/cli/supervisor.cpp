@@ -165,6 +165,8 @@ private:
         if (!seen.what.empty())
             return refuse(seen.starting ? ErrorCode::no_context : ErrorCode::load,
                           crash_text(signal, seen.what) + (seen.starting ? "; --device names another" : ""));
+        if (page_ && page_->has_driver()) // whose threads work on when nothing is asked of it
+            return refuse(ErrorCode::load, crash_text(signal, "") + ", or tidemark itself");
         say(fmt::format("tidemark: error: tidemark itself crashed ({}), which is a defect of its own",
                         name_of(signal)));
         return k_internal_error;

@@ -1,5 +1,6 @@
 #include "render/sound_renderer.hpp"
 
+#include "base/doing.hpp"
 #include "glsl/assemble.hpp"
 #include "render/frame_plan.hpp"
 #include "render/link_pass.hpp"
@@ -80,6 +81,7 @@ std::vector<int16_t> SoundRenderer::draw(int first) {
 }
 
 std::vector<int16_t> SoundRenderer::draw_rows(int first, int rows) {
+    const Doing drawing("drawing a block of the Sound pass");
     const int block = first - first % block_samples();
     const int row = (first - block) / glsl::k_sound_tile;
     uniforms_.upload(program_, uniforms_.values(inputs_, target_.extent(), facts(), knobs_));

@@ -60,6 +60,13 @@ TEST_F(DoingTest, WordsWithoutEndAreCut) {
     EXPECT_GT(page_->seen().what.size(), 100U);
 }
 
+TEST_F(DoingTest, ADriverThatWasStartedStays) {
+    { const Doing compiling("compiling"); }
+    EXPECT_FALSE(page_->has_driver());
+    { const Doing starting("starting", Doing::Kind::start); }
+    EXPECT_TRUE(page_->has_driver());
+}
+
 TEST_F(DoingTest, NowhereToNote) {
     Doing::note_on(nullptr);
     const Doing compiling("compiling");
