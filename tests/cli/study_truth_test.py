@@ -81,6 +81,12 @@ class OwnError(Truth):
         self.expect_no_truth(self.study(two, "--vary", "N=2,4,8"),
                              r"it does not settle: N = 8 and N = 16 show the same, but N = \d+ is 0\.25 from it")
 
+    def test_so_is_one_of_any_length(self):
+        for length in (3, 5, 7):
+            cycle = scene(f"float x = 0.25 + 0.5 * float(N % {length} == 0);", f"#define N {length}")
+            study = self.study(cycle, "--vary", f"N={length},{2 * length},{4 * length}")
+            self.assertIn("it does not settle: ", study["references"]["picture"]["none"])
+
     def test_a_loop_that_is_capped_is_not_certain(self):
         study = self.study(sum_of("1.0 / (f * f)", "min(N, 64)"), "--vary", "N=8,16,32,64")
         reference = study["references"]["picture"]

@@ -1,10 +1,8 @@
 """The window and texts that crash the driver, eat the memory or keep it for good: the last good picture goes on."""
-import os
 import pathlib
-import signal
-import time
 
 from support.live import LiveTest, main, wait_for
+from support.program import let_it_crash
 
 GOOD = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(iTime), 0.0, 0.0, 1.0); }\n"
 MAIN = "void mainImage(out vec4 c, in vec2 p) { %s }\n"
@@ -31,7 +29,7 @@ def gone(process: int) -> bool:
 class Edge(LiveTest):
     def start(self, text: str = GOOD, **options):
         self.write("wave.glsl", text)
-        return self.view("wave.glsl", "--size", "64x64", "--memory", "400M", **options)
+        return self.view("wave.glsl", "--size", "64x64", "--memory", "700M", **options)
 
     def expect_refused_and_mended(self, view, text: str, words: str) -> None:
         self.write("wave.glsl", text)
@@ -46,16 +44,16 @@ class Edge(LiveTest):
         self.expect_refused_and_mended(view, CRASH, r"the driver crashed \(SIG[A-Z]+\) compiling Image of 'wave\.glsl'")
         self.expect_refused_and_mended(view, MAIN % "const int x = (-2147483647 - 1) / -1; c = vec4(x);",
                                        r"the driver crashed \(SIGFPE\) compiling Image of 'wave\.glsl'")
-        self.expect_refused_and_mended(view, EATS, r"compiling Image of 'wave\.glsl' takes more than 400 MiB of memory")
+        self.expect_refused_and_mended(view, EATS, r"compiling Image of 'wave\.glsl' takes more than 700 MiB of memory")
 
     def test_the_sound_too(self):
         self.write("folder/image.glsl", GOOD)
         self.write("folder/sound.glsl", "vec2 mainSound(int s, float t) { return vec2(0); }\n")
-        view = self.view("folder", "--size", "64x64", "--memory", "400M")
+        view = self.view("folder", "--size", "64x64", "--memory", "700M")
         self.write("folder/sound.glsl", EATS.replace(MAIN.split("(")[0], "vec2 mainSound").replace(
             "(out vec4 c, in vec2 p)", "(int s, float t)").replace("p.x", "t").replace("c = vec4(A40);", "return vec2(A40);"))
-        view.wait_for_words(r"compiling Sound of 'folder' takes more than 400 MiB of memory")
-        view.wait_for_title(r"takes more than 400 MiB")
+        view.wait_for_words(r"compiling Sound of 'folder' takes more than 700 MiB of memory")
+        view.wait_for_title(r"takes more than 700 MiB")
 
     def test_saved_once_more_while_it_is_tried(self):
         view = self.start()
@@ -76,4 +74,5 @@ class Edge(LiveTest):
 
 
 if __name__ == "__main__":
+    let_it_crash()
     main()

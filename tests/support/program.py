@@ -29,6 +29,12 @@ def environment(**changes: str | None) -> dict[str, str]:
     return variables
 
 
+def let_it_crash() -> None:
+    """A sanitized program that crashes ends by the signal, like any other, instead of a report."""
+    os.environ["ASAN_OPTIONS"] = ":".join(filter(None, [
+        os.environ.get("ASAN_OPTIONS"), "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:handle_abort=0"]))
+
+
 def has_context() -> bool:
     """Whether this machine has an OpenGL context without a window."""
     listed = subprocess.run([PROGRAM, "inspect", "--devices", "--json"], stdout=subprocess.PIPE,

@@ -122,7 +122,7 @@ private:
         if (to_promote) {
             precision_ = glsl::Precision::promoted;
             auto promoted = show(strictest(study_, 0));
-            if (promoted && *promoted && (*promoted)->seconds <= k_longest_step) {
+            if (promoted && *promoted && (*promoted)->seconds <= k_longest_first_step) {
                 take_first(**std::move(promoted));
                 return {};
             }
@@ -203,8 +203,8 @@ private:
     /// Where nothing moves any more, settings off the ladder must not move it either, and how it came to rest
     /// tells how much a stop in the scene itself may hide.
     Remainder look_around(What what, Remainder still) {
-        for (const double factor : {1.37, 1.71}) {
-            const std::vector<Setting> settings = beside(study_, step_, factor);
+        for (const bool second : {false, true}) {
+            const std::vector<Setting> settings = beside(study_, step_, second);
             if (settings == last_.settings)
                 continue;
             const auto other = show(settings);

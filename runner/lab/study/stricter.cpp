@@ -120,17 +120,19 @@ std::vector<Setting> strictest(const Study& study, int steps) {
     return settings;
 }
 
-std::vector<Setting> beside(const Study& study, int steps, double factor) {
+std::vector<Setting> beside(const Study& study, int steps, bool second) {
     std::vector<Setting> settings = strictest(study, steps);
     for (Setting& setting : settings) {
         const auto ratio = ratio_of(study, setting.name);
+        const double factor = second && !is_int(setting.value) ? 1.71 : 1.37;
         auto value = ratio ? scaled(setting.value, *ratio > 1 ? factor : 1 / factor) : std::nullopt;
         if (!value)
             continue;
         if (is_int(*value)) {
             const long long was = std::stoll(setting.value), is = std::stoll(*value);
-            const bool flipped = (was - is) % 2 != 0;
-            value = fmt::format("{}", flipped ? is : is + (*ratio > 1 ? 1 : is > 1 ? -1 : 0));
+            const long long one = *ratio > 1 ? 1 : -1;
+            const long long odd = (was - is) % 2 != 0 ? is : is + one;
+            value = fmt::format("{}", std::max(odd + (second ? one : 0), 1LL));
         }
         setting.value = *std::move(value);
     }

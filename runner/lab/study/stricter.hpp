@@ -26,8 +26,9 @@ std::vector<Axis> axes_of(const Study& study);
 /// 1 where nothing can go on. Below 0: so many steps coarser.
 std::vector<Setting> strictest(const Study& study, int steps);
 
-/// The same settings, but that each number which could go on is `factor` (1 to 2) stricter, and odd where it
-/// was even: what repeats itself on the way of `strictest` shows there.
-std::vector<Setting> beside(const Study& study, int steps, double factor);
+/// Settings off that ladder, where what repeats itself on it shows: each number that could go on is 1.37
+/// times as strict, a whole one odd for even. `second`: a whole one is one more, so that no cycle of any
+/// length hides, others are 1.71 times as strict.
+std::vector<Setting> beside(const Study& study, int steps, bool second);
 
 } // namespace tidemark::lab

@@ -200,12 +200,14 @@ TEST(Stricter, goes_back_as_the_values_came) {
 TEST(Stricter, settings_beside_the_ladder_are_odd_for_even) {
     Study study;
     study.series = series_of({{"S", {"A", "B"}}, {"E", {"0.2", "0.1"}}, {"N", {"8", "16"}}});
-    EXPECT_THAT(beside(study, 1, 1.37),
+    EXPECT_THAT(beside(study, 1, false),
                 ElementsAre(Setting{"S", "B"}, Setting{"E", "0.0364963504"}, Setting{"N", "45"}));
-    EXPECT_THAT(beside(study, 1, 1.71)[2], (Setting{"N", "55"}));
+    EXPECT_THAT(beside(study, 1, true),
+                ElementsAre(Setting{"S", "B"}, Setting{"E", "0.0292397661"}, Setting{"N", "46"}));
     study.series = series_of({{"STRIDE", {"8", "4"}}});
-    EXPECT_EQ(beside(study, 0, 1.37)[0].value, "3");
-    EXPECT_EQ(beside(study, 2, 1.37)[0].value, "1"); // nothing is stricter
+    EXPECT_EQ(beside(study, 0, false)[0].value, "3");
+    EXPECT_EQ(beside(study, 0, true)[0].value, "2");
+    EXPECT_EQ(beside(study, 2, false)[0].value, "1"); // nothing is stricter
 }
 
 TEST(Stricter, all_axes_of_a_command_line_go_on) {
