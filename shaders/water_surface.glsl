@@ -30,6 +30,7 @@
 #define MAX_STEPS 128
 #define DRIFT_PERIOD 62.83
 #define TURNING_POLES 1
+#define MARCH_PAST_FAR 1
 #else
 #define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's
 #define INTEGER_HASH 1       // 1: the same sea on every GPU; 0: the document's fract(sin(n) * 43785.5)

@@ -162,7 +162,12 @@ Result<ForkedResult> ForkedHelper::ask(std::string_view question, const ForkedLi
                                              std::chrono::duration<double>(std::min(limits.seconds, 3e7)));
     write_line(question_, question);
     ::close(question_);
-    const bool ended = read_all(answer_, child_, limits, deadline, result, hear);
+    const auto hear_in_peace = [&](std::string_view line) {
+        ::kill(child_, SIGSTOP);
+        hear(line);
+        ::kill(child_, SIGCONT);
+    };
+    const bool ended = read_all(answer_, child_, limits, deadline, result, hear_in_peace);
     ::close(answer_);
     if (!ended)
         ::kill(child_, SIGKILL);

@@ -30,7 +30,8 @@ struct ForkedLimits {
     std::function<bool()> unwanted{};
 };
 
-/// Runs `work` in a child and waits for it; `hear` is called with each line as it comes.
+/// Runs `work` in a child and waits for it; `hear` is called with each line as it comes, and the work waits
+/// meanwhile.
 Result<ForkedResult> run_forked(
     const std::function<void(const Tell&)>& work, const ForkedLimits& limits,
     const Tell& hear = [](std::string_view) {});

@@ -135,6 +135,41 @@ text::MappedText PassReading::site_source() const {
     return source;
 }
 
+/// The condition that leaves out an entry point which stands in the text.
+std::optional<Diagnostic> PassReading::shut_out(std::string_view entry) const {
+    std::vector<size_t> open; // the word behind the `#` of each condition around
+    for (size_t i = 0; i + 1 < tokens_.size(); ++i) {
+        if (tokens_[i].is("#") && tokens_[i].first_on_line) {
+            const std::string_view word = tokens_[i + 1].text;
+            if (word.starts_with("if"))
+                open.push_back(i + 1);
+            else if (word.starts_with("el") && !open.empty())
+                open.back() = i + 1;
+            else if (word == "endif" && !open.empty())
+                open.pop_back();
+        }
+        if (!tokens_[i].is(entry) || preprocessed_.activity[i] != Activity::inactive)
+            continue;
+        const auto shut = std::ranges::find_if(open, [&](size_t word) {
+            const size_t behind = text::end_of_directive(tokens_, word - 1);
+            return behind < tokens_.size() && preprocessed_.activity[behind] == Activity::inactive;
+        });
+        if (shut == open.end())
+            continue;
+        std::string condition = "#";
+        std::string hint;
+        for (size_t at = *shut; at < text::end_of_directive(tokens_, *shut - 1); ++at) {
+            condition += fmt::format("{}{}", at > *shut && !tokens_[at].glued ? " " : "", tokens_[at].text);
+            if (pass_.kind == scene::PassKind::hit && tokens_[at].text != k_hit_macro &&
+                !nearest_name(tokens_[at].text, {std::string(k_hit_macro)}).empty())
+                hint = fmt::format("; did you mean {}?", k_hit_macro);
+        }
+        return Diagnostic{text_.lines().locate(tokens_[*shut].line, 0), Severity::error,
+                          fmt::format("`{}` leaves {} out{}", condition, entry, hint)};
+    }
+    return std::nullopt;
+}
+
 std::vector<Diagnostic> PassReading::entry_point_problems() const {
     const std::string_view entry = entry_point(pass_.kind);
     const auto place = [&](size_t token) {
@@ -145,9 +180,12 @@ std::vector<Diagnostic> PassReading::entry_point_problems() const {
             {place(facts_.entries[1]), Severity::error,
              fmt::format("{} is defined again: put each of ShaderToy's tabs into a file of its own", entry)},
             {place(facts_.entries[0]), Severity::note, "first defined here"}};
-    if (facts_.entries.empty() && !facts_.entry_is_macro && !facts_.entry_in_macro && facts_.mains.empty())
+    if (facts_.entries.empty() && !facts_.entry_is_macro && !facts_.entry_in_macro && facts_.mains.empty()) {
+        if (auto condition = shut_out(entry))
+            return {*std::move(condition)};
         return {{pass_.text.lines().locate(1), Severity::error,
                  fmt::format("{} has no {}", pass_.name.empty() ? "the text" : pass_.name, entry)}};
+    }
     return {};
 }
 

@@ -43,6 +43,8 @@ public:
     bool discards() const { return facts_.discards; }
 
 private:
+    std::optional<Diagnostic> shut_out(std::string_view entry) const;
+
     const scene::Scene& scene_;
     const scene::Pass& pass_;
     text::MappedText text_;

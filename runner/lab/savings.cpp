@@ -4,7 +4,9 @@
 #include "lab/stopwatch.hpp"
 
 #include <GL/glcorearb.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace tidemark::lab {
@@ -93,6 +95,8 @@ public:
     image::Image picture() const { return renderer_->read_back(); }
     Result<Encoded> encoded() const { return encode(picture(), way_.alpha); }
     bool steps() const { return renderer_->plan().feedback; }
+    int frames_before() const { return way_.frames_before; }
+    void leave_no_frames_before() { way_.frames_before = 0; }
 
     render::FrameWork work() const {
         render::FrameWork work = renderer_->work();
@@ -133,57 +137,124 @@ private:
     Clock cpu_;
 };
 
-bool more_rounds(const Rounds& rounds, const Stopwatch& watch, double seconds) {
-    return rounds.count() < k_fewest_runs ||
-           (rounds.count() < k_most_rounds && watch.elapsed().wall < seconds * 1e3);
+/// Time that is spent once. All in milliseconds on the wall.
+class Allowance {
+public:
+    explicit Allowance(double milliseconds) : whole_(milliseconds) {}
+    double left() const { return whole_ - watch_.elapsed().wall; }
+
+    /// Whether another round is to be begun, of which the last one took so long: until five are there as long
+    /// as all of the time lasts, then as long as `share` of it does.
+    bool another(const Rounds& rounds, double last, double share) const {
+        if (rounds.count() >= k_most_rounds || left() < last)
+            return false;
+        return rounds.count() < k_fewest_runs || watch_.elapsed().wall + last < share;
+    }
+
+private:
+    double whole_;
+    Stopwatch watch_;
+};
+
+std::string too_few(const char* what, const Rounds& rounds) {
+    return fmt::format("--budget is spent: {} {} of the {} rounds that a median wants", what, rounds.count(),
+                       k_fewest_runs);
 }
 
-/// One round to warm the driver's cache, then those that count.
-Result<SavedTime> time_starts(Contender& without, Contender& with_it, double seconds) {
-    Rounds rounds;
-    const Stopwatch watch;
-    for (int round = 0; round == 0 || more_rounds(rounds, watch, seconds); ++round) {
-        const bool swapped = round % 2 != 0;
-        const auto first = (swapped ? with_it : without).start();
-        const auto second = (swapped ? without : with_it).start();
-        if (!first || !second)
-            return fail(first ? second.error() : first.error());
-        if (round > 0)
-            rounds.add(swapped ? *second : *first, swapped ? *first : *second);
-    }
-    return rounds.saved();
-}
+/// Milliseconds of a round, before one is done.
+struct Costs {
+    double starts;
+    double frames;
+};
 
-SavedTime time_frames(Contender& without, Contender& with_it, double seconds, bool& same_pixels) {
-    Rounds rounds;
-    const Stopwatch watch;
-    for (int frame = k_frame + 2; more_rounds(rounds, watch, seconds); ++frame) {
-        Contender& first = frame % 2 ? without : with_it;
-        Contender& second = frame % 2 ? with_it : without;
-        const Elapsed costs[] = {first.draw(frame), second.draw(frame)};
-        rounds.add(costs[frame % 2 ? 0 : 1], costs[frame % 2 ? 1 : 0]);
-        same_pixels = same_pixels && without.picture().bytes == with_it.picture().bytes;
-    }
-    return rounds.saved();
-}
+/// The two ways, and what is measured of them.
+struct Measuring {
+    Contender& without;
+    Contender& with_it;
+    const Allowance& allowance;
+    Saving& saving;
 
-/// Encoding alone: the drawing between is nobody's.
-Result<SavedTime> time_files(Contender& without, Contender& with_it, double seconds, bool& same_pixels) {
-    Rounds rounds;
-    const Stopwatch watch;
-    for (int frame = k_frame + 2; more_rounds(rounds, watch, seconds); ++frame) {
-        without.draw(frame);
-        with_it.draw(frame);
-        const bool in_turn = frame % 2 != 0;
-        const auto first = (in_turn ? without : with_it).encoded();
-        const auto second = (in_turn ? with_it : without).encoded();
-        if (!first || !second)
-            return fail(first ? second.error() : first.error());
-        rounds.add((in_turn ? first : second)->time, (in_turn ? second : first)->time);
-        same_pixels = same_pixels && first->colours().bytes == second->colours().bytes;
+    /// `round(number, rounds)` adds to the rounds; the result is empty where there were too few.
+    template <class Round>
+    Result<SavedTime> repeat(const char* what, double share, double first, Round round) {
+        Rounds rounds;
+        double last = first;
+        for (int number = 0; allowance.another(rounds, last, share); ++number) {
+            const Stopwatch watch;
+            if (auto done = round(number, rounds); !done)
+                return fail(std::move(done.error()));
+            last = watch.elapsed().wall;
+        }
+        if (rounds.count() >= k_fewest_runs)
+            return rounds.saved();
+        saving.cut = too_few(what, rounds);
+        return SavedTime{};
     }
-    return rounds.saved();
-}
+
+    /// One round to warm the driver's cache, then those that count.
+    Result<SavedTime> starts(double share, double first) {
+        return repeat("starting:", share, first, [&](int number, Rounds& rounds) -> Result<void> {
+            const bool swapped = number % 2 != 0;
+            const auto one = (swapped ? with_it : without).start();
+            const auto other = (swapped ? without : with_it).start();
+            if (!one || !other)
+                return fail(one ? other.error() : one.error());
+            if (number > 0)
+                rounds.add(swapped ? *other : *one, swapped ? *one : *other);
+            return {};
+        });
+    }
+
+    Result<SavedTime> frames(double share, double cost) {
+        return repeat("a frame:", share, cost, [&](int number, Rounds& rounds) -> Result<void> {
+            const int frame = k_frame + 2 + number;
+            Contender& first = frame % 2 ? without : with_it;
+            Contender& second = frame % 2 ? with_it : without;
+            const Elapsed costs[] = {first.draw(frame), second.draw(frame)};
+            rounds.add(costs[frame % 2 ? 0 : 1], costs[frame % 2 ? 1 : 0]);
+            saving.same_pixels = saving.same_pixels && without.picture().bytes == with_it.picture().bytes;
+            return {};
+        });
+    }
+
+    /// Encoding alone: the drawing between is nobody's.
+    Result<SavedTime> files(double share, double cost) {
+        return repeat("encoding:", share, cost, [&](int number, Rounds& rounds) -> Result<void> {
+            const int frame = k_frame + 2 + number;
+            without.draw(frame);
+            with_it.draw(frame);
+            const bool in_turn = frame % 2 != 0;
+            const auto first = (in_turn ? without : with_it).encoded();
+            const auto second = (in_turn ? with_it : without).encoded();
+            if (!first || !second)
+                return fail(first ? second.error() : first.error());
+            rounds.add((in_turn ? first : second)->time, (in_turn ? second : first)->time);
+            saving.same_pixels = saving.same_pixels && first->colours().bytes == second->colours().bytes;
+            return {};
+        });
+    }
+
+    Result<void> all(double milliseconds, const Costs& costs) {
+        const double share = milliseconds / (saving.in_frame() ? saving.in_file() ? 3 : 2 : 1);
+        if (saving.in_frame()) {
+            auto start = starts(share, costs.starts);
+            if (!start)
+                return fail(std::move(start.error()));
+            saving.start = *start;
+            auto frame = frames(2 * share, costs.frames);
+            if (!frame)
+                return fail(std::move(frame.error()));
+            saving.frame = *frame;
+        }
+        if (saving.in_file()) {
+            auto file = files(milliseconds, costs.frames);
+            if (!file)
+                return fail(std::move(file.error()));
+            saving.file = *file;
+        }
+        return {};
+    }
+};
 
 Result<void> weigh_files(const Contender& without, const Contender& with_it, Saving& saving) {
     const auto small = without.encoded();
@@ -195,50 +266,63 @@ Result<void> weigh_files(const Contender& without, const Contender& with_it, Sav
     return {};
 }
 
-Result<void> time_all(Contender& without, Contender& with_it, double seconds, Saving& saving) {
-    const double share = seconds / (saving.in_frame() ? saving.in_file() ? 3 : 2 : 1);
-    if (saving.in_frame()) {
-        auto start = time_starts(without, with_it, share);
-        if (!start)
-            return fail(std::move(start.error()));
-        saving.start = *start;
-        saving.frame = time_frames(without, with_it, share, saving.same_pixels);
-    }
-    if (saving.in_file()) {
-        auto file = time_files(without, with_it, share, saving.same_pixels);
-        if (!file)
-            return fail(std::move(file.error()));
-        saving.file = *file;
-    }
-    return {};
-}
-
 } // namespace
 
 std::span<const Omission> omissions() {
     return k_omissions;
 }
 
-Result<Saving> measure_saving(const scene::Scene& scene, const render::RenderOptions& options,
-                              std::span<const Omission> things, double seconds) {
-    Way way{options};
-    Contender without(scene, way);
-    if (auto started = without.start(); !started)
-        return fail(std::move(started.error()));
+struct SavingsBench::Parts {
+    scene::Scene scene;
+    Way way;
+    double start = 0; ///< milliseconds that one takes
+};
+
+SavingsBench::SavingsBench(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+SavingsBench::SavingsBench(SavingsBench&&) noexcept = default;
+SavingsBench::~SavingsBench() = default;
+
+Result<SavingsBench> SavingsBench::create(const scene::Scene& scene, const render::RenderOptions& options) {
+    const Way way{options};
+    const auto started = Contender(scene, way).start();
+    if (!started)
+        return fail(started.error());
+    return SavingsBench(std::make_unique<Parts>(Parts{scene, way, started->wall}));
+}
+
+Result<Saving> SavingsBench::measure(std::span<const Omission> things, double seconds) {
+    const Allowance allowance(1e3 * seconds);
+    Way way = parts_->way;
+    Contender without(parts_->scene, way);
     for (const Omission& thing : things)
         thing.put_back(way);
-    if (without.steps()) // a frame needs those before it: none is left out
-        way.frames_before = 0;
-    Contender with_it(scene, way);
-    if (auto started = with_it.start(); !started)
-        return fail(std::move(started.error()));
-    without.draw(k_frame + 1); // a frame that another one precedes
+    Contender with_it(parts_->scene, way);
+    Saving saving;
+    const auto cut = [&](const char* what, double milliseconds) {
+        saving.cut = fmt::format("--budget is spent: {:.2g} s are left, and {} {:.2g}",
+                                 std::max(allowance.left() / 1e3, 0.0), what, milliseconds / 1e3);
+        return saving;
+    };
+    if (allowance.left() < 2 * parts_->start)
+        return cut("starting takes", 2 * parts_->start);
+    const auto one = without.start(), other = with_it.start();
+    if (!one || !other)
+        return fail(one ? other.error() : one.error());
+    parts_->start = std::min(parts_->start, other->wall); // the driver's cache is warm now
+    if (without.steps())                                  // a frame needs those before it: none is left out
+        with_it.leave_no_frames_before();
+    const double frame = without.draw(k_frame + 1).wall; // that another one precedes
+    const double frames = frame * (1 + with_it.frames_before());
+    if (allowance.left() < frames)
+        return cut("a frame with it takes", frames);
     with_it.draw(k_frame + 1);
-    Saving saving{{without.work()}, {with_it.work()}};
+    saving.without.frame = without.work();
+    saving.with_it.frame = with_it.work();
     if (way.alpha)
         if (auto weighed = weigh_files(without, with_it, saving); !weighed)
             return fail(std::move(weighed.error()));
-    if (auto timed = time_all(without, with_it, seconds, saving); !timed)
+    const Costs costs{one->wall + other->wall, frame + frames};
+    if (auto timed = Measuring{without, with_it, allowance, saving}.all(1e3 * seconds, costs); !timed)
         return fail(std::move(timed.error()));
     return saving;
 }

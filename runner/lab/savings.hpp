@@ -6,7 +6,9 @@
 #include "lab/statistics.hpp"
 #include "render/renderer.hpp"
 
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace tidemark::lab {
@@ -52,6 +54,8 @@ struct Saving {
     SavedTime frame{};
     SavedTime file{}; ///< encoding it
     bool same_pixels = true;
+    /// Why times are missing, or all of it; empty: nothing is.
+    std::string cut{};
 
     bool in_frame() const { return without.frame != with_it.frame; }
     bool in_file() const { return without.file_bytes != with_it.file_bytes; }
@@ -59,9 +63,22 @@ struct Saving {
     bool left_out() const { return in_frame() || in_file(); }
 };
 
-/// Puts all of `things` back at once. Takes some `seconds`, more where five rounds take longer. Fails like
-/// Renderer::create.
-Result<Saving> measure_saving(const scene::Scene& scene, const render::RenderOptions& options,
-                              std::span<const Omission> things, double seconds);
+/// Measures one thing after the other against the same scene without any. What the driver does cannot be
+/// interrupted: what is begun is what, by the steps before, will be done in time.
+class SavingsBench {
+public:
+    /// Draws the scene's first frame, in whatever time that takes. Fails like Renderer::create.
+    static Result<SavingsBench> create(const scene::Scene& scene, const render::RenderOptions& options);
+    SavingsBench(SavingsBench&&) noexcept;
+    ~SavingsBench();
+
+    /// Puts all of `things` back at once. Takes at most about some `seconds`.
+    Result<Saving> measure(std::span<const Omission> things, double seconds);
+
+private:
+    struct Parts;
+    explicit SavingsBench(std::unique_ptr<Parts> parts);
+    std::unique_ptr<Parts> parts_;
+};
 
 } // namespace tidemark::lab

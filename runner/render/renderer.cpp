@@ -399,7 +399,7 @@ void Renderer::draw_stand_in(size_t index, const gl::Program& program, const Fra
         point_samplers(program, channel.unit);
     set_face(program, face);
     const UniformTable table(program.reflection(), scene_.knobs);
-    table.upload(program, uniforms_of(index, table, inputs, into.extent()));
+    table.upload(program, uniforms_of(index, table, inputs, targets_[index].latest().extent()));
     bind_textures(passes_[index]);
     draw_face(program, into, into.extent());
 }

@@ -78,7 +78,7 @@ public:
     /// `draw`.
     void advance_to(size_t pass, const FrameInputs& inputs);
     /// Draws what `pass` is about to draw by another program, made from a text of the same dialect, into a
-    /// target of the same size. Of a cubemap pass, one face. The pass itself stays undrawn.
+    /// target of any size; uniforms are the pass's. Of a cubemap, one face. The pass itself stays undrawn.
     void draw_stand_in(size_t pass, const gl::Program& program, const FrameInputs& inputs,
                        const gl::RenderTarget& into, int face = 0) const;
 

@@ -39,6 +39,26 @@ class Report(CheckTest):
             self.assertEqual(line[16:18], "  ")
         self.assertRegex(lines[-1], rf"^{len(passed)} pass, \d+ n/a; \d+\.\d s: [a-z]+ \d+ %, ")
 
+    def test_one_probe_did_not_take_all_of_the_time(self):
+        sum_of_it = self.check(SOUND, "--probe", "sizes").stdout.decode().splitlines()[-1]
+        self.assertRegex(sum_of_it, r"^1 pass; \d+\.\d s(: sizes \d+ %)?$")
+        self.assertNotIn(" 100 %", sum_of_it)  # the program starts, the driver does
+
+    def test_a_misspelt_guard_is_told_and_the_rest_goes_on(self):
+        result = self.check("#ifdef TIDEMARK_HITS\nvoid mainHit(out vec4 hit, in vec2 p) { hit = vec4(1.0); }\n#endif\n" + SOUND)
+        lines = result.stdout.decode().splitlines()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("warn  witnesses   mainHit cannot be asked: " + str(self.folder / "scene.glsl") +
+                      ":1: error: `#ifdef TIDEMARK_HITS` leaves mainHit out; did you mean TIDEMARK_HIT?", lines)
+        self.assertTrue(any(line.startswith("pass  horizon") for line in lines), lines)
+        self.assertTrue(any(line.endswith("mainHit cannot be asked: see witnesses") for line in lines), lines)
+
+    def test_a_broken_main_hit_is_told_and_the_rest_goes_on(self):
+        result = self.check("#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) { hit = nothing; }\n#endif\n" + SOUND)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("scene.glsl:2", result.stdout.decode())
+        self.assertIn("pass  horizon", result.stdout.decode())
+
     def test_a_fault_is_counted_in_pixels(self):
         self.assertRegex(self.entry(BROKEN, "times")["found"],
                          r"^1080 of 2304 pixels of Image \(NaN\), first at pixel 0,0; in 12 of 12 situations$")

@@ -38,10 +38,35 @@ class CheckTrace(ProgramTest):
 
     def test_a_finite_scene(self):
         run = self.check(SOUND)
-        self.assertEqual((run.returncode, run.stdout), (0, "every pixel is finite\n"))
+        self.assertEqual((run.returncode, run.stdout), (0, "every pixel is finite; --hidden looks for a NaN "
+                                                               "that was swallowed on the way\n"))
         run = self.check(SOUND, "--hidden", "--json")
         self.assertEqual(run.returncode, 0)
         self.assertTrue(json.loads(run.stdout)["finite"])
+
+    def test_operands_do_not_contradict_the_reason(self):
+        run = self.check("void mainImage(out vec4 c, in vec2 p) {\n"
+                         "    float one = iResolution.x / iResolution.x + 1.2e-7;\n    c = vec4(acos(one));\n}\n")
+        self.assertIn("one = 1.0000001 (acos outside of [-1, 1])", run.stdout)
+        run = self.check("void mainImage(out vec4 c, in vec2 p) {\n"
+                         "    uint bits = uint(iResolution.x) + 2143289328u;\n    c = vec4(uintBitsToFloat(bits));\n}\n")
+        self.assertIn("bits = 2143289344 (0x7fc00000)", run.stdout)
+
+    def test_the_last_frame_there_is(self):
+        run = self.check(SOUND, "--frame", "100000000")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run = self.check(FAULTY, "--frame", "100000000")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("none = 0 (division by zero) in Image, frame 100000000, pixel 0,0\n", run.stdout)
+        self.assertNotIn("note:", run.stdout)
+
+    def test_a_far_frame_of_a_feedback_scene_is_given_up_with_a_word(self):
+        run = self.check('#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) '
+                         "{ c = 0.5 * texelFetch(iChannel0, ivec2(p), 0) + 0.5; }\n", "--frame", "100000000",
+                         "--timeout", "5")
+        self.assertEqual(run.returncode, 5)
+        self.assertRegex(run.stderr, r"gave up after 5 s at frame \d+ of 100000000: a scene with feedback is drawn "
+                                     r"frame by frame from 0\n")
 
     def test_a_scene_that_does_not_compile(self):
         run = self.check("void mainImage(out vec4 c, in vec2 p) { c = x; }\n")

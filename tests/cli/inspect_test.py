@@ -165,7 +165,7 @@ class With(ProgramTest):
     """What was left out is put back, measured, and changes nothing."""
 
     def savings(self, scene, *things):
-        done = self.succeed("inspect", scene, "--with", ",".join(things), "--size", "16x9", "--budget", "0.1", "--json")
+        done = self.succeed("inspect", scene, "--with", ",".join(things), "--size", "16x9", "--budget", "30", "--json")
         report = json.loads(done.stdout)
         return {row["with"]: row for row in report["savings"]}, report["libraries"]
 
@@ -212,13 +212,13 @@ class With(ProgramTest):
         self.assertEqual((png.decode(file).channels, len(file) - sum(facts)), (3, row["without"]["file_bytes"]))
         self.assertGreater(row["with_it"]["file_bytes"], row["without"]["file_bytes"])
         self.assertGreater(row["file"]["cpu_ms"]["without"], 0)
-        text = self.succeed("inspect", "a.glsl", "--with", "alpha", "--size", "16x9", "--budget", "0.1").stdout.decode()
+        text = self.succeed("inspect", "a.glsl", "--with", "alpha", "--size", "16x9", "--budget", "30").stdout.decode()
         self.assertRegex(text, r"alpha +encoding a PNG: [\d.]+ [+-][\d.]+ \[.+\], \d+ -> \d+ bytes; its colours are the same\n")
 
     def test_alpha_that_is_not_one_is_no_omission(self):
         self.project()
         self.write("p/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 0.5); }\n")
-        done = self.succeed("inspect", "p", "--pass", "Buffer A", "--with", "alpha", "--size", "16x9", "--budget", "0.1",
+        done = self.succeed("inspect", "p", "--pass", "Buffer A", "--with", "alpha", "--size", "16x9", "--budget", "30",
                             "--json")
         self.assertFalse(json.loads(done.stdout)["savings"][0]["left_out"])
 
@@ -240,8 +240,18 @@ class With(ProgramTest):
 
     def test_a_table_for_people(self):
         self.project()
-        text = self.succeed("inspect", "p", "--with", "passes", "--size", "16x9", "--budget", "0.1").stdout.decode()
+        text = self.succeed("inspect", "p", "--with", "passes", "--size", "16x9", "--budget", "30").stdout.decode()
         self.assertRegex(text, r"passes +[\d.]+ [+-][\d.]+ \[.+\] .+ 1 -> 2 .+ the same\n")
+
+    def test_the_budget_is_kept_and_what_it_cut_is_said(self):
+        self.write("heavy.glsl", "float unused() { return 1.0; }\nvoid mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
+                                 "    for (int i = 0; i < 20000; ++i) c += sin(c + p.x * float(i));\n}\n")
+        done = self.run_program("inspect", "heavy.glsl", "--with", "all", "--size", "64x64", "--budget", "0.01", "--json")
+        self.assertEqual(done.returncode, 5, done.stderr)
+        rows = json.loads(done.stdout)["savings"]
+        self.assertTrue(all(row["cut"].startswith("--budget is spent: ") for row in rows), rows)
+        text = self.run_program("inspect", "heavy.glsl", "--with", "code", "--size", "64x64", "--budget", "0.01").stdout.decode()
+        self.assertRegex(text, r"\ncode +not measured: --budget is spent: [\d.e-]+ s are left, and starting takes [\d.]+\n")
 
     def test_a_thing_that_there_is_not(self):
         done = self.run_program("inspect", "p", "--with", "wings")

@@ -214,6 +214,32 @@ TEST_F(Waters, CertifiedStepsNeverEndBelowTheSurface) {
     }
 }
 
+/// A ray that leaves is sampled once more before the document's loop sees that it is too far.
+TEST_F(Waters, TheDocumentsSolverTakesTheDocumentsSamples) {
+    scene::Scene scene = asked("water_surface", R"(
+    float own = look(p), samples = march_samples, value, t = 0.1, counted = 0.0;
+    for (int i = 0; i < 128; i++) {
+        value = march_field(t);
+        counted += 1.0;
+        if (value < 0.0001 || t > 43.0) break;
+        t += value;
+    }
+    c = vec4(samples, counted, own, t > 43.0 ? -1.0 : t);
+)");
+    define(scene, "DOCUMENT=1");
+    Renderer drawing = renderer(scene, k_small);
+    const image::Image image = frame(drawing, at(10, 48, 14.4F));
+    int misses = 0;
+    for (int y = 0; y < k_small.height; ++y)
+        for (int x = 0; x < k_small.width; ++x) {
+            const auto pixel = floats_at(image, x, y);
+            ASSERT_EQ(pixel[0], pixel[1]) << x << ' ' << y;
+            ASSERT_EQ(pixel[2], pixel[3]) << x << ' ' << y;
+            misses += pixel[3] < 0;
+        }
+    EXPECT_GT(misses, 100);
+}
+
 TEST_F(Waters, NewtonLeavesNothingOfTheMovement) {
     scene::Scene scene =
         asked("gerstner_waves", "make_waves(); vec2 place = 0.8 * p - 20.0; vec2 rest = unmoved(place);\n"

@@ -34,6 +34,9 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Of the time that is left, for the trace of one finding.
+constexpr double k_share_of_trace = 0.9;
+
 constexpr const char* k_not_asked = "--budget is spent: not asked";
 constexpr const char* k_not_finished = "--budget is spent: not finished";
 
@@ -142,7 +145,8 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             continue;
         }
         const Clock::time_point began = Clock::now();
-        double seconds = 0; // of those that answered
+        double seconds = 0; // of those that answered, and of taking their answers
+        double taking = 0;  // the answer before: the next probe waited
         Result<void> heard;
         const auto run = run_forked(
             [&](const Tell& tell) {
@@ -157,9 +161,13 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
                 if (!heard)
                     return;
                 Asked asked = told_answer(json);
-                seconds += asked.seconds;
+                asked.seconds = std::max(asked.seconds - taking, 0.0);
+                const double spent = asked.seconds;
                 probes = probes.subspan(1);
+                const Clock::time_point taken = Clock::now();
                 heard = take(std::move(asked));
+                taking = seconds_since(taken);
+                seconds += spent + taking;
             });
         if (!run)
             return fail(run.error());
@@ -229,8 +237,8 @@ Result<int> check_probes(const ProbesRequest& request) {
     std::vector<Asked> all;
     const auto done =
         answer_all(request, *scene, *promises, *probes, start, [&](Asked asked) -> Result<void> {
-            if (asked.answer.non_finite) // while the next probe is asked
-                trace(request, *scene, asked, request.budget - seconds_since(start));
+            if (asked.answer.non_finite) // before the next probe: a finding wants its reason first
+                trace(request, *scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
             progress.step_aside();
             if (auto shown = put(request.json ? "" : row(request, asked)); !shown)
                 return shown;
@@ -241,7 +249,9 @@ Result<int> check_probes(const ProbesRequest& request) {
     if (!done)
         return fail(done.error());
     progress.step_aside();
-    return put(request.json ? report(request, all) : rest(all)).map([&all] { return exit_code(all); });
+    return put(request.json ? report(request, all) : rest(all, seconds_since(start))).map([&all] {
+        return exit_code(all);
+    });
 }
 
 } // namespace tidemark::cli

@@ -31,9 +31,11 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
     Json json = {{"tidemark", k_version}, {"scene", scene.file.string()}, {"finite", !run.found}};
     json["trace"] = run.json;
     json["ended"] = run.ended;
-    std::string text = run.found        ? run.text
-                       : options.hidden ? "every pixel is finite, and no operation gave NaN\n"
-                                        : "every pixel is finite\n";
+    std::string text = run.found ? run.text
+                       : options.hidden
+                           ? "every pixel is finite, and no operation gave NaN\n"
+                           : "every pixel is finite; --hidden looks for a NaN that was swallowed on "
+                             "the way\n";
     if (!run.ended.empty())
         text += fmt::format("  note: {}: what is said above is not the whole\n", run.ended);
     const int code = run.found ? exit_code(ErrorCode::check_failed) : 0;

@@ -7,8 +7,13 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <string_view>
+
 namespace tidemark::cli {
 namespace {
+
+constexpr std::chrono::milliseconds k_between_frames_told(200);
 
 Json told(const lab::NanTrace& trace) {
     return {{"text", to_text(trace)}, {"trace", to_json(trace)}};
@@ -24,19 +29,34 @@ Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const Trac
         return fail(std::move(renderer.error()));
     lab::TraceRequest request = job.request;
     request.progress = [&](const lab::NanTrace& found) { tell(dump(told(found))); };
+    auto told_last = std::chrono::steady_clock::now();
+    request.stepping = [&](int frame) {
+        if (const auto now = std::chrono::steady_clock::now(); now - told_last > k_between_frames_told) {
+            told_last = now;
+            tell(dump(Json{{"frame", frame}}));
+        }
+    };
     return lab::trace_nan(*renderer, request);
 }
 
-Json last_line(const std::string& output) {
-    if (output.empty())
-        return {};
-    const size_t begin = output.rfind('\n', output.size() - 2);
-    return Json::parse(output.substr(begin == output.npos ? 0 : begin + 1), nullptr, false);
-}
+/// The last of what was found, and the frame that was told last.
+struct Heard {
+    Json line;
+    int frame = -1;
+
+    void hear(std::string_view text) {
+        Json json = Json::parse(text, nullptr, false);
+        if (json.contains("frame"))
+            frame = json["frame"].get<int>();
+        else
+            line = std::move(json);
+    }
+};
 
 } // namespace
 
 Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, double seconds) {
+    Heard heard;
     const auto run = run_forked(
         [&](const Tell& tell) {
             const auto found = trace(scene, job, tell);
@@ -45,10 +65,10 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
             else
                 tell(dump(*found ? told(**found) : Json{{"finite", true}}));
         },
-        seconds);
+        seconds, [&](std::string_view text) { heard.hear(text); });
     if (!run)
         return fail(run.error());
-    const Json line = last_line(run->output);
+    const Json& line = heard.line;
     if (auto error = told_error(line))
         return fail(*std::move(error));
     TraceFound result;
@@ -56,6 +76,10 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
     result.ended = run->timed_out     ? fmt::format("gave up after {:.3g} s", seconds)
                    : run->signal != 0 ? crash_text(run->signal, run->doing)
                                       : "";
+    if (run->timed_out && heard.frame >= 0)
+        result.ended +=
+            fmt::format(" at frame {} of {}: a scene with feedback is drawn frame by frame from {}",
+                        heard.frame, job.request.frame, job.request.start);
     if (!result.ended.empty() && !result.found)
         return fail(run->timed_out ? ErrorCode::timed_out : ErrorCode::load,
                     fmt::format("'{}': {}", scene.file.string(), result.ended));

@@ -27,13 +27,6 @@ size_t count(std::span<const Asked> all, Verdict verdict) {
     return size_t(std::ranges::count(all, verdict, [](const Asked& asked) { return asked.answer.verdict; }));
 }
 
-double seconds_of(std::span<const Asked> all) {
-    double seconds = 0;
-    for (const Asked& asked : all)
-        seconds += asked.seconds;
-    return seconds;
-}
-
 std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
     const std::filesystem::path& scene = request.scene.path;
     std::vector<std::string> words{"tidemark", "capture", file_word(scene)};
@@ -65,14 +58,14 @@ std::string counted(std::span<const Asked> all) {
     return text;
 }
 
-/// `horizon 40 %, rays 22 %`: the shares of the time that are a percent or more, the largest first.
-std::string shares(std::span<const Asked> all) {
+/// `: horizon 40 %, rays 22 %`: the shares of the time that are a percent or more, the largest first.
+std::string shares(std::span<const Asked> all, double seconds) {
     std::vector<Asked> dear(all.begin(), all.end());
     std::ranges::stable_sort(dear, std::greater(), &Asked::seconds);
     std::string text;
     for (const Asked& asked : dear)
-        if (const double share = 100 * asked.seconds / seconds_of(all); share >= 1)
-            text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", asked.probe->name, share);
+        if (const double share = 100 * asked.seconds / seconds; share >= 1)
+            text += fmt::format("{} {} {:.0f} %", text.empty() ? ":" : ",", asked.probe->name, share);
     return text;
 }
 
@@ -94,7 +87,7 @@ std::string row(const ProbesRequest& request, const Asked& asked) {
     return text;
 }
 
-std::string rest(std::span<const Asked> all) {
+std::string rest(std::span<const Asked> all, double seconds) {
     struct Group {
         const lab::Answer* answer;
         std::string probes;
@@ -112,7 +105,7 @@ std::string rest(std::span<const Asked> all) {
     std::string text;
     for (const Group& group : groups)
         text += line(group.answer->verdict, group.probes, group.answer->sentence);
-    return text + fmt::format("{}; {:.1f} s: {}\n", counted(all), seconds_of(all), shares(all));
+    return text + fmt::format("{}; {:.1f} s{}\n", counted(all), seconds, shares(all, seconds));
 }
 
 std::string report(const ProbesRequest& request, std::span<const Asked> all) {

@@ -15,8 +15,9 @@ bool accuses(const lab::Answer& answer);
 /// A verdict with all that belongs to it. Empty for those that wait for `rest`.
 std::string row(const ProbesRequest& request, const Asked& asked);
 
-/// Those that did not apply or were cut, one line for each reason, and the sum of it all.
-std::string rest(std::span<const Asked> all);
+/// Those that did not apply or were cut, one line for each reason, and the sum of it all, which took so many
+/// `seconds`.
+std::string rest(std::span<const Asked> all, double seconds);
 
 /// All of it as JSON.
 std::string report(const ProbesRequest& request, std::span<const Asked> all);

@@ -24,6 +24,8 @@ using lab::Saving;
 
 constexpr std::string_view k_libraries = "libraries";
 constexpr std::string_view k_all = "all";
+/// Of the time that is left.
+constexpr double k_share_of_library = 0.1;
 constexpr double k_mebibyte = 1024.0 * 1024.0;
 
 /// Things that are put back together.
@@ -58,17 +60,42 @@ std::vector<Question> questions_of(const SavingsOptions& options) {
     return questions;
 }
 
-Result<std::vector<LoadedLibrary>> load_libraries(const SavingsOptions& options) {
+double left_of(const SavingsOptions& options, const lab::Stopwatch& watch) {
+    return options.budget - watch.elapsed().wall / 1e3;
+}
+
+Result<std::vector<LoadedLibrary>> load_libraries(const SavingsOptions& options,
+                                                  const lab::Stopwatch& watch) {
     std::vector<LoadedLibrary> loaded;
     if (!asks_for(options, k_libraries))
         return loaded;
     for (const OptionalLibrary& library : optional_libraries()) {
-        auto cost = measure_loading(library);
+        auto cost = measure_loading(library, k_share_of_library * left_of(options, watch));
         if (!cost)
             return fail(std::move(cost.error()));
         loaded.push_back({library, *cost});
     }
     return loaded;
+}
+
+/// Each gets its part of the time that is left.
+Result<std::vector<Answer>> ask(const SavingsOptions& options, const scene::Scene& scene,
+                                const render::RenderOptions& target, const std::vector<Question>& questions,
+                                const lab::Stopwatch& watch) {
+    std::vector<Answer> answers;
+    if (questions.empty())
+        return answers;
+    auto bench = lab::SavingsBench::create(scene, target);
+    if (!bench)
+        return fail(std::move(bench.error()));
+    for (const Question& question : questions) {
+        const auto saving = bench->measure(question.things, left_of(options, watch) /
+                                                                double(questions.size() - answers.size()));
+        if (!saving)
+            return fail(saving.error());
+        answers.push_back({question.name, *saving});
+    }
+    return answers;
 }
 
 /// To the microsecond, as far as three digits tell it.
@@ -108,6 +135,8 @@ std::string row_of_file(const Answer& answer) {
 }
 
 std::string to_text(const Answer& answer) {
+    if (!answer.saving.cut.empty())
+        return fmt::format("{:<16}  not measured: {}\n", answer.name, answer.saving.cut);
     if (!answer.saving.left_out())
         return fmt::format("{:<16}  nothing of that kind is left out of this scene\n", answer.name);
     return (answer.saving.in_frame() ? row_of_frame(answer) : "") +
@@ -145,6 +174,8 @@ Json to_json(const lab::Work& work) {
 
 Json to_json(const Answer& answer) {
     const Saving& saving = answer.saving;
+    if (!saving.cut.empty())
+        return {{"with", answer.name}, {"cut", saving.cut}};
     Json json = {{"with", answer.name}, {"left_out", saving.left_out()}};
     if (saving.in_frame())
         json.update({{"start", to_json(saving.start)}, {"frame", to_json(saving.frame)}});
@@ -206,13 +237,14 @@ std::vector<std::string> things_left_out() {
 }
 
 Result<int> inspect_savings(const SavingsOptions& options) {
+    const lab::Stopwatch watch;
     const auto extent = parse_size(options.size);
     if (!extent)
         return fail(extent.error());
     const auto scene = load(options.scene);
     if (!scene)
         return fail(scene.error());
-    const auto libraries = load_libraries(options); // before there is a context
+    const auto libraries = load_libraries(options, watch); // before there is a context
     if (!libraries)
         return fail(libraries.error());
     const auto context = platform::HeadlessContext::create(options.device);
@@ -223,20 +255,16 @@ Result<int> inspect_savings(const SavingsOptions& options) {
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
     target.specialise = glsl::Specialise::unreachable;
-    std::vector<Answer> answers;
-    const std::vector<Question> questions = questions_of(options);
-    for (const Question& question : questions) {
-        const auto saving =
-            lab::measure_saving(*scene, target, question.things, options.budget / double(questions.size()));
-        if (!saving)
-            return fail(saving.error());
-        answers.push_back({question.name, *saving});
-    }
-    const auto printed = put(options.json ? dump(report_json(options, answers, *libraries), 2) + "\n"
-                                          : report_text(options, answers, *libraries));
-    const bool same = std::all_of(answers.begin(), answers.end(),
-                                  [](const Answer& answer) { return answer.saving.same_pixels; });
-    return printed.map([&] { return same ? 0 : 1; });
+    const auto answers = ask(options, *scene, target, questions_of(options), watch);
+    if (!answers)
+        return fail(answers.error());
+    const auto printed = put(options.json ? dump(report_json(options, *answers, *libraries), 2) + "\n"
+                                          : report_text(options, *answers, *libraries));
+    const bool same =
+        std::ranges::all_of(*answers, [](const Answer& answer) { return answer.saving.same_pixels; });
+    const bool whole =
+        std::ranges::all_of(*answers, [](const Answer& answer) { return answer.saving.cut.empty(); });
+    return printed.map([&] { return !same ? 1 : whole ? 0 : exit_code(ErrorCode::timed_out); });
 }
 
 } // namespace tidemark::cli

@@ -21,7 +21,8 @@ struct SavingsOptions {
 /// The words that `things` may hold.
 std::vector<std::string> things_left_out();
 
-/// A table, or one JSON object. Exit code 1 where putting a thing back changed a pixel.
+/// A table, or one JSON object. Exit code 1 where putting a thing back changed a pixel; else 5 where the
+/// budget did not suffice.
 Result<int> inspect_savings(const SavingsOptions& options);
 
 } // namespace tidemark::cli

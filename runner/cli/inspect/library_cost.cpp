@@ -42,9 +42,10 @@ bool OptionalLibrary::is_loaded() const {
     return ::dl_iterate_phdr(visit, const_cast<OptionalLibrary*>(this)) != 0;
 }
 
-Result<LibraryCost> measure_loading(const OptionalLibrary& library) {
+Result<LibraryCost> measure_loading(const OptionalLibrary& library, double seconds) {
+    const lab::Stopwatch whole;
     std::vector<double> wall, cpu, memory;
-    for (int i = 0; i < k_runs; ++i) {
+    for (int i = 0; i < k_runs && (i == 0 || whole.elapsed().wall < 1e3 * seconds); ++i) {
         const auto child = run_forked(
             [&](const Tell& tell) {
                 const double before = peak_mebibytes();

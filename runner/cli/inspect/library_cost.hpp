@@ -26,6 +26,7 @@ struct LibraryCost {
 };
 
 /// In processes of their own: a library is loaded once. To be called before there is an OpenGL context.
-Result<LibraryCost> measure_loading(const OptionalLibrary& library);
+/// Once at least, and again as long as `seconds` last.
+Result<LibraryCost> measure_loading(const OptionalLibrary& library, double seconds);
 
 } // namespace tidemark::cli

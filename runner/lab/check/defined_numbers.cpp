@@ -1,6 +1,7 @@
 #include "lab/check/defined_numbers.hpp"
 
 #include "glsl/overrides.hpp"
+#include "text/tokens.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -20,6 +21,35 @@ std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene,
         if (error == std::errc{} && end == text.data() + text.size())
             numbers.push_back({name, value, text.find_first_of(".eE") == text.npos});
     }
+    return numbers;
+}
+
+std::vector<TextNumber> text_numbers(const scene::Scene& scene) {
+    std::vector<TextNumber> numbers;
+    const auto read = [&](const text::MappedText& text) {
+        size_t statement = numbers.size();
+        bool beside_time = false;
+        const auto close = [&] {
+            for (; statement < numbers.size(); ++statement)
+                numbers[statement].beside_time = beside_time;
+            beside_time = false;
+        };
+        for (const text::Token& token : text::tokenize(text.text())) {
+            double number = 0;
+            if (token.text == ";" || token.text == "{" || token.text == "}")
+                close();
+            else if (token.kind == text::TokenKind::identifier)
+                beside_time = beside_time || token.text == "iTime";
+            else if (token.kind == text::TokenKind::number &&
+                     std::from_chars(token.text.data(), token.text.data() + token.text.size(), number).ec ==
+                         std::errc{})
+                numbers.push_back({number, false});
+        }
+        close();
+    };
+    read(scene.common);
+    for (const scene::Pass& pass : scene.passes)
+        read(pass.text);
     return numbers;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tidemark::lab {
 
@@ -115,6 +116,27 @@ Result<void> ProbeBench::step(const See& see) {
         if (!see(at, read_back(**made)))
             return {};
     }
+}
+
+bool ProbeBench::has_hits() {
+    if (hit_scene_ && !std::exchange(hits_tried_, true))
+        if (auto made = renderer({}, Entry::hit, glsl::Precision::single); !made) {
+            if (!made.error().diagnostics.empty()) { // of which the first says it
+                made.error().message.clear();
+                made.error().diagnostics.resize(1);
+            }
+            hit_problem_ = to_string(made.error());
+            hit_scene_.reset();
+        }
+    return hit_scene_.has_value();
+}
+
+std::string ProbeBench::see_bounds() const {
+    if (explored_)
+        for (const Outside& outside : explored_->outside)
+            if (outside.bound)
+                return "; see bounds: " + outside.sentence;
+    return {};
 }
 
 Result<Hits> ProbeBench::hits(const Situation& situation, glsl::Precision precision) {

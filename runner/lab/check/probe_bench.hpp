@@ -2,6 +2,7 @@
 // A context must be current as long as it lives.
 #pragma once
 
+#include "lab/check/explored.hpp"
 #include "lab/check/promises.hpp"
 #include "lab/check/situation.hpp"
 #include "lab/hits.hpp"
@@ -47,7 +48,10 @@ public:
     using See = std::function<bool(const Situation&, const std::vector<PassPicture>&)>;
     Result<void> step(const See& see);
 
-    bool has_hits() const { return hit_scene_.has_value(); }
+    /// Whether there is a mainHit that compiles.
+    bool has_hits();
+    /// Why one that the text has does not; empty for one that has none.
+    const std::string& hit_problem() const { return hit_problem_; }
     Result<Hits> hits(const Situation& situation, glsl::Precision precision = glsl::Precision::single);
 
     /// A renderer in that situation, for what is drawn in the place of a pass: all frames before are drawn.
@@ -59,6 +63,11 @@ public:
     /// The promoted scene's hashes; the error of a scene that cannot be promoted.
     Result<std::vector<glsl::KeptHash>> hashes();
 
+    /// What a search has seen; none: nobody has searched yet (lab/check/exploration.hpp).
+    std::optional<Explored>& explored() { return explored_; }
+    /// "; see bounds: …" where it saw what may draw any bytes; else empty.
+    std::string see_bounds() const;
+
 private:
     enum class Entry { picture, hit };
     Result<render::Renderer*> poised(const Situation& situation, Entry entry, glsl::Precision precision);
@@ -68,9 +77,12 @@ private:
 
     scene::Scene scene_;
     std::optional<scene::Scene> hit_scene_;
+    bool hits_tried_ = false;
+    std::string hit_problem_;
     Promises promises_;
     DrawElsewhere with_one_thread_;
     std::map<std::string, render::Renderer> renderers_;
+    std::optional<Explored> explored_;
 };
 
 } // namespace tidemark::lab

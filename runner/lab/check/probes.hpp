@@ -11,12 +11,14 @@ Result<Answer> ask_frames(ProbeBench& bench);
 Result<Answer> ask_mouse(ProbeBench& bench);
 Result<Answer> ask_sizes(ProbeBench& bench);
 Result<Answer> ask_knobs(ProbeBench& bench);
+Result<Answer> ask_search(ProbeBench& bench);
 
 // probes_inputs.cpp
 Result<Answer> ask_inputs(ProbeBench& bench);
 
 // probes_undefined.cpp
 Result<Answer> ask_undefined(ProbeBench& bench);
+Result<Answer> ask_bounds(ProbeBench& bench);
 
 // probes_text.cpp
 Result<Answer> ask_unassigned(ProbeBench& bench);

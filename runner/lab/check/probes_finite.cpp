@@ -1,5 +1,6 @@
 // Non-finite numbers: drawn in many situations, counted by bits on the CPU.
 #include "gl/capabilities.hpp"
+#include "lab/check/exploration.hpp"
 #include "lab/check/finite_look.hpp"
 #include "lab/check/probes.hpp"
 
@@ -91,6 +92,28 @@ Result<Answer> ask_knobs(ProbeBench& bench) {
     if (situations.empty())
         return Answer{Verdict::not_applicable, "the scene has no knob with a range"};
     return look_anew(bench, situations);
+}
+
+Result<Answer> ask_search(ProbeBench& bench) {
+    auto plain = look_anew(bench, {});
+    if (!plain || plain->verdict == Verdict::not_applicable)
+        return plain;
+    const auto explored = explore(bench);
+    if (!explored)
+        return fail(explored.error());
+    const std::string unread =
+        (*explored)->left_out.empty() ? "" : "; not guided by the text: " + (*explored)->left_out;
+    if ((*explored)->not_finite.empty())
+        return Answer{Verdict::pass, "all numbers finite; " + (*explored)->sentence + unread};
+    const Situation& where = (*explored)->not_finite.front();
+    const auto passes = bench.passes(where);
+    if (!passes)
+        return fail(passes.error());
+    auto fault = not_finite(bench, where, *passes);
+    if (!fault)
+        return Answer{Verdict::warn, "a pixel was not finite, and is when it is drawn again", where};
+    fault->sentence += "; " + (*explored)->sentence + unread;
+    return *std::move(fault);
 }
 
 } // namespace tidemark::lab

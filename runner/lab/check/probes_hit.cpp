@@ -15,7 +15,7 @@ namespace {
 /// The largest share of flagged rays in the usual views, against what is promised.
 Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promised, const char* what) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     double most = -1;
     Situation where;
     image::Image map;
@@ -110,6 +110,8 @@ std::vector<Situation> stiff_situations(const ProbeBench& bench) {
 } // namespace
 
 Result<Answer> ask_witnesses(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench, true);
     return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_witness_percent,
                         "take a sample below the surface");
 }
@@ -121,7 +123,7 @@ Result<Answer> ask_budget(ProbeBench& bench) {
 
 Result<Answer> ask_stiffness(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
     double most = -1;
     for (const Situation& situation : stiff_situations(bench)) {

@@ -32,7 +32,8 @@ Result<Answer> ask_repeats(ProbeBench& bench) {
         return other && other->bytes == first->bytes;
     };
     const auto say_no = [&](const char* when) {
-        return Answer{Verdict::fail, fmt::format("another picture {}", when), situation, *first};
+        return Answer{Verdict::fail, fmt::format("another picture {}{}", when, bench.see_bounds()), situation,
+                      *first};
     };
     if (!same(bench.picture(situation)))
         return say_no("at once again");
@@ -57,8 +58,8 @@ Result<Answer> ask_threads(ProbeBench& bench) {
         return fail(std::move(together.error()));
     if (const size_t different = different_pixels(*alone, *together))
         return Answer{Verdict::fail,
-                      fmt::format("{} of {} pixels are others when one thread draws them all", different,
-                                  situation.extent.pixels()),
+                      fmt::format("{} of {} pixels are others when one thread draws them all{}", different,
+                                  situation.extent.pixels(), bench.see_bounds()),
                       situation, *std::move(together)};
     return Answer{Verdict::pass, "the same bytes whether many threads draw or one"};
 }

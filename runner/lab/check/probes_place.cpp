@@ -154,7 +154,7 @@ std::optional<Situation> level_view(const scene::Scene& scene) {
 
 Result<Answer> ask_places(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     if (!away(bench, 0))
         return Answer{Verdict::not_applicable, "no iCamera and no knob camera_position to move"};
     for (const Situation& situation : below_and_above(bench)) {
@@ -169,7 +169,7 @@ Result<Answer> ask_places(ProbeBench& bench) {
 
 Result<Answer> ask_grazing(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     auto views = views_of_the_horizon(bench);
     if (!views)
         return fail(std::move(views.error()));
@@ -213,7 +213,7 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
 /// A far plane that moves by a thousandth may take or give what lies beyond it, and nothing before it.
 Result<Answer> ask_far(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     const scene::Knob* far = knob_of(bench.scene(), "far_distance");
     if (!far)
         return Answer{Verdict::not_applicable, "no knob far_distance to move"};

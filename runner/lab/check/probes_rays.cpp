@@ -20,7 +20,7 @@ Answer without_doubles(const Error& error) {
 
 Result<Answer> ask_rays(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     double good = 0;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         Situation situation = typical_view();
@@ -49,7 +49,7 @@ Result<Answer> ask_rays(ProbeBench& bench) {
 /// doubles the same value comes.
 Result<Answer> ask_epsilon(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     Answer answer;
     double most = -1;
     for (const Situation& view : usual_views()) {
@@ -156,7 +156,7 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
 
 Result<Answer> ask_octaves(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     const std::vector<Count> counts = counts_of_octaves(bench.scene());
     Answer all{Verdict::not_applicable, "no definition and no knob is a number of octaves"};
     for (const Count& count : counts) {
@@ -173,7 +173,7 @@ Result<Answer> ask_octaves(ProbeBench& bench) {
 /// more fold over themselves, and the water over a place is no function of the place any more.
 Result<Answer> ask_folds(ProbeBench& bench) {
     if (!bench.has_hits())
-        return without_hits();
+        return without_hits(bench);
     const auto knob = std::ranges::find_if(
         bench.scene().knobs, [](const scene::Knob& each) { return speaks_of(each.name, {"steepness"}); });
     double sum = 0;

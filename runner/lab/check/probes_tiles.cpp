@@ -35,8 +35,8 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
         return fail(whole.error());
     if (const size_t different = different_pixels(tiled, whole->read_back()))
         return Answer{Verdict::fail,
-                      fmt::format("{} of {} pixels differ when drawn in {}x{} tiles", different,
-                                  tiled.extent.pixels(), k_tile.width, k_tile.height),
+                      fmt::format("{} of {} pixels differ when drawn in {}x{} tiles{}", different,
+                                  tiled.extent.pixels(), k_tile.width, k_tile.height, bench.see_bounds()),
                       situation, image::without_alpha(tiled)};
     return Answer{Verdict::pass, fmt::format("the same bytes in {} tiles", cut->tiles()->count())};
 }

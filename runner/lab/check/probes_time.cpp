@@ -1,14 +1,13 @@
 // What becomes of a scene as its clock runs: rounding, cuts, and random numbers that hang on roundings.
 #include "image/compare/metrics.hpp"
+#include "lab/check/defined_numbers.hpp"
 #include "lab/check/picture_gap.hpp"
 #include "lab/check/probe_text.hpp"
 #include "lab/check/probes.hpp"
-#include "text/tokens.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -32,18 +31,8 @@ std::vector<double> possible_periods(const scene::Scene& scene) {
         if (number >= 1 && number <= 1e5)
             periods.insert(number);
     };
-    const auto read = [&](const text::MappedText& text) {
-        for (const text::Token& token : text::tokenize(text.text())) {
-            double number = 0;
-            if (token.kind == text::TokenKind::number &&
-                std::from_chars(token.text.data(), token.text.data() + token.text.size(), number).ec ==
-                    std::errc{})
-                note(number);
-        }
-    };
-    read(scene.common);
-    for (const scene::Pass& pass : scene.passes)
-        read(pass.text);
+    for (const TextNumber& number : text_numbers(scene))
+        note(number.value);
     for (const scene::Knob& knob : scene.knobs)
         note(knob.value[0]);
     return {periods.begin(), periods.end()};

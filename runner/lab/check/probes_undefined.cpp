@@ -1,16 +1,15 @@
-// Built-in functions outside of their domain, and 0 / 0: what they give there is another thing on every GPU.
-#include "glsl/watch/domains.hpp"
+// What GLSL leaves undefined: functions outside of their domain, whose value is another thing on every GPU,
+// and indices, shifts, divisions, fetches and conversions beyond their bounds.
 #include "image/compare/difference.hpp"
 #include "image/compare/metrics.hpp"
-#include "lab/check/probe_text.hpp"
+#include "lab/check/domain_fault.hpp"
+#include "lab/check/exploration.hpp"
 #include "lab/check/probes.hpp"
-#include "lab/trace/shader_words.hpp"
-#include "lab/trace/stand_in.hpp"
+#include "lab/check/watched_domains.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <set>
 
@@ -24,13 +23,40 @@ double differing(const image::Image& left, const image::Image& right) {
 
 /// Calls whose part in the picture is looked at, in one pass: two pictures each.
 constexpr size_t k_most_calls = 16;
+/// Situations that a search adds to those of everyday.
+constexpr size_t k_most_explored = 6;
 
-std::vector<Situation> situations() {
+/// A moment, and the pixels that are drawn of it.
+struct View {
+    Situation situation;
+    PixelGrid grid{};
+};
+
+/// Everyday, and those in which a search saw values leave their domain.
+Result<std::vector<View>> views(ProbeBench& bench) {
     const Extent size = Situation().extent;
-    return {{.time = 1}, {.time = 0}, {.time = 10, .mouse = glm::ivec2(size.width / 3, size.height / 4)}};
+    std::vector<View> all{
+        {{.time = 1}}, {{.time = 0}}, {{.time = 10, .mouse = glm::ivec2(size.width / 3, size.height / 4)}}};
+    const auto explored = explore(bench);
+    if (!explored)
+        return fail(explored.error());
+    for (const Outside& outside : (*explored)->outside) {
+        if (outside.bound || all.size() >= 3 + k_most_explored)
+            continue;
+        // As many pixels as those of everyday, in the same place.
+        const Extent whole = outside.where.extent;
+        const int stride = std::min(outside.grid.stride, whole.width / size.width);
+        const auto first = [&](int at, int count, int of) {
+            return std::clamp(at, 0, of - 1 - stride * (count - 1));
+        };
+        all.push_back({outside.where,
+                       {stride, first(outside.grid.left, size.width, whole.width),
+                        first(outside.grid.down, size.height, whole.height)}});
+    }
+    return all;
 }
 
-/// A call that was undefined, with what hangs on it.
+/// A site that was undefined, with what hangs on it.
 struct Undefined {
     std::string sentence;
     double percent = 0; ///< of the pixels
@@ -40,99 +66,77 @@ struct Undefined {
 
 class DomainProbe {
 public:
-    DomainProbe(ProbeBench& bench, const PassText& pass)
-        : bench_(bench), pass_(pass),
-          watch_(glsl::watch_domains(*pass.text, pass.facts, Situation().extent.width)) {}
+    DomainProbe(ProbeBench& bench, const PassText& pass) : bench_(bench), pass_(pass) {}
 
-    Result<std::vector<Undefined>> run() {
+    Result<std::vector<Undefined>> run(const std::vector<View>& views) {
         std::vector<Undefined> found;
-        if (watch_.calls.empty())
-            return found;
-        for (const Situation& situation : situations()) {
-            const auto renderer = bench_.poised(situation);
+        for (const View& view : views) {
+            const auto renderer = bench_.poised(view.situation);
             if (!renderer)
                 return fail(renderer.error());
-            const render::FrameInputs inputs = inputs_of(situation);
+            const render::FrameInputs inputs = inputs_of(view.situation);
             (*renderer)->advance_to(pass_.pass, inputs);
             const Moment moment{**renderer, pass_.pass, inputs};
-            if (!stand_in_) {
-                auto linked = StandIn::link(moment, watch_.text, "the text with its domains watched");
+            if (!watched_) {
+                auto linked = WatchedDomains::link(moment, pass_, Situation().extent);
                 if (!linked)
                     return fail(std::move(linked.error()));
-                stand_in_ = *std::move(linked);
+                watched_ = *std::move(linked);
             }
-            look(moment, situation, found);
+            look(moment, view, found);
         }
         return found;
     }
 
 private:
-    void look(const Moment& moment, const Situation& situation, std::vector<Undefined>& found) {
-        const std::vector<uint32_t> words = count(moment);
-        const image::Image zero = with(moment, watch_.calls.size(), 0);
-        for (size_t call = 0; call < watch_.calls.size(); ++call) {
-            const uint32_t* of_call = &words[call * glsl::k_domain_words];
-            const glsl::Node& node = pass_.text->tree()[watch_.calls[call]];
-            const std::string place =
-                place_of(*pass_.text, node.kind == glsl::NodeKind::call ? node.begin : node.word);
-            if (of_call[0] == 0 || place.empty() || seen_.size() >= k_most_calls ||
-                !seen_.insert(call).second)
+    void look(const Moment& moment, const View& view, std::vector<Undefined>& found) {
+        const glsl::DomainWatch& watch = watched_->watch();
+        const std::vector<uint32_t> words = watched_->draw(moment, view.grid);
+        std::optional<image::Image> zero;
+        for (size_t i = 0; i < watch.sites.size(); ++i) {
+            const glsl::DomainReading reading = reading_of(watch, words, i);
+            const std::string place = place_of_site(*pass_.text, watch.sites[i]);
+            if (reading.count == 0 || is_bound(watch.sites[i], reading) || place.empty() ||
+                seen_.size() >= k_most_calls || !seen_.insert(i).second)
                 continue;
-            image::Image worst;
-            double share = -1;
+            const glm::ivec2 pixel = watched_->pixel(view.grid, reading.pixel);
+            Undefined& each = found.emplace_back(
+                fmt::format("{}, first at pixel {},{}) at {}",
+                            domain_sentence(*pass_.text, watch.sites[i], reading), pixel.x, pixel.y, place),
+                0, view.situation, image::Image());
+            if (pass_.pass != bench_.scene().image_index())
+                each.where.pass = bench_.scene().passes[pass_.pass].name;
+            if (!zero)
+                zero = watched_->picture_with(moment, view.grid, watch.sites.size(), 0);
             for (const double value : {std::numeric_limits<double>::quiet_NaN(), 1.0}) {
-                image::Image other = with(moment, call, value);
-                if (const double differs = differing(zero, other); differs > share) {
-                    share = differs;
-                    worst = image::difference_picture(zero, other, 1);
+                const image::Image other = watched_->picture_with(moment, view.grid, i, value);
+                if (const double percent = 100 * differing(*zero, other);
+                    each.picture.bytes.empty() || percent > each.percent) {
+                    each.percent = percent;
+                    each.picture = image::difference_picture(*zero, other, 1);
                 }
             }
-            const std::string_view name = glsl::domain_name(*pass_.text, watch_.calls[call]);
-            const uint32_t pixel = ~of_call[1];
-            const auto width = uint32_t(Situation().extent.width);
-            found.push_back(
-                {fmt::format("{} {} ({:.3g}, first at pixel {},{}) at {}", name, glsl::domain_fault(name),
-                             std::bit_cast<float>(std::rotr(of_call[2], 1)), pixel % width, pixel / width,
-                             place),
-                 100 * share, situation, std::move(worst)});
-            if (pass_.pass != bench_.scene().image_index())
-                found.back().where.pass = bench_.scene().passes[pass_.pass].name;
         }
-    }
-
-    /// What each call met, as the scene stands.
-    std::vector<uint32_t> count(const Moment& moment) {
-        const ShaderWords words(watch_.calls.size() * glsl::k_domain_words);
-        stand_in_->set(watch_.number_uniform, -1);
-        stand_in_->draw(moment);
-        return words.read();
-    }
-
-    /// What the pass shows where that call gives `value` outside of its domain, and all others 0.
-    image::Image with(const Moment& moment, size_t call, double value) {
-        const ShaderWords ignored(watch_.calls.size() * glsl::k_domain_words);
-        stand_in_->set(watch_.number_uniform, double(call));
-        stand_in_->set(watch_.value_uniform, value);
-        stand_in_->draw(moment);
-        return stand_in_->picture();
     }
 
     ProbeBench& bench_;
     const PassText& pass_;
-    glsl::DomainWatch watch_;
-    std::optional<StandIn> stand_in_;
+    std::optional<WatchedDomains> watched_;
     std::set<size_t> seen_;
 };
 
 } // namespace
 
 Result<Answer> ask_undefined(ProbeBench& bench) {
+    const auto where = views(bench);
+    if (!where)
+        return fail(where.error());
     const auto texts = read_texts(bench, false);
     if (!texts)
         return Answer{Verdict::not_applicable, "not to be followed: " + to_string(texts.error())};
     std::vector<Undefined> all;
     for (const PassText& pass : *texts) {
-        auto found = DomainProbe(bench, pass).run();
+        auto found = DomainProbe(bench, pass).run(*where);
         if (!found)
             return Answer{Verdict::not_applicable, to_string(found.error())};
         std::ranges::move(*found, std::back_inserter(all));
@@ -150,6 +154,25 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
                 : fmt::format("{} calls outside of a function's domain, none of which shows", all.size())};
     return Answer{Verdict::warn, "undefined, and in the picture: " + listed(told), all[0].where,
                   std::move(all[0].picture)};
+}
+
+Result<Answer> ask_bounds(ProbeBench& bench) {
+    const auto explored = explore(bench);
+    if (!explored)
+        return fail(explored.error());
+    if (!(*explored)->left_out.empty())
+        return Answer{Verdict::not_applicable, "not to be followed: " + (*explored)->left_out};
+    std::vector<std::string> told;
+    std::optional<Situation> where;
+    for (const Outside& outside : (*explored)->outside)
+        if (outside.bound) {
+            told.push_back(outside.sentence);
+            where = where ? where : outside.where;
+        }
+    if (told.empty())
+        return Answer{Verdict::pass, "no index, shift, divisor, texel or conversion is out of bounds; " +
+                                         (*explored)->sentence};
+    return Answer{Verdict::warn, listed(told), where};
 }
 
 } // namespace tidemark::lab

@@ -66,8 +66,11 @@ image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(s
     return map;
 }
 
-Answer without_hits() {
-    return {Verdict::not_applicable, "the scene has no mainHit"};
+Answer without_hits(const ProbeBench& bench, bool warns) {
+    if (bench.hit_problem().empty())
+        return {Verdict::not_applicable, "the scene has no mainHit"};
+    return warns ? Answer{Verdict::warn, "mainHit cannot be asked: " + bench.hit_problem()}
+                 : Answer{Verdict::not_applicable, "mainHit cannot be asked: see witnesses"};
 }
 
 Result<Parting> parting(ProbeBench& bench, const Situation& situation) {

@@ -28,7 +28,8 @@ double mean_evaluations(const Hits& hits);
 /// magenta.
 image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(size_t)>& marks);
 
-Answer without_hits();
+/// Of the probe that is told of a mainHit which does not compile, a warning.
+Answer without_hits(const ProbeBench& bench, bool warns = false);
 
 /// A view in floats and in doubles; parts of all rays, percent.
 struct Parting {

@@ -16,15 +16,6 @@ using glsl::WatchLayout;
 
 constexpr size_t k_longest_text = 80;
 
-std::string shortened(std::string text) {
-    if (text.size() <= k_longest_text)
-        return text;
-    size_t cut = k_longest_text - 4;
-    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u)
-        --cut;
-    return text.substr(0, cut) + " …";
-}
-
 /// The assignment, the variable's declaration or the return that the value goes into.
 NodeId target_of(const WatchedText& watched, NodeId id) {
     const glsl::SyntaxTree& tree = watched.text.tree();
@@ -49,6 +40,12 @@ std::string variable_of(const WatchedText& watched, NodeId target) {
 
 /// A number that stands in the text.
 std::optional<ShaderValue> literal(std::string_view digits) {
+    if (digits.starts_with("0x") || digits.starts_with("0X")) {
+        ShaderValue value{{glsl::SlotType::unsigned_integer, 1, 1}, {}};
+        const auto read =
+            std::from_chars(digits.data() + 2, digits.data() + digits.size(), value.bits[0], 16);
+        return read.ec == std::errc{} ? std::optional(value) : std::nullopt;
+    }
     float number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error != std::errc{})
@@ -122,6 +119,15 @@ void add_way(Birth& birth, const WatchedText& watched, const glsl::Watch& watch,
 }
 
 } // namespace
+
+std::string shortened(std::string text) {
+    if (text.size() <= k_longest_text)
+        return text;
+    size_t cut = k_longest_text - 4;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u)
+        --cut;
+    return text.substr(0, cut) + " …";
+}
 
 std::string_view base_name(const WatchedText& watched, NodeId id) {
     const glsl::SyntaxTree& tree = watched.text.tree();

@@ -21,6 +21,9 @@ Birth describe(const WatchedText& watched, glsl::NodeId operation);
 void add_reading(Birth& birth, const WatchedText& watched, glsl::NodeId operation, const glsl::Watch& watch,
                  const WatchReading& reading, const scene::Scene& scene, const scene::Pass& pass);
 
+/// So much of an excerpt as a sentence takes.
+std::string shortened(std::string text);
+
 /// The name behind `a`, `a.xy`, `a[i]`, `(a)`; empty for anything else.
 std::string_view base_name(const WatchedText& watched, glsl::NodeId expression);
 

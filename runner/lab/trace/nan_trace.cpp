@@ -257,20 +257,26 @@ private:
     /// The earliest frame and pass with a bad pixel: later ones may only have inherited it.
     std::optional<BadPixel> scan() {
         renderer_.reset();
-        for (int frame = first_frame(); frame <= request_.frame; ++frame) {
+        for (int frame = first_frame();; ++frame) {
+            if (request_.stepping)
+                request_.stepping(frame);
             renderer_.draw(request_.inputs(frame));
             for (const render::PlannedPass& planned : renderer_.plan().passes)
                 if (const auto pixel = first_bad(renderer_, planned.pass))
                     return BadPixel{planned.pass, frame, *pixel};
+            if (frame >= request_.frame) // which may be the largest there is
+                return std::nullopt;
         }
-        return std::nullopt;
     }
 
     /// Everything as it is before `frame`.
     void rewind(int frame) {
         renderer_.reset();
-        for (int before = first_frame(); before < frame; ++before)
+        for (int before = first_frame(); before < frame; ++before) {
+            if (request_.stepping)
+                request_.stepping(before);
             renderer_.draw(request_.inputs(before));
+        }
     }
 
     /// Everything as it was when `pass` was about to be drawn in `frame`.
@@ -284,7 +290,8 @@ private:
         trace.pass = renderer_.scene().passes[bad.pass].name;
         trace.frame = bad.frame;
         trace.pixel = bad.pixel;
-        rewind(bad.frame + 1);
+        rewind(bad.frame);
+        renderer_.draw(request_.inputs(bad.frame));
         trace.colour = bits_at(renderer_.read_floats(bad.pass, bad.pixel.face), bad.pixel);
         trace.washed = is_finite(trace.colour);
         if (request_.progress && !trace.washed)

@@ -64,6 +64,8 @@ struct TraceRequest {
     std::function<render::FrameInputs(int frame)> inputs;
     std::optional<PixelPlace> pixel{}; ///< of the shown pass; nothing: the first bad one of any pass
     bool hidden = false; ///< where all pixels are finite: look for a NaN that something swallowed
+    /// Called with each frame that is drawn on the way.
+    std::function<void(int frame)> stepping{};
     /// Called with what is known so far, whenever more is.
     std::function<void(const NanTrace&)> progress{};
 };

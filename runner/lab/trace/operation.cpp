@@ -212,16 +212,27 @@ std::optional<ShaderValue> read_slot(std::span<const uint32_t> words, size_t slo
     return value;
 }
 
+std::string to_shortest(float number) {
+    if (std::isnan(number))
+        return "NaN";
+    if (std::isinf(number))
+        return number > 0 ? "+Inf" : "-Inf";
+    return fmt::format("{}", number);
+}
+
 std::string to_string(const ShaderValue& value) {
     const auto number = [&](size_t i) -> std::string {
-        if (value.shape.type == SlotType::boolean)
-            return value.bits[i] != 0 ? "true" : "false";
-        const double x = value.number(i);
-        if (std::isnan(x))
-            return "NaN";
-        if (std::isinf(x))
-            return x > 0 ? "+Inf" : "-Inf";
-        return fmt::format("{:.6g}", x);
+        const uint32_t bits = value.bits[i];
+        switch (value.shape.type) {
+        case SlotType::boolean: return bits != 0 ? "true" : "false";
+        case SlotType::integer:
+        case SlotType::unsigned_integer: {
+            const std::string digits = fmt::format("{:.0f}", value.number(i));
+            const bool large = std::abs(value.number(i)) >= 0x10000; // of hashes and masks
+            return large ? fmt::format("{} ({:#x})", digits, bits) : digits;
+        }
+        default: return to_shortest(std::bit_cast<float>(bits));
+        }
     };
     if (value.size() == 1)
         return number(0);

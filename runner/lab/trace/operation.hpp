@@ -26,7 +26,9 @@ struct ShaderValue {
 
 /// A slot of glsl::WatchLayout; nothing where none was written.
 std::optional<ShaderValue> read_slot(std::span<const uint32_t> words, size_t slot);
-/// `0.31`, `vec2(0, -1)`.
+/// The fewest digits that are this float and no other; "NaN", "+Inf", "-Inf".
+std::string to_shortest(float number);
+/// `0.31`, `vec2(0, -1)`, `70000 (0x11170)`.
 std::string to_string(const ShaderValue& value);
 /// "NaN", "+Inf" or "-Inf"; the worst of its numbers. Empty for a finite one.
 std::string_view worst_of(const ShaderValue& value);

@@ -12,13 +12,14 @@ Extent extent_of(const Moment& moment) {
     return cube ? Extent{render::k_cube_side, render::k_cube_side} : moment.renderer.extent();
 }
 
-Result<StandIn> StandIn::link(const Moment& moment, const std::string& text, std::string_view what) {
+Result<StandIn> StandIn::link(const Moment& moment, const std::string& text, std::string_view what,
+                              std::optional<Extent> extent) {
     const auto version = moment.renderer.dialect(moment.pass).version;
     auto program = gl::Program::link(glsl::vertex_shader(version), text);
     if (!program)
         return fail(ErrorCode::load,
                     fmt::format("the driver refuses {}: {}", what, program.error().substr(0, 400)));
-    auto target = gl::make_render_target(gl::make_texture(extent_of(moment), GL_RGBA32F, 1));
+    auto target = gl::make_render_target(gl::make_texture(extent.value_or(extent_of(moment)), GL_RGBA32F, 1));
     if (!target)
         return fail(ErrorCode::load, fmt::format("the driver has no memory for the picture of {}", what));
     return StandIn(*std::move(program), *std::move(target));

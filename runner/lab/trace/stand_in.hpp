@@ -6,6 +6,7 @@
 #include "image/image.hpp"
 #include "render/renderer.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,8 +25,9 @@ Extent extent_of(const Moment& moment);
 class StandIn {
 public:
     /// Fails (ErrorCode::load) with the driver's words when it refuses the text, of which `what` says what it
-    /// is: "the watched text".
-    static Result<StandIn> link(const Moment& moment, const std::string& text, std::string_view what);
+    /// is: "the watched text". `extent` is that of its picture; none: the pass's own.
+    static Result<StandIn> link(const Moment& moment, const std::string& text, std::string_view what,
+                                std::optional<Extent> extent = {});
 
     /// A uniform of the text; one that the driver left out is nothing.
     void set(const std::string& uniform, double value);

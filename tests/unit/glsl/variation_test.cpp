@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <tuple>
+
 namespace tidemark::glsl {
 namespace {
 
@@ -115,29 +118,84 @@ TEST(Domains, CallsThatTheTextItselfSettlesAreNotWatched) {
         read("const float c = sqrt(2.0);\nfloat f(float x) {\n"
              "return sqrt(2.0) + pow(2.0, x) + mod(x, 3.0) + smoothstep(0.0, 1.0, x) + atan(x) +\n"
              "atan(x, 1.0) + pow(x, -2.0) + mod(x, x) + smoothstep(-0.5, (-0.5), x) + log(-1.0); }\n");
-    const DomainWatch watch = watch_domains(*of.text, of.facts, 64);
+    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::floats);
     std::string names;
-    for (const NodeId call : watch.calls)
-        names += std::string(called_name(*of.text, call)) + " ";
+    for (const DomainSite& site : watch.sites)
+        names += std::string(called_name(*of.text, site.node)) + " ";
     EXPECT_EQ(names, "pow mod smoothstep log ");
-    EXPECT_EQ(count(watch.text, "tmw0_pow ( x , - 2.0 ,0)"), 1);
+    EXPECT_EQ(count(watch.text, "tmw0_pow ( x , - 2.0 ,0,tmw0_m[0])"), 1);
 }
 
 TEST(Domains, QuotientsAreWatchedWhereBothMayBeZero) {
     const Read of = read("float f(float x, int n, vec2 v) {\nx /= x; v.y /= v.x + 1.0; x /= 2.0;\n"
                          "return x / v.x + 1.0 / x + x / 3.0 + float(n / n) + x / max(x, 0.1) +\n"
                          "x / iResolution.x; }\n");
-    const DomainWatch watch = watch_domains(*of.text, of.facts, 64);
-    EXPECT_EQ(watch.calls.size(), 3u);
-    EXPECT_EQ(count(watch.text, "x =tmw0_quotient(x , (x),0)"), 1);
-    EXPECT_EQ(count(watch.text, "v . y =tmw0_quotient(v . y , (v . x + 1.0),1)"), 1);
-    EXPECT_EQ(count(watch.text, "return tmw0_quotient(x , v . x,2) + 1.0 / x + x / 3.0"), 1);
-    EXPECT_EQ(domain_name(*of.text, watch.calls[0]), "quotient");
+    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::floats);
+    EXPECT_EQ(watch.sites.size(), 3u);
+    EXPECT_EQ(count(watch.text, "x =tmw0_quotient(x , (x),0,tmw0_m[0])"), 1);
+    EXPECT_EQ(count(watch.text, "v . y =tmw0_quotient(v . y , (v . x + 1.0),1,tmw0_m[1])"), 1);
+    EXPECT_EQ(count(watch.text, "return tmw0_quotient(x , v . x,2,tmw0_m[2]) + 1.0 / x + x / 3.0"), 1);
+    EXPECT_EQ(domain_name(*of.text, watch.sites[0].node), "quotient");
+}
+
+TEST(Domains, WholeNumbersHaveBounds) {
+    const Read of = read("float a[3];\nvoid f(int n, uint u, float x, vec3 v, sampler2D s) {\n"
+                         "a[n] = a[1] + v[n]; n = 7 / n + 7 / 2 + 7 % n; n <<= n; u = u >> 3;\n"
+                         "n = int(x) + int(u) + ivec2(v.xy).x; a[0] = texelFetch(s, ivec2(0), n).x; }\n");
+    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::everything);
+    EXPECT_EQ(watch.sites.size(), 8u);
+    EXPECT_EQ(watch.objectives.size(), 8u);
+    EXPECT_EQ(count(watch.text, "a [ tmw0_index((n),int(a .length()),0,tmw0_m[0]) ] ="), 1);
+    EXPECT_EQ(count(watch.text, "7 / tmw0_divisor((n),2,tmw0_m[2])"), 1);
+    EXPECT_EQ(count(watch.text, "n <<= tmw0_shift((n),4,tmw0_m[4])"), 1);
+    EXPECT_EQ(count(watch.text, "int ( tmw0_toint((x),5,tmw0_m[5]) )"), 1);
+    EXPECT_EQ(count(watch.text, "tmw0_texelFetch ( s , ivec2 ( 0 ) , n ,7,tmw0_m[7])"), 1);
+}
+
+TEST(Domains, AComparisonHasTwoWaysToGo) {
+    const Read of = read("void f(float x, int n) {\nif (x < 1.0 && n == 3) x = 0.0;\n"
+                         "for (int i = 0; i < n; ++i) if (x != x) discard; }\nvoid main() { f(1.0, 2); }\n");
+    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::everything);
+    ASSERT_EQ(watch.sites.size(), 2u);
+    ASSERT_EQ(watch.objectives.size(), 3u);
+    EXPECT_TRUE(watch.objectives[1].second && !watch.objectives[1].equality);
+    EXPECT_TRUE(watch.objectives[2].equality);
+    EXPECT_EQ(count(watch.text, "tmw0_less(x , 1.0,tmw0_m[0],tmw0_m[1])"), 1);
+    EXPECT_EQ(count(watch.text, "tmw0_same(n , 3,tmw0_m[2],tmw0_none)"), 1);
+    EXPECT_EQ(count(watch.text, "{tmw0_flush();discard ;}"), 1);
+    EXPECT_EQ(count(watch.text, "void main(){tmw0_begin();tmw0_main();tmw0_flush();}"), 1);
+}
+
+TEST(Domains, ReadingsAreOfTheirSite) {
+    DomainWatch watch;
+    watch.sites.resize(2);
+    watch.objectives = {{0}, {1}};
+    const uint32_t half = std::bit_cast<uint32_t>(0.5F), less = std::bit_cast<uint32_t>(-0.25F);
+    const std::vector<uint32_t> words{0,
+                                      0,
+                                      0,
+                                      0,
+                                      3,
+                                      ~77U,
+                                      std::rotl(half, 1),
+                                      9,
+                                      ~half & 0x7fffffffU,
+                                      (~half & 0x7ffff000U) | 5,
+                                      less,
+                                      (less & 0xfffff000U) | 6};
+    ASSERT_EQ(words.size(), watch.words());
+    const DomainReading reading = reading_of(watch, words, 1);
+    EXPECT_EQ(std::tuple(reading.count, reading.pixel, reading.told, reading.limit),
+              std::tuple(3U, 77U, half, 9U));
+    EXPECT_EQ(room_of(watch, words, 0).least, 0.5F);
+    EXPECT_EQ(room_of(watch, words, 0).pixel, 5U);
+    EXPECT_EQ(room_of(watch, words, 1).least, -0.25F);
+    EXPECT_EQ(room_of(watch, words, 1).pixel, 6U);
 }
 
 TEST(Domains, AFunctionOfTheAuthorsIsItsOwnAffair) {
     const Read of = read("float sqrt(float x) { return x; }\nfloat f(float x) { return sqrt(x); }\n");
-    EXPECT_TRUE(watch_domains(*of.text, of.facts, 64).calls.empty());
+    EXPECT_TRUE(watch_domains(*of.text, of.facts, 64, DomainScope::floats).sites.empty());
 }
 
 } // namespace

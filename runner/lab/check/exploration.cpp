@@ -1,0 +1,507 @@
+#include "lab/check/exploration.hpp"
+
+#include "lab/check/domain_fault.hpp"
+#include "lab/check/finite_look.hpp"
+#include "lab/check/search_space.hpp"
+#include "lab/check/watched_domains.hpp"
+#include "lab/stopwatch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr Extent k_asked{640, 360}; ///< the size that `capture` has
+constexpr Extent k_part{32, 18};    ///< what is drawn of it at once
+constexpr size_t k_most_confirmed = 3;
+constexpr int k_most_steps = 320; ///< towards edges
+constexpr int k_steps_of_one = 14;
+constexpr int k_rounds = 2;
+constexpr size_t k_valleys = 3; ///< moments that are near an edge among their neighbours
+constexpr size_t k_most_places = 40;
+
+/// Milliseconds of CPU until each part of the search is ended; on the wall five times as many.
+constexpr double k_looks_end = 1000, k_steps_end = 1500, k_places_end = 1900, k_pictures_end = 2300;
+
+/// A whole picture that would take longer is left out.
+constexpr double k_longest_picture = 5000;
+
+constexpr float k_far = std::numeric_limits<float>::infinity();
+
+std::string counted(size_t number, std::string_view what) {
+    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
+/// One look at all passes.
+struct Look {
+    SearchPoint point;
+    std::vector<glsl::DomainRoom> rooms; ///< one for each objective of each pass
+};
+
+class Explorer {
+public:
+    explicit Explorer(ProbeBench& bench) : bench_(bench) {}
+
+    Result<Explored> run() {
+        if (auto prepared = prepare(); !prepared)
+            return fail(std::move(prepared.error()));
+        const std::vector<SearchPoint> points = space_->survey();
+        for (const SearchPoint& point : points) {
+            if (is_over(k_looks_end))
+                break;
+            if (auto seen = look(point, coarse()); !seen)
+                return fail(std::move(seen.error()));
+            if (looks_.size() == 1)
+                watch_ = Stopwatch(); // without what compiling took
+        }
+        surveyed_ = looks_.size();
+        // Behind a comparison that goes another way there may be more of them.
+        for (int round = 1; round <= k_rounds; ++round)
+            if (auto stepped = step_to_edges(k_most_steps * round / k_rounds); !stepped)
+                return fail(std::move(stepped.error()));
+        spent_ = watch_.elapsed().cpu;
+        if (auto zoomed = zoom_in(); !zoomed)
+            return fail(std::move(zoomed.error()));
+        if (auto drawn = draw_whole(); !drawn)
+            return fail(std::move(drawn.error()));
+        result_.sentence = sentence();
+        return std::move(result_);
+    }
+
+private:
+    struct WatchedPass {
+        const PassText& text;
+        WatchedDomains watched;
+        size_t first; ///< objective
+    };
+
+    Result<void> prepare() {
+        const auto renderer = bench_.poised({});
+        if (!renderer)
+            return fail(renderer.error());
+        SearchInputs inputs;
+        for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
+            const gl::Reflection& active = (*renderer)->program(planned.pass).reflection();
+            inputs.time = inputs.time || active.has("iTime") || active.has("iFrame");
+            inputs.mouse = inputs.mouse || active.has("iMouse");
+        }
+        space_.emplace(bench_.scene(), bench_.promises(), inputs);
+        auto texts = read_texts(bench_, false);
+        if (!texts) {
+            result_.left_out = to_string(texts.error());
+            extent_ = Situation().extent;
+            return {};
+        }
+        // Where other passes are drawn before, each look costs a picture of theirs.
+        texts_ = *std::move(texts);
+        extent_ = texts_.size() > 1 || (*renderer)->plan().feedback ? Situation().extent : k_asked;
+        for (const PassText& text : texts_)
+            if (auto watched = watch(**renderer, text); !watched) {
+                result_.left_out = to_string(watched.error());
+                passes_.clear();
+                reached_.clear();
+                extent_ = Situation().extent;
+                return {};
+            }
+        return {};
+    }
+
+    Result<void> watch(const render::Renderer& renderer, const PassText& text) {
+        const render::FrameInputs inputs = inputs_of({});
+        auto watched = WatchedDomains::link({renderer, text.pass, inputs}, text, k_part);
+        if (!watched)
+            return fail(std::move(watched.error()));
+        for (size_t i = 0; i < watched->watch().objectives.size(); ++i)
+            reached_.push_back(false);
+        const size_t first = reached_.size() - watched->watch().objectives.size();
+        passes_.push_back({text, *std::move(watched), first});
+        return {};
+    }
+
+    bool is_over(double milliseconds) const {
+        const Elapsed elapsed = watch_.elapsed();
+        over_ = over_ || elapsed.cpu > milliseconds || elapsed.wall > 5 * milliseconds;
+        return elapsed.cpu > milliseconds || elapsed.wall > 5 * milliseconds;
+    }
+
+    PixelGrid coarse() const {
+        const int stride = extent_.width / k_part.width;
+        return {stride, stride / 2, stride / 2};
+    }
+
+    /// Draws all passes in that situation and notes what is new; `last_` is what was seen.
+    Result<void> look(const SearchPoint& point, const PixelGrid& grid) {
+        const Situation at = space_->situation(point, extent_);
+        last_ = {point, {}};
+        if (passes_.empty()) {
+            looks_.push_back(last_);
+            return confirm(at);
+        }
+        finite_ = true;
+        for (WatchedPass& pass : passes_) {
+            const auto renderer = bench_.poised(at);
+            if (!renderer)
+                return fail(renderer.error());
+            const render::FrameInputs inputs = inputs_of(at);
+            (*renderer)->advance_to(pass.text.pass, inputs);
+            note(pass, {**renderer, pass.text.pass, inputs}, grid, at);
+        }
+        if (grid.stride == coarse().stride)
+            looks_.push_back(last_);
+        if (finite_ || confirmed_ == k_most_confirmed)
+            return {};
+        ++confirmed_;
+        return confirm(at);
+    }
+
+    void note(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const Situation& at) {
+        const glsl::DomainWatch& watch = pass.watched.watch();
+        const std::vector<uint32_t> words = pass.watched.draw(moment, grid);
+        const bool finite = pass.watched.finite();
+        for (size_t i = 0; i < watch.objectives.size(); ++i) {
+            const glsl::Objective& objective = watch.objectives[i];
+            const glsl::DomainRoom& room = last_.rooms.emplace_back(room_of(watch, words, i));
+            if (watch.sites[objective.site].kind == glsl::DomainKind::comparison)
+                reach(pass.first + i, objective.equality ? room.least == 0 : room.least < 0);
+            else
+                reach(pass.first + i, reading_of(watch, words, objective.site).count > 0 ||
+                                          (watch.sites[objective.site].kind == glsl::DomainKind::quotient &&
+                                           room.least == 0));
+        }
+        for (size_t i = 0; i < watch.sites.size(); ++i)
+            if (const glsl::DomainReading reading = reading_of(watch, words, i);
+                reading.count > 0 && outside_.insert({pass.text.pass, i}).second)
+                tell(pass, moment, grid, at, i, reading);
+        finite_ = finite_ && finite;
+    }
+
+    void reach(size_t objective, bool reached) { reached_[objective] = reached_[objective] || reached; }
+
+    /// What is new, with its operand in the first pixel that showed it.
+    void tell(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const Situation& at,
+              size_t site, glsl::DomainReading reading) {
+        const glsl::DomainWatch& watch = pass.watched.watch();
+        const std::string place = place_of_site(*pass.text.text, watch.sites[site]);
+        if (place.empty())
+            return;
+        Outside& told =
+            result_.outside.emplace_back(Outside{at, grid, is_bound(watch.sites[site], reading), {}});
+        if (pass.text.pass != bench_.scene().image_index())
+            told.where.pass = bench_.scene().passes[pass.text.pass].name;
+        if (!told.bound)
+            return;
+        const glm::ivec2 pixel = pass.watched.pixel(grid, reading.pixel);
+        const auto alone = reading_of(watch, pass.watched.draw(moment, {0, pixel.x, pixel.y}), site);
+        if (alone.count > 0)
+            reading = alone;
+        told.sentence = fmt::format("{}: {}, at pixel {},{} at {:.6g} s", place,
+                                    domain_sentence(*pass.text.text, watch.sites[site], reading), pixel.x,
+                                    pixel.y, at.time);
+    }
+
+    /// The text itself, without what watches it, and without the pixels left out.
+    Result<void> confirm(const Situation& at) {
+        if (!result_.not_finite.empty())
+            return {};
+        const auto passes = bench_.passes(at);
+        if (!passes)
+            return fail(passes.error());
+        if (not_finite(bench_, at, *passes))
+            result_.not_finite.push_back(at);
+        return {};
+    }
+
+    /// An objective that the survey came near to, and where from.
+    struct Start {
+        size_t objective;
+        SearchPoint point;
+        double low, high; ///< moments around it that are less near
+        double score;
+    };
+
+    bool is_way(size_t objective) const {
+        const auto pass = std::ranges::find_if(passes_, [&](const WatchedPass& each) {
+            return objective < each.first + each.watched.watch().objectives.size();
+        });
+        const glsl::DomainWatch& watch = pass->watched.watch();
+        return watch.sites[watch.objectives[objective - pass->first].site].kind ==
+               glsl::DomainKind::comparison;
+    }
+
+    /// The survey's looks that differ from the plain one by their moment only, by moments.
+    std::vector<const Look*> time_line() const {
+        const SearchPoint plain = space_->plain();
+        std::vector<const Look*> line;
+        for (const Look& each : looks_)
+            if (each.point.knobs == plain.knobs && !each.point.mouse)
+                line.push_back(&each);
+        std::ranges::sort(line, {}, [](const Look* each) { return each->point.time; });
+        return line;
+    }
+
+    /// Empty where nothing that the scene reads moves it.
+    std::vector<Start> starts_of(size_t objective, const std::vector<const Look*>& line) const {
+        float least = k_far, most = -k_far;
+        size_t zeros = 0;
+        const Look* best = nullptr;
+        for (const Look& each : looks_) {
+            const float room = each.rooms[objective].least;
+            if (room == k_far)
+                continue;
+            zeros += room == 0;
+            most = std::max(most, room);
+            if (room < least) {
+                least = room;
+                best = &each;
+            }
+        }
+        // What is 0 as a rule is kept there by a max() or a clamp().
+        if (!best || !(most > least) || zeros > looks_.size() / 4)
+            return {};
+        std::vector<Start> starts;
+        const double score = double(least) / (double(most) - double(least));
+        for (size_t i = 0; i < line.size(); ++i) {
+            const float room = line[i]->rooms[objective].least;
+            const float before = i > 0 ? line[i - 1]->rooms[objective].least : k_far;
+            const float after = i + 1 < line.size() ? line[i + 1]->rooms[objective].least : k_far;
+            if (room != k_far && room <= before && room <= after && (room < before || room < after))
+                starts.push_back({objective, line[i]->point, line[i > 0 ? i - 1 : i]->point.time,
+                                  line[i + 1 < line.size() ? i + 1 : i]->point.time,
+                                  score + double(room - least) / (double(most) - double(least))});
+        }
+        std::ranges::sort(starts, {}, &Start::score);
+        if (starts.size() > k_valleys)
+            starts.erase(starts.begin() + k_valleys, starts.end());
+        starts.insert(starts.begin(), {objective, best->point, best->point.time, best->point.time, score});
+        return starts;
+    }
+
+    /// Whether a knob was seen to move it, when it alone was set to something else; where nothing is known of
+    /// it, it may.
+    bool moves(const SearchAxis& axis, size_t objective) const {
+        const float plain = looks_.front().rooms[objective].least;
+        if (axis.kind != SearchAxis::Kind::knob || plain == k_far)
+            return true;
+        SearchPoint point = looks_.front().point;
+        bool tried = false;
+        for (size_t i = 1; i < surveyed_; ++i) {
+            const Look& each = looks_[i];
+            SearchSpace::set(point, axis, SearchSpace::value(each.point, axis));
+            if (each.point.time != point.time || each.point.mouse || each.point.knobs != point.knobs ||
+                each.point.knobs == looks_.front().point.knobs)
+                continue;
+            if (each.rooms[objective].least != plain)
+                return true;
+            tried = true;
+        }
+        return !tried;
+    }
+
+    Result<void> step_to_edges(int most) {
+        const std::vector<const Look*> line = time_line();
+        std::vector<Start> starts;
+        for (size_t i = 0; i < reached_.size(); ++i)
+            if (!reached_[i])
+                std::ranges::move(starts_of(i, line), std::back_inserter(starts));
+        std::ranges::stable_sort(starts, {}, &Start::score);
+        for (const Start& start : starts) {
+            if (reached_[start.objective])
+                continue;
+            SearchPoint point = start.point;
+            for (const SearchAxis& axis : space_->axes()) {
+                if (reached_[start.objective] || steps_ >= most || is_over(k_steps_end))
+                    break;
+                if ((axis.kind == SearchAxis::Kind::time && start.low == start.high) ||
+                    !moves(axis, start.objective))
+                    continue;
+                followed_.insert(start.objective);
+                if (auto stepped = step(start, axis, point); !stepped)
+                    return stepped;
+            }
+        }
+        return {};
+    }
+
+    /// Golden section along one axis; `point` becomes the nearest one.
+    Result<void> step(const Start& start, const SearchAxis& axis, SearchPoint& point) {
+        constexpr double k_ratio = 0.6180339887498949;
+        const double here = SearchSpace::value(point, axis);
+        const bool time = axis.kind == SearchAxis::Kind::time;
+        const double reach = (axis.high - axis.low) / 6;
+        double low = time ? start.low : std::max(axis.low, here - reach);
+        double high = time ? start.high : std::min(axis.high, here + reach);
+        const auto room_at = [&](double value) -> Result<float> {
+            SearchPoint there = point;
+            SearchSpace::set(there, axis, value);
+            ++steps_;
+            if (auto seen = look(there, coarse()); !seen)
+                return fail(std::move(seen.error()));
+            return last_.rooms[start.objective].least;
+        };
+        double left = high - k_ratio * (high - low), right = low + k_ratio * (high - low);
+        auto of_left = room_at(left), of_right = room_at(right);
+        for (int i = 2; of_left && of_right && i < k_steps_of_one && !reached_[start.objective]; ++i) {
+            if (*of_left == *of_right && i == 2 && !time)
+                return {}; // moves nothing
+            if (*of_left <= *of_right) {
+                high = std::exchange(right, left);
+                of_right = of_left;
+                left = high - k_ratio * (high - low);
+                of_left = room_at(left);
+            } else {
+                low = std::exchange(left, right);
+                of_left = of_right;
+                right = low + k_ratio * (high - low);
+                of_right = room_at(right);
+            }
+        }
+        if (!of_left || !of_right)
+            return fail(!of_left ? of_left.error() : of_right.error());
+        SearchSpace::set(point, axis, *of_left <= *of_right ? left : right);
+        return {};
+    }
+
+    /// The pixels around the nearest one, of each objective that was not reached.
+    Result<void> zoom_in() {
+        std::vector<std::pair<size_t, const Look*>> nearest;
+        for (const bool ways : {false, true})
+            for (size_t i = 0; i < reached_.size(); ++i) {
+                if (reached_[i] || is_way(i) != ways)
+                    continue;
+                const Look* best = nullptr;
+                for (const Look& each : looks_)
+                    if (each.rooms[i].least != k_far && (!best || each.rooms[i].least < best->rooms[i].least))
+                        best = &each;
+                if (best)
+                    nearest.emplace_back(i, best);
+            }
+        for (const auto& [objective, best] : nearest) {
+            if (zooms_ == k_most_places || is_over(k_places_end))
+                break;
+            ++zooms_;
+            PixelGrid grid = coarse();
+            glsl::DomainRoom room = best->rooms[objective];
+            while (grid.stride > 1 && room.least != k_far && !reached_[objective]) {
+                grid = around(grid, room.pixel);
+                if (auto seen = look(best->point, grid); !seen)
+                    return seen;
+                room = last_.rooms[objective];
+            }
+        }
+        return {};
+    }
+
+    /// A finer grid whose middle is that pixel of `grid`, within the picture.
+    PixelGrid around(const PixelGrid& grid, uint32_t pixel) const {
+        const int x = grid.left + grid.stride * (int(pixel) % k_part.width);
+        const int y = grid.down + grid.stride * (int(pixel) / k_part.width);
+        const int stride = grid.stride > 4 ? 4 : 1;
+        const auto first = [&](int middle, int size, int whole) {
+            return std::clamp(middle - stride * (size / 2), 0, whole - 1 - stride * (size - 1));
+        };
+        return {stride, first(x, k_part.width, extent_.width), first(y, k_part.height, extent_.height)};
+    }
+
+    Result<void> draw_whole() {
+        for (const double time : {1.0, 0.0, 10.0, 60.0}) {
+            if (!result_.not_finite.empty() ||
+                (pictures_ > 0 && (is_over(k_pictures_end) || !reads_time())) ||
+                whole_picture() > k_longest_picture)
+                return {};
+            const Situation at{.extent = k_asked, .time = time};
+            const auto passes = bench_.passes(at);
+            if (!passes)
+                return fail(passes.error());
+            ++pictures_;
+            if (not_finite(bench_, at, *passes))
+                result_.not_finite.push_back(at);
+        }
+        return {};
+    }
+
+    /// Milliseconds of CPU that one may take, by the looks so far.
+    double whole_picture() const {
+        const double pixels = double((extent_.width == k_asked.width ? k_part : extent_).pixels());
+        return spent_ / double(std::max<size_t>(looks_.size(), 1)) * double(k_asked.pixels()) / pixels;
+    }
+
+    bool reads_time() const {
+        return std::ranges::any_of(
+            space_->axes(), [](const SearchAxis& axis) { return axis.kind == SearchAxis::Kind::time; });
+    }
+
+    std::string sentence() const {
+        std::set<double> moments;
+        size_t mouse = 0, knobs = 0;
+        const SearchPoint plain = space_->plain();
+        for (size_t i = 0; i < surveyed_; ++i) {
+            const Look& each = looks_[i];
+            moments.insert(each.point.time);
+            mouse += each.point.mouse.has_value();
+            knobs += each.point.knobs != plain.knobs;
+        }
+        std::string text = "sampled: " + counted(surveyed_, "situation");
+        if (moments.size() > 1)
+            text += fmt::format(", {} in {:.3g} to {:.6g} s", counted(moments.size(), "moment"),
+                                *moments.begin(), *moments.rbegin());
+        if (mouse > 0)
+            text += fmt::format(", {} of the mouse", counted(mouse, "place"));
+        if (knobs > 0)
+            text += fmt::format(", {} of knobs", counted(knobs, "setting"));
+        if (passes_.empty()) {
+            text += fmt::format(", in {}x{} pixels", extent_.width, extent_.height);
+        } else {
+            text += fmt::format(", in {}x{} pixels of {}x{}", k_part.width, k_part.height, extent_.width,
+                                extent_.height);
+            const auto reached = std::ranges::count_if(followed_, [&](size_t i) { return reached_[i]; });
+            if (steps_ > 0)
+                text += fmt::format("; {} towards {}, {} reached", counted(size_t(steps_), "step"),
+                                    counted(followed_.size(), "edge"), reached);
+            if (zooms_ > 0)
+                text += fmt::format("; {} pixel by pixel", counted(zooms_, "place"));
+        }
+        text +=
+            fmt::format("; {} of {}x{}", counted(pictures_, "whole picture"), k_asked.width, k_asked.height);
+        return over_ ? text + "; cut short: the scene is slow" : text;
+    }
+
+    ProbeBench& bench_;
+    Stopwatch watch_;
+    mutable bool over_ = false;
+    std::optional<SearchSpace> space_;
+    Extent extent_ = k_asked;
+    std::vector<PassText> texts_;
+    std::vector<WatchedPass> passes_;
+    bool finite_ = true;        ///< the last look
+    std::vector<bool> reached_; ///< objectives
+    std::set<size_t> followed_;
+    std::set<std::pair<size_t, size_t>> outside_; ///< pass, site
+    std::deque<Look> looks_;                      ///< at the coarse grid, first those of the survey
+    size_t surveyed_ = 0;
+    Look last_;
+    Explored result_;
+    size_t confirmed_ = 0, zooms_ = 0, pictures_ = 0;
+    int steps_ = 0;
+    double spent_ = 0; ///< on the looks, milliseconds of CPU
+};
+
+} // namespace
+
+Result<const Explored*> explore(ProbeBench& bench) {
+    if (!bench.explored()) {
+        auto found = Explorer(bench).run();
+        if (!found)
+            return fail(std::move(found.error()));
+        bench.explored() = *std::move(found);
+    }
+    return &*bench.explored();
+}
+
+} // namespace tidemark::lab

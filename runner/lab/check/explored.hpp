@@ -1,0 +1,35 @@
+// What a search through a scene's moments, knobs and mouse has seen (lab/check/exploration.hpp).
+#pragma once
+
+#include "lab/check/situation.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tidemark::lab {
+
+/// Which pixels of a pass are drawn: every `stride`-th from one on.
+struct PixelGrid {
+    int stride = 1;
+    int left = 0;
+    int down = 0;
+};
+
+/// A value that left its domain, where it first did.
+struct Outside {
+    Situation where;
+    PixelGrid grid;       ///< of the pixels that showed it
+    bool bound = false;   ///< of an index, a shift, a divisor, a texel or a conversion
+    std::string sentence; ///< of a bound: place, operand, pixel and moment
+};
+
+struct Explored {
+    /// In which a pass was not finite, the first one first; drawn once more as it is, and still so.
+    std::vector<Situation> not_finite;
+    std::vector<Outside> outside; ///< one for each site
+    /// "sampled: 240 situations, …": what was looked at, and how.
+    std::string sentence;
+    std::string left_out; ///< why the text was not followed; empty: it was
+};
+
+} // namespace tidemark::lab

@@ -1,0 +1,194 @@
+#include "lab/check/search_space.hpp"
+
+#include "lab/check/defined_numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr size_t k_text_numbers = 40; ///< moments that stand in the text
+constexpr int k_moments = 128;        ///< in the first k_early seconds
+constexpr double k_early = 128;
+constexpr int k_late_moments = 32; ///< up to k_latest seconds
+constexpr double k_latest = 1e5;
+constexpr int k_knob_values = 8; ///< of each component
+constexpr size_t k_most_knob_values = 128;
+constexpr int k_mouse_places = 32;
+constexpr int k_mixed = 48;
+
+/// Number i of a sequence whose every beginning is spread evenly over [0, 1).
+double spread(int i, double step) {
+    double whole = 0;
+    return std::modf(0.5 + i * step, &whole);
+}
+constexpr double k_golden = 0.6180339887498949;
+/// For two numbers at once.
+constexpr double k_plastic[] = {0.7548776662466927, 0.5698402909980532};
+
+/// Moments and values that a person reads: the search's own digits mean nothing.
+double rounded(double value, double step) {
+    return std::round(value / step) * step;
+}
+
+/// Those of the text, first those beside iTime, and what lies between them.
+std::vector<double> moments_of_text(const scene::Scene& scene) {
+    std::vector<double> numbers;
+    const auto add = [&](double value) {
+        if (value > 0 && value <= 1e6 && numbers.size() < k_text_numbers &&
+            std::ranges::find(numbers, value) == numbers.end())
+            numbers.push_back(value);
+    };
+    const auto all = text_numbers(scene);
+    for (const bool beside_time : {true, false})
+        for (const TextNumber& number : all)
+            if (number.beside_time == beside_time)
+                add(number.value);
+    std::vector<double> sorted = numbers;
+    std::ranges::sort(sorted);
+    for (size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i] > 1)
+            numbers.push_back((sorted[i - 1] + sorted[i]) / 2);
+    return numbers;
+}
+
+std::vector<SearchAxis> axes_of(const scene::Scene& scene, const Promises& promises, SearchInputs inputs) {
+    std::vector<SearchAxis> axes;
+    if (inputs.time)
+        axes.push_back({SearchAxis::Kind::time});
+    for (size_t i = 0; i < scene.knobs.size(); ++i) {
+        const scene::Knob& knob = scene.knobs[i];
+        const auto promised = promises.ranges.find(knob.name);
+        if (!knob.range && promised == promises.ranges.end())
+            continue;
+        for (size_t part = 0; part < size_t(scene::info(knob.type).components); ++part)
+            axes.push_back(
+                {SearchAxis::Kind::knob, i, part,
+                 promised != promises.ranges.end() ? promised->second.first : knob.range->low[part],
+                 promised != promises.ranges.end() ? promised->second.second : knob.range->high[part]});
+    }
+    for (size_t part = 0; inputs.mouse && part < 2; ++part)
+        axes.push_back({SearchAxis::Kind::mouse, 0, part});
+    return axes;
+}
+
+/// One from each list in turn, until all are empty.
+std::vector<SearchPoint> in_turn(std::vector<std::vector<SearchPoint>> lists) {
+    std::vector<SearchPoint> points;
+    size_t longest = 0;
+    for (const auto& list : lists)
+        longest = std::max(longest, list.size());
+    // A long list comes more often than a short one, so that all end together.
+    for (size_t turn = 0; turn < longest; ++turn)
+        for (auto& list : lists)
+            for (size_t i = turn * list.size() / longest; i < (turn + 1) * list.size() / longest; ++i)
+                points.push_back(list[i]);
+    return points;
+}
+
+} // namespace
+
+SearchSpace::SearchSpace(const scene::Scene& scene, const Promises& promises, SearchInputs inputs)
+    : scene_(scene), inputs_(inputs), axes_(axes_of(scene, promises, inputs)) {}
+
+SearchPoint SearchSpace::plain() const {
+    SearchPoint point;
+    for (const scene::Knob& knob : scene_.knobs)
+        point.knobs.push_back(knob.value);
+    return point;
+}
+
+std::vector<double> SearchSpace::moments() const {
+    std::vector<double> moments;
+    for (int i = 0; i < k_moments; ++i) {
+        moments.push_back(rounded(k_early * spread(i, k_golden), 1.0 / 64));
+        if (constexpr int k_each = k_moments / k_late_moments; i % k_each == k_each - 1)
+            moments.push_back(
+                std::round(k_early * std::pow(k_latest / k_early, spread(i / k_each, k_golden))));
+    }
+    return moments;
+}
+
+std::vector<SearchPoint> SearchSpace::survey() const {
+    std::vector<SearchPoint> of_text, of_time, of_knobs, of_mouse, mixed;
+    SearchPoint point = plain();
+    const auto add_moments = [&](const std::vector<double>& moments, std::vector<SearchPoint>& to) {
+        for (point.time = 1; const double moment : moments) {
+            point.time = moment;
+            to.push_back(point);
+        }
+        point = plain();
+    };
+    if (inputs_.time) {
+        add_moments(moments_of_text(scene_), of_text);
+        add_moments(moments(), of_time);
+    }
+    for (int i = 0; i < k_knob_values; ++i)
+        for (const SearchAxis& axis : axes_)
+            if (axis.kind == SearchAxis::Kind::knob && of_knobs.size() < k_most_knob_values) {
+                point = plain();
+                set(point, axis, axis.low + (axis.high - axis.low) * rounded(spread(i, k_golden), 1.0 / 64));
+                of_knobs.push_back(point);
+            }
+    point = plain();
+    for (int i = 0; inputs_.mouse && i < k_mouse_places; ++i) {
+        point.mouse = {spread(i, k_plastic[0]), spread(i, k_plastic[1])};
+        point.down = i % 4 != 3;
+        of_mouse.push_back(point);
+    }
+    std::mt19937 random(13);
+    const auto lot = [&] { return double(random()) / 4294967296.0; };
+    for (int i = 0; axes_.size() > 1 && i < k_mixed; ++i) {
+        point = plain();
+        for (const SearchAxis& axis : axes_)
+            set(point, axis,
+                axis.kind == SearchAxis::Kind::time ? rounded(k_early * lot(), 1.0 / 64)
+                                                    : axis.low + (axis.high - axis.low) * lot());
+        mixed.push_back(point);
+    }
+    auto points = in_turn({of_text, of_time, of_knobs, of_mouse, mixed});
+    points.insert(points.begin(), plain());
+    return points;
+}
+
+Situation SearchSpace::situation(const SearchPoint& point, Extent extent) const {
+    Situation situation{.extent = extent, .time = point.time};
+    for (size_t i = 0; i < scene_.knobs.size(); ++i) {
+        const scene::Knob& knob = scene_.knobs[i];
+        scene::KnobValue value = point.knobs[i];
+        if (scene::info(knob.type).whole)
+            std::ranges::transform(value, value.begin(), [](double part) { return std::floor(part); });
+        if (knob.value != value)
+            situation.settings.push_back({knob.name, scene::to_string(knob, value)});
+    }
+    if (point.mouse) {
+        situation.mouse = glm::ivec2(int(point.mouse->x * extent.width), int(point.mouse->y * extent.height));
+        situation.down = point.down;
+    }
+    return situation;
+}
+
+double SearchSpace::value(const SearchPoint& point, const SearchAxis& axis) {
+    switch (axis.kind) {
+    case SearchAxis::Kind::time: return point.time;
+    case SearchAxis::Kind::knob: return point.knobs[axis.knob][axis.component];
+    case SearchAxis::Kind::mouse:
+        return point.mouse ? (axis.component == 0 ? point.mouse->x : point.mouse->y) : 0.5;
+    }
+    return 0;
+}
+
+void SearchSpace::set(SearchPoint& point, const SearchAxis& axis, double value) {
+    switch (axis.kind) {
+    case SearchAxis::Kind::time: point.time = value; return;
+    case SearchAxis::Kind::knob: point.knobs[axis.knob][axis.component] = value; return;
+    case SearchAxis::Kind::mouse:
+        if (!point.mouse)
+            point.mouse = {0.5, 0.5};
+        (axis.component == 0 ? point.mouse->x : point.mouse->y) = value;
+    }
+}
+
+} // namespace tidemark::lab
