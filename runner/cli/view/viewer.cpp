@@ -28,7 +28,7 @@ constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scen
 wheel       zooms that camera     middle drag  pans it     R  resets it
 space       pause                 left, right  a frame back, forward
 Home        restart               S            save a picture
-F           full screen           H            this help
+F           full screen           H  this help
 Esc         quit; while it compiles, or a frame holds the window: give that up
 A scene that reads the keyboard gets all keys but Esc: hold Ctrl for the above.)";
 
