@@ -77,6 +77,7 @@ Result<Viewer> Viewer::open(Settings settings) {
     auto first = LiveScene::load(settings.scene);
     if (!first.scene && first.scene.error().code == ErrorCode::usage)
         return fail(std::move(first.scene.error()));
+    settings.record = settings.record.sparing({settings.scene.path}); // it may not load yet
     if (first.scene)
         settings.record = settings.record.sparing(files_read(*first.scene));
     if (!settings.record.empty())
@@ -142,9 +143,13 @@ bool Viewer::waits_for_better() const {
 }
 
 Result<void> Viewer::finish() {
-    if (recording())
-        if (auto written = write_file(settings_.record, to_string(replay_->script())); !written)
+    if (recording()) {
+        const OutputPath& record = settings_.record;
+        const auto read =
+            stage_ ? files_read(stage_->renderer().scene()) : std::vector<std::filesystem::path>{};
+        if (auto written = write_file(record.sparing(read), to_string(replay_->script())); !written)
             return written;
+    }
     return writer_ ? writer_->finish() : Result<void>();
 }
 
