@@ -138,7 +138,7 @@ class Video(ProgramTest):
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return nothing; }")
         done = self.succeed("capture", "s", *SIZE, "-o", "s.mp4")
         self.assertRegex(done.stderr, r"\Athe video is silent: tidemark: error: 's' does not compile\n"
-                                      r"s/sound\.glsl:1(:46)?: error: ")
+                                      r"s/sound\.glsl:1(:44)?: error: ")
         self.assertEqual(set(self.facts("s.mp4")), {"video"})
 
     def test_errors(self):

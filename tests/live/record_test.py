@@ -137,12 +137,14 @@ class Record(LiveTest):
                 self.assertRegex((self.folder / f"{paused}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
 
     def test_recording_over_what_the_scene_reads(self):
-        scene = self.write("a.glsl", SCENE)
-        done = self.run_program("view", "a.glsl", "--record", "a.glsl")
-        self.assertEqual(done.stderr, "tidemark: error: cannot write 'a.glsl': this command reads that file; give another "
-                                      "name with -o\n")
-        self.assertEqual(done.returncode, 4)
-        self.assertEqual(scene.read_text(), SCENE)
+        for text in (SCENE, "not yet a scene"):
+            with self.subTest(text):
+                scene = self.write("a.glsl", text)
+                done = self.run_program("view", "a.glsl", "--record", "a.glsl")
+                self.assertEqual(done.stderr, "tidemark: error: cannot write 'a.glsl': this command reads that file; give "
+                                              "another name with -o\n")
+                self.assertEqual(done.returncode, 4)
+                self.assertEqual(scene.read_text(), text)
 
     def test_saved_picture_does_not_follow_a_link(self):
         self.write("a.glsl", SCENE)

@@ -40,7 +40,7 @@ class Wait(LiveTest):
 
     def test_a_text_that_does_not_even_load(self):
         self.write("a.glsl", "#iUniform flaot x = 1.0\n")
-        view = self.wait("a.glsl", r"\Awaiting: a\.glsl:1: error: expected a type")
+        view = self.wait("a.glsl", r"\Awaiting: a\.glsl:1(:\d+)?: error: expected a type")
         self.write("a.glsl", marked(2))
         self.expect_mark(view, 2)
 
@@ -58,7 +58,7 @@ class Wait(LiveTest):
 
     def test_an_include_and_a_picture_that_are_not_there_yet(self):
         self.write("a.glsl", probe.shader(MARK, '#include "lib/mark.glsl"'))
-        view = self.wait("a.glsl", r"\Awaiting: a\.glsl:1: error: cannot read 'lib/mark\.glsl': no such file\Z")
+        view = self.wait("a.glsl", r"\Awaiting: a\.glsl:1(:\d+)?: error: cannot read 'lib/mark\.glsl': no such file\Z")
         self.write("lib/mark.glsl", "#define MARK x\n")
         view.wait_for_title(r"\Awaiting: (a|lib/mark)\.glsl:\d+(:\d+)?: error: `x' undeclared\Z")
         self.write("lib/mark.glsl", "#define MARK 3.0\n")
@@ -70,7 +70,7 @@ class Wait(LiveTest):
         view.wait_for_title(r"\Awaiting: 's' has no image\.glsl")
         self.write("s/common.glsl", "#iUniform flaot x = 1.0\n")
         self.write("s/image.glsl", marked(1))
-        view.wait_for_title(r"\Awaiting: s/common\.glsl:1: error: expected a type")
+        view.wait_for_title(r"\Awaiting: s/common\.glsl:1(:\d+)?: error: expected a type")
         self.write("s/common.glsl", "float one() { return one; }\n")
         view.wait_for_title(r"\Awaiting: s/common\.glsl:1(:\d+)?: error: ")
         self.write("s/common.glsl", "")

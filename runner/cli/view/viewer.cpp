@@ -28,7 +28,7 @@ constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scen
 wheel       zooms that camera     middle drag  pans it     R  resets it
 space       pause                 left, right  a frame back, forward
 Home        restart               S            save a picture
-F           full screen           H            this help
+F           full screen           H  this help
 Esc         quit; while it compiles, or a frame holds the window: give that up
 A scene that reads the keyboard gets all keys but Esc: hold Ctrl for the above.)";
 
@@ -77,6 +77,7 @@ Result<Viewer> Viewer::open(Settings settings) {
     auto first = LiveScene::load(settings.scene);
     if (!first.scene && first.scene.error().code == ErrorCode::usage)
         return fail(std::move(first.scene.error()));
+    settings.record = settings.record.sparing({settings.scene.path}); // it may not load yet
     if (first.scene)
         settings.record = settings.record.sparing(files_read(*first.scene));
     if (!settings.record.empty())
@@ -142,9 +143,13 @@ bool Viewer::waits_for_better() const {
 }
 
 Result<void> Viewer::finish() {
-    if (recording())
-        if (auto written = write_file(settings_.record, to_string(replay_->script())); !written)
+    if (recording()) {
+        const OutputPath& record = settings_.record;
+        const auto read =
+            stage_ ? files_read(stage_->renderer().scene()) : std::vector<std::filesystem::path>{};
+        if (auto written = write_file(record.sparing(read), to_string(replay_->script())); !written)
             return written;
+    }
     return writer_ ? writer_->finish() : Result<void>();
 }
 
