@@ -24,7 +24,7 @@ struct Slot {
     std::array<char, PATH_MAX> path{};
 };
 
-using Slots = std::array<Slot, 48>;
+using Slots = std::array<Slot, 128>; // a report of a hundred pictures appears at once
 
 /// One for a process and all that are forked from it, which may end without a word.
 Slots& slots() {

@@ -9,7 +9,7 @@
 
 namespace tidemark {
 
-/// Holds one such thing in mind while it lives. More than a few dozen at once are not minded.
+/// Holds one such thing in mind while it lives. More than a hundred or so at once are not minded.
 class Leftover {
 public:
     Leftover() = default;
