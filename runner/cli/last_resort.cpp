@@ -1,11 +1,14 @@
 #include "cli/last_resort.hpp"
 
+#include "base/leftovers.hpp"
+#include "cli/console.hpp"
+
 #include <unistd.h>
 
-#include <cstring>
 #include <exception>
-#include <initializer_list>
 #include <new>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 namespace tidemark::cli {
@@ -15,17 +18,16 @@ constexpr int k_no_resources = 4;
 constexpr int k_internal_error = 70; // EX_SOFTWARE of sysexits.h
 
 /// Without memory of its own: there may be none.
-void say_parts(std::initializer_list<const char*> parts) {
-    for (const char* part : parts)
-        (void)!::write(STDERR_FILENO, part, std::strlen(part));
+void say_at_once(std::string_view line) {
+    (void)!::write(STDERR_FILENO, line.data(), line.size());
 }
 
 [[noreturn]] void end() {
     if (std::current_exception())
-        ::_exit(last_resort());
-    say_parts(
-        {"tidemark: error: internal error: a library gave up, as they do where threads or memory run out\n"});
-    ::_exit(k_internal_error);
+        exit_at_once(last_resort());
+    say_at_once(
+        "tidemark: error: internal error: a library gave up, as they do where threads or memory run out\n");
+    exit_at_once(k_internal_error);
 }
 
 } // namespace
@@ -38,18 +40,18 @@ int last_resort() {
     try {
         throw;
     } catch (const std::bad_alloc&) {
-        say_parts({"tidemark: error: out of memory\n"});
+        say_at_once("tidemark: error: out of memory\n");
         return k_no_resources;
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::resource_unavailable_try_again) {
-            say_parts({"tidemark: error: cannot start another thread: the system's limit is reached\n"});
+            say_at_once("tidemark: error: cannot start another thread: the system's limit is reached\n");
             return k_no_resources;
         }
-        say_parts({"tidemark: error: internal error: ", error.what(), "\n"});
+        say(std::string("tidemark: error: internal error: ") + error.what());
     } catch (const std::exception& error) {
-        say_parts({"tidemark: error: internal error: ", error.what(), "\n"});
+        say(std::string("tidemark: error: internal error: ") + error.what());
     } catch (...) {
-        say_parts({"tidemark: error: internal error: an unknown exception\n"});
+        say_at_once("tidemark: error: internal error: an unknown exception\n");
     }
     return k_internal_error;
 }
