@@ -64,8 +64,8 @@ TEST_F(StylizedWaves, every_knob_changes_the_picture) {
             for (double& component : knob.value) // a colour
                 component = 1.0 - component;
         } else {
-            const KnobValue& low = knob.range->low;
-            knob.value = knob.value == low ? knob.range->high : low;
+            const KnobValue& lowest = knob.range->low;
+            knob.value = knob.value == lowest ? knob.range->high : lowest;
         }
         EXPECT_GT(apart(drawn(turned, low), as_it_is), 1e-5) << knob.name;
     }
