@@ -40,7 +40,7 @@ public:
     std::vector<text::Edit> edits(const std::string& text) {
         std::vector<text::Edit> edits;
         for (size_t at = text.find("void main"); (at = text.find("1.", at + 1)) != text.npos;)
-            if (roll(3) == 0)
+            if (text[at + 2] != '5' && roll(3) == 0)
                 edits.push_back({at, at + 2, roll(2) ? "2.25" : "float( 3 )"});
         return edits;
     }

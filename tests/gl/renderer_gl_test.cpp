@@ -234,7 +234,7 @@ TEST_F(RendererTest, compile_error_has_the_authors_file_and_line_through_include
         if (diagnostic.message.find("here") != std::string::npos)
             places.push_back(diagnostic.where);
     EXPECT_EQ(places,
-              (std::vector<SourceLocation>{{path_of("inner.glsl"), 3, 0}, {path_of("scene.glsl"), 2, 0}}));
+              (std::vector<SourceLocation>{{path_of("inner.glsl"), 3, 24}, {path_of("scene.glsl"), 2, 50}}));
 }
 
 TEST_F(RendererTest, error_that_only_the_linker_sees_is_reported) {

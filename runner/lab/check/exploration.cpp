@@ -389,24 +389,13 @@ private:
             PixelGrid grid = coarse();
             glsl::DomainRoom room = best->rooms[objective];
             while (grid.stride > 1 && room.least != k_far && !reached_[objective]) {
-                grid = around(grid, room.pixel);
+                grid = finer(grid, k_part, room.pixel, extent_);
                 if (auto seen = look(best->point, grid); !seen)
                     return seen;
                 room = last_.rooms[objective];
             }
         }
         return {};
-    }
-
-    /// A finer grid whose middle is that pixel of `grid`, within the picture.
-    PixelGrid around(const PixelGrid& grid, uint32_t pixel) const {
-        const int x = grid.left + grid.stride * (int(pixel) % k_part.width);
-        const int y = grid.down + grid.stride * (int(pixel) / k_part.width);
-        const int stride = grid.stride > 4 ? 4 : 1;
-        const auto first = [&](int middle, int size, int whole) {
-            return std::clamp(middle - stride * (size / 2), 0, whole - 1 - stride * (size - 1));
-        };
-        return {stride, first(x, k_part.width, extent_.width), first(y, k_part.height, extent_.height)};
     }
 
     Result<void> draw_whole() {

@@ -15,6 +15,10 @@ struct PixelGrid {
     int down = 0;
 };
 
+/// A finer grid of as many pixels, within a picture of `whole`; its middle is where `grid` has its pixel
+/// number `pixel`, of `part` pixels row by row from the bottom.
+PixelGrid finer(const PixelGrid& grid, Extent part, uint32_t pixel, Extent whole);
+
 /// A value that left its domain, where it first did.
 struct Outside {
     Situation where;
