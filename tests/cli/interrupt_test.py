@@ -91,8 +91,8 @@ class Interrupted(ProgramTest):
         self.assertEqual(len(self.files()), 62)
 
     def end_at_once(self, stop: signal.Signals, *options: str) -> None:
-        """As soon as there is a file under construction."""
-        self.write("wave.glsl", SHADER)
+        """As soon as there is something in the file under construction."""
+        self.write("wave.glsl", SHADER.replace("4311.3)", "4311.3 + iTime)"))  # a GIF grows by what changes
         running = subprocess.Popen([PROGRAM, "capture", "wave.glsl", *options], cwd=self.folder, env=environment(),
                                    stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
         self.addCleanup(running.stderr.close)
