@@ -59,6 +59,16 @@ std::string printable_line(std::string_view text) {
     return shown(text, {});
 }
 
+std::string valid_utf8(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const auto [length, code] = first_character(text);
+        result.append(code < 0 ? std::string_view("\xef\xbf\xbd") : text.substr(0, length));
+        text.remove_prefix(length);
+    }
+    return result;
+}
+
 bool is_printable_line(std::string_view text) {
     return printable_line(text) == text;
 }

@@ -17,6 +17,9 @@ std::string printable_line(std::string_view text);
 /// Whether `printable_line` would change nothing.
 bool is_printable_line(std::string_view text);
 
+/// The text with U+FFFD for every byte that is no UTF-8.
+std::string valid_utf8(std::string_view text);
+
 /// The length of the first character of `text` where it is UTF-8 and its code point, else 1 and -1. `text` is
 /// not empty.
 struct Character {

@@ -1,3 +1,4 @@
+#include "base/printable.hpp"
 #include "scene/host_uniforms.hpp"
 #include "scene/json_text.hpp"
 #include "scene/pass_names.hpp"
@@ -69,7 +70,8 @@ public:
             else if (pass.kind == PassKind::sound)
                 passes.push_back(pass_of(pass, "sound", "Sound", 38));
         }
-        const Json info = {{"id", ""}, {"name", scene_.name()}, {"description", ""}, {"tags", Json::array()}};
+        const Json info = {
+            {"id", ""}, {"name", valid_utf8(scene_.name())}, {"description", ""}, {"tags", Json::array()}};
         return Json{{"Shader", {{"ver", "0.1"}, {"info", info}, {"renderpass", std::move(passes)}}}};
     }
 

@@ -11,7 +11,7 @@ FAULTS = {
     "a long window": ("c = vec4(sqrt(abs(iTime - 30.0) / 20.0 - 1.0));", ("--time", 10, 50)),
     "a short window": ("c = vec4(pow(abs(iTime - 5.0) / 3.0 - 1.0, 0.5), uv, 1.0);", ("--time", 2, 8)),
     "a window without numbers": ("c = vec4(log(0.995 + sin(0.071 * iTime + 2.0)));", ("--time", 0, 1e5)),
-    "a late window": ("c = vec4(acos(1.002 - 0.0001 * abs(iTime - 4321.0)));", ("--time", 4301, 4341)),
+    "a late window": ("c = vec4(acos(1.002 - 0.00001 * abs(iTime - 4321.0)));", ("--time", 4121, 4521)),
     "behind a condition": ("float k = 0.3;\n    if (iTime > 37.0 && iTime < 39.5) k = -uv.x;\n    c = vec4(sqrt(k));",
                            ("--time", 37, 39.5)),
     "conditions that are computed": ("float k = 0.3, s = 0.5 * iTime;\n    if (s > 211.3) { if (s < 212.0) k = -1.0; }\n"

@@ -122,7 +122,7 @@ class Terminal(ProgramTest):
         scene = self.write_bytes(b"n" + STEER + b".glsl", PLAIN.replace("0.25", "sqrt(-1.0 - p.x)").encode())
         for command in (["capture", scene, *SMALL], ["capture", scene, *SMALL, "--json"], ["inspect", scene],
                         ["inspect", scene, "--json"], ["inspect", scene, "--device", "none", "--json"],
-                        ["check", scene, "--probe", "times"], ["check", scene, "--probe", "finite", "--json"],
+                        ["check", scene, "--probe", "times"], ["check", scene, "--probe", "times", "--json"],
                         ["check", "--portable", scene], ["check", "--portable", scene, "--json"],
                         ["check", "--trace", scene, *SMALL], ["check", "--trace", scene, *SMALL, "--json"],
                         ["export", scene, "-o", scene + ".json", "--json"], ["export", scene],

@@ -111,7 +111,7 @@ TEST_F(UniformTest, iChannelResolution_that_the_author_declares_as_vec2) {
     EXPECT_THAT(told({"iChannelResolution[0].x", "iChannelResolution[0].y", "iChannelResolution[1].x",
                       "iChannelResolution[2].x", "iChannelResolution[2].y"},
                      {}, before),
-                ElementsAre(256.0f, 256.0f, 0.0f, 256.0f, 256.0f));
+                ElementsAre(256.0f, 256.0f, 256.0f, 256.0f, 256.0f));
 }
 
 TEST_F(UniformTest, several_in_one_declaration_are_declared_once) {

@@ -224,7 +224,8 @@ TEST_F(Waters, TheDocumentsSolverTakesTheDocumentsSamples) {
         if (value < 0.0001 || t > 43.0) break;
         t += value;
     }
-    c = vec4(samples, counted, own, t > 43.0 ? -1.0 : t);
+    float met = t > 43.0 ? -1.0 : t;
+    c = vec4(samples, counted, own == met ? met : 1e6, 1.0);
 )");
     define(scene, "DOCUMENT=1");
     Renderer drawing = renderer(scene, k_small);
@@ -234,8 +235,8 @@ TEST_F(Waters, TheDocumentsSolverTakesTheDocumentsSamples) {
         for (int x = 0; x < k_small.width; ++x) {
             const auto pixel = floats_at(image, x, y);
             ASSERT_EQ(pixel[0], pixel[1]) << x << ' ' << y;
-            ASSERT_EQ(pixel[2], pixel[3]) << x << ' ' << y;
-            misses += pixel[3] < 0;
+            ASSERT_LT(pixel[2], 1e6F) << x << ' ' << y;
+            misses += pixel[2] < 0;
         }
     EXPECT_GT(misses, 100);
 }

@@ -38,6 +38,10 @@ TEST(Printable, what_is_no_utf8_is_shown) {
     EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");                   // cut
 }
 
+TEST(Printable, bytes_that_are_no_utf8_are_replaced) {
+    EXPECT_EQ(valid_utf8("a\x1b\xc3\xa9\xff\xe2\x82"), "a\x1b\xc3\xa9\ufffd\ufffd\ufffd");
+}
+
 TEST(Printable, one_line) {
     EXPECT_EQ(printable_line("two\nlines\t"), "two\\x0alines\\x09");
     EXPECT_TRUE(is_printable_line("é"));
