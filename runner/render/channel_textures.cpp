@@ -101,7 +101,7 @@ public:
             return fail(std::move(image.error()));
         if (auto fits = check_size(image->extent, picture.file); !fits)
             return fail(std::move(fits.error()));
-        return flat(*std::move(image));
+        return picture.one_channel ? red_alone(*std::move(image)) : flat(*std::move(image));
     }
 
     Result<Loaded> operator()(const scene::Noise& noise) const {
@@ -141,7 +141,9 @@ public:
         if (stand_in.kind == Kind::volume)
             return volume(image::make_stand_in_volume(name, stand_in.width, stand_in.height, stand_in.height,
                                                       stand_in.channels));
-        return flat(image::make_stand_in_picture(name, {stand_in.width, stand_in.height}, stand_in.channels));
+        Image picture =
+            image::make_stand_in_picture(name, {stand_in.width, stand_in.height}, stand_in.channels);
+        return stand_in.channels == 1 ? red_alone(std::move(picture)) : flat(std::move(picture));
     }
 
     Result<Loaded> operator()(const scene::Constant& constant) const {
@@ -226,6 +228,13 @@ private:
         gl::upload(texture, 0, format.external, format.type, image.bytes);
         gl::make_mipmaps(texture);
         return {std::move(texture)};
+    }
+
+    Loaded red_alone(Image image) const {
+        Loaded loaded = one_channel(std::move(image));
+        const GLint swizzle[] = {GL_RED, GL_ZERO, GL_ZERO, GL_ONE};
+        glTextureParameteriv(loaded.texture.id(), GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+        return loaded;
     }
 
     Loaded flat(Image image) const {

@@ -76,6 +76,7 @@ struct Noise {
 /// A picture file.
 struct Picture {
     std::filesystem::path file;
+    bool one_channel = false; ///< one of ShaderToy's media that is red alone there, whatever the file holds
     bool operator==(const Picture&) const = default;
 };
 

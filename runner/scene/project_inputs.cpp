@@ -172,7 +172,10 @@ Result<ChannelInput> InputReader::media_input(const ProjectInput& input, MediaKi
         return instead;
     }
     switch (kind) {
-    case MediaKind::picture: return Picture{files->front()};
+    case MediaKind::picture: {
+        const Media* media = media_of(input);
+        return Picture{files->front(), media && media->kind == kind && media->channels == 1};
+    }
     case MediaKind::cubemap: return Cubemap{*std::move(files)};
     case MediaKind::volume: return Volume{files->front()};
     case MediaKind::video: return Video{files->front()};

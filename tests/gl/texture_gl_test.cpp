@@ -12,6 +12,7 @@ namespace {
 using image::Image;
 using image::SampleType;
 using testing::ElementsAre;
+using testing::FloatEq;
 using Values = std::vector<float>;
 
 class TextureTest : public RenderTest {
@@ -107,6 +108,19 @@ TEST_F(TextureTest, wraps) {
     EXPECT_THAT(sampled("three.png", beyond, sampling), ElementsAre(40, 60, 60, 80, 20));
     sampling.wrap = scene::Wrap::mirror;
     EXPECT_THAT(sampled("three.png", beyond, sampling), ElementsAre(40, 60, 50, 80, 20));
+}
+
+TEST_F(TextureTest, picture_of_one_channel_is_red_alone) {
+    put_picture("grey.png", {1, 1}, 1, {200});
+    put_picture("rgb.png", {1, 1}, 3, {200, 100, 50});
+    for (const char* name : {"grey.png", "rgb.png"}) {
+        scene::Scene scene = scene_of(
+            telling({at(0.5f, 0.5f, "r"), at(0.5f, 0.5f, "g"), at(0.5f, 0.5f, "b"), at(0.5f, 0.5f, "a")},
+                    fmt::format("#iChannel0 \"{}\"", name)));
+        std::get<scene::Picture>(scene.passes[0].channels[0].input).one_channel = true;
+        Renderer drawing = renderer(scene, {4, 1});
+        EXPECT_THAT(reds(frame(drawing), 4), ElementsAre(FloatEq(200 / 255.0F), 0, 0, 1)) << name;
+    }
 }
 
 TEST_F(TextureTest, mipmaps) {

@@ -97,5 +97,14 @@ TEST_F(MediaFiles, take_the_place_of_what_we_generate) {
     EXPECT_EQ(input(load("x.json"), 0, 0), ChannelInput(Noise{NoiseKind::rgba_256}));
 }
 
+TEST_F(MediaFiles, have_the_channels_that_the_site_gives_them) {
+    save("m/ad56fba9.jpg", "");
+    save("x.json", R"([{"type":"image","code":"mainImage","inputs":[
+        {"channel":0,"ctype":"texture","src":"/media/a/ad56fba9.jpg"}]}])");
+    LoadOptions options;
+    options.media = path() / "m";
+    EXPECT_EQ(input(load("x.json", options), 0, 0), ChannelInput(Picture{path() / "m/ad56fba9.jpg", true}));
+}
+
 } // namespace
 } // namespace tidemark::scene
