@@ -127,6 +127,22 @@ bool goes_straight(const ParsedText& text, const TreeFacts& facts, NodeId body, 
     return true;
 }
 
+/// The arguments that a call of a function with one definition writes.
+std::vector<NodeId> surely_written(const ParsedText& text, const TreeFacts& facts, NodeId call) {
+    const SyntaxTree& tree = text.tree();
+    std::vector<NodeId> written;
+    if (tree[call].kind != NodeKind::call)
+        return written;
+    const FunctionFacts* function = facts.function(called_name(text, call));
+    if (!function || function->definitions.size() != 1)
+        return written;
+    size_t index = 0;
+    for (NodeId part = tree[tree.child(call, 0)].next; part != k_no_node; part = tree[part].next, ++index)
+        if (facts.writes_argument(called_name(text, call), index))
+            written.push_back(part);
+    return written;
+}
+
 } // namespace
 
 bool is_always_true(const ParsedText& text, NodeId condition) {
@@ -163,14 +179,21 @@ std::vector<NodeId> filled_arrays(const ParsedText& text, const TreeFacts& facts
     std::vector<NodeId> statements{body};
     if (tree[body].kind == NodeKind::block)
         statements = tree.children(body);
+    const auto add = [&](NodeId place) {
+        if (tree[place].kind == NodeKind::index && tree[tree.child(place, 1)].kind == NodeKind::name &&
+            text.word_of(tree.child(place, 1)) == head->counter)
+            arrays.push_back(tree.child(place, 0));
+    };
     for (const NodeId statement : statements) {
-        const NodeId assigned = tree.child(statement, 0);
-        const NodeId target = tree.child(assigned, 0);
-        if (tree[statement].kind == NodeKind::expression && tree[assigned].kind == NodeKind::assign &&
-            text.word_of(assigned) == "=" && tree[target].kind == NodeKind::index &&
-            tree[tree.child(target, 1)].kind == NodeKind::name &&
-            text.word_of(tree.child(target, 1)) == head->counter)
-            arrays.push_back(tree.child(target, 0));
+        if (tree[statement].kind != NodeKind::expression)
+            continue;
+        NodeId value = tree.child(statement, 0);
+        if (tree[value].kind == NodeKind::assign && text.word_of(value) == "=") {
+            add(tree.child(value, 0));
+            value = tree.child(value, 1);
+        }
+        for (const NodeId argument : surely_written(text, facts, value))
+            add(argument);
     }
     return arrays;
 }
@@ -178,7 +201,8 @@ std::vector<NodeId> filled_arrays(const ParsedText& text, const TreeFacts& facts
 bool fills(const ParsedText& text, const Shapes& shapes, NodeId loop, NodeId declared, const Shape& shape,
            NodeId array) {
     const SyntaxTree& tree = text.tree();
-    if (shape.kind != Shape::Kind::array)
+    if (shape.kind != Shape::Kind::array && shape.kind != Shape::Kind::vector &&
+        shape.kind != Shape::Kind::matrix)
         return false;
     const NodeId bound = head_of(text, loop)->bound;
     if (shape.length > 0) {

@@ -87,9 +87,9 @@ TEST(Unassigned, WhatHasAValueOnEveryWayIsLeftAlone) {
           "float a = u > 0.0 ? 1.0 : 2.0; u + a;", "vec2 v; v.x = 1.0; u + v.x;",
           "float a[40]; for (int i = 0; i < 40; ++i) a[i] = float(i); u + a[7];",
           "const int N = 40; float a[N]; int i; for (i = 0; i < N; i++) { a[i] = u; } u + a[i - 1];",
-          "float w; modf(u, w); u + w;", "float a, b; a = b = 1.0; u + a + b;", "float unread;",
-          "float a[3]; a.length();", "for (float i; u > 0.0;) { i = 1.0; u + i; }",
-          "const float c = 1.0; u + c;"})
+          "vec3 v; for (int i = 0; i < 3; ++i) v[i] = u; u + v.z;", "float w; modf(u, w); u + w;",
+          "float a, b; a = b = 1.0; u + a + b;", "float unread;", "float a[3]; a.length();",
+          "for (float i; u > 0.0;) { i = 1.0; u + i; }", "const float c = 1.0; u + c;"})
         EXPECT_EQ(in_main(statements), "") << statements;
 }
 
@@ -105,6 +105,10 @@ TEST(Unassigned, LoopsThatSkipElementsFillNoArray) {
 
 TEST(Unassigned, ArgumentsThatAFunctionWritesAreWrites) {
     EXPECT_EQ(found("void give(out float x) { x = 1.0; }\nvoid main() { float a; give(a); a + 1.0; }\n"), "");
+    const std::string fill =
+        "float give(out float x) { x = 1.0; return x; }\nvoid main() { float a[40], b;\n";
+    EXPECT_EQ(found(fill + "for (int i = 0; i < 40; ++i) b = give(a[i]);\na[7] + 1.0; }\n"), "");
+    EXPECT_EQ(found(fill + "for (int i = 0; i < 40; ++i) if (i > 0) give(a[i]);\na[7] + 1.0; }\n"), "a?:4");
     EXPECT_EQ(found("float twice(in float x) { return 2.0 * x; }\nvoid main() { float a;\ntwice(a); }\n"),
               "a:3");
 }
