@@ -19,11 +19,12 @@ uniform int $stride;
 uniform int $left;
 uniform int $down;
 uniform int $count;
+uniform int $width;
 float $none;
 vec4 $place(){return vec4((gl_FragCoord.xy-0.5)*float($stride)+vec2($left,$down)+0.5,gl_FragCoord.zw);}
 void $note(int i,uint told,uint limit){
 atomicAdd($out[4*i],1u);
-atomicMax($out[4*i+1],~uint(int(gl_FragCoord.x)+%*int(gl_FragCoord.y)));
+atomicMax($out[4*i+1],~uint(int(gl_FragCoord.x)+$width*int(gl_FragCoord.y)));
 atomicMax($out[4*i+2],told);
 atomicMax($out[4*i+3],limit);
 }
@@ -41,7 +42,7 @@ void $begin(){for(int i=0;i<$count;++i)$m[i]=3e38;}
 void $flush(){for(int i=0;i<$count;++i)if($m[i]<3e38){
 uint bits=floatBitsToUint($m[i]);
 uint key=bits>>31!=0u?bits:~bits&0x7fffffffu;
-uint placed=(key&0xfffff000u)|uint(int(gl_FragCoord.x)+%*int(gl_FragCoord.y));
+uint placed=(key&0xfffff000u)|uint(int(gl_FragCoord.x)+$width*int(gl_FragCoord.y));
 if(key>$out[#+2*i])atomicMax($out[#+2*i],key);
 if(placed>$out[#+2*i+1])atomicMax($out[#+2*i+1],placed);
 }}
@@ -284,7 +285,6 @@ std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> s
     std::string objectives(k_objectives);
     std::string basis(k_basis);
     for (std::string* each : {&basis, &objectives}) {
-        fill(*each, '%', size_t(options.width));
         fill(*each, '#', options.first_objective);
         fill(*each, '@', std::max<size_t>(options.objectives, 1));
         *each = spell(*each, prefix);

@@ -11,7 +11,6 @@ namespace tidemark::glsl {
 
 struct DomainPreludeOptions {
     std::string prefix;         ///< of every name
-    int width = 0;              ///< pixels in a row
     size_t objectives = 0;      ///< that are followed
     size_t first_objective = 0; ///< word
 };

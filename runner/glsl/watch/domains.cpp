@@ -29,7 +29,7 @@ public:
     DomainWatcher(const ParsedText& text, const TreeFacts& facts)
         : text_(text), tree_(text.tree()), facts_(facts), prefix_(fresh_prefix(text)), edits_(text) {}
 
-    DomainWatch run(int width, DomainScope scope) {
+    DomainWatch run(DomainScope scope) {
         DomainWatch result{{},
                            find_domain_sites(text_, facts_, scope),
                            {},
@@ -38,7 +38,8 @@ public:
                            prefix_ + "stride",
                            prefix_ + "left",
                            prefix_ + "down",
-                           prefix_ + "count"};
+                           prefix_ + "count",
+                           prefix_ + "width"};
         for (size_t i = 0; i < result.sites.size(); ++i) {
             const DomainSite& site = result.sites[i];
             const bool compares = site.kind == DomainKind::comparison;
@@ -55,11 +56,11 @@ public:
             lead(site, last + ")");
         }
         lead_main();
-        result.text = headers_with_buffers(text_) +
-                      domain_prelude(text_, result.sites,
-                                     {prefix_, width, result.objectives.size(),
-                                      result.sites.size() * DomainLayout::k_site}) +
-                      edits_.text() + domain_main(prefix_);
+        result.text =
+            headers_with_buffers(text_) +
+            domain_prelude(text_, result.sites,
+                           {prefix_, result.objectives.size(), result.sites.size() * DomainLayout::k_site}) +
+            edits_.text() + domain_main(prefix_);
         return result;
     }
 
@@ -146,8 +147,8 @@ DomainRoom room_of(const DomainWatch& watch, std::span<const uint32_t> words, si
     return {std::bit_cast<float>(bits), word(words, at + 1) % DomainLayout::k_most_pixels};
 }
 
-DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, int width, DomainScope scope) {
-    return DomainWatcher(text, facts).run(width, scope);
+DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, DomainScope scope) {
+    return DomainWatcher(text, facts).run(scope);
 }
 
 std::string_view domain_fault(std::string_view name) {

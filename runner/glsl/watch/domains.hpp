@@ -31,6 +31,7 @@ struct DomainWatch {
     std::string value_uniform;                              ///< float: that value
     std::string stride_uniform, left_uniform, down_uniform; ///< ints: pixels of the picture
     std::string count_uniform;                              ///< int: the objectives to follow
+    std::string width_uniform; ///< int: pixels in a row of what is drawn; one text serves all sizes
 
     size_t words() const;
 };
@@ -62,8 +63,8 @@ struct DomainRoom {
 };
 DomainRoom room_of(const DomainWatch& watch, std::span<const uint32_t> words, size_t objective);
 
-/// `facts` are the text's own; `width` is that of what is drawn.
-DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, int width, DomainScope scope);
+/// `facts` are the text's own.
+DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, DomainScope scope);
 
 /// "of a negative number": what is wrong with the argument where a float function of that name is undefined.
 std::string_view domain_fault(std::string_view name);

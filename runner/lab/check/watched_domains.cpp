@@ -8,7 +8,7 @@ namespace tidemark::lab {
 Result<WatchedDomains> WatchedDomains::link(const Moment& moment, const PassText& pass, Extent part) {
     constexpr std::string_view k_what = "the text with its domains watched";
     for (const auto scope : {glsl::DomainScope::everything, glsl::DomainScope::floats}) {
-        glsl::DomainWatch watch = glsl::watch_domains(*pass.text, pass.facts, part.width, scope);
+        glsl::DomainWatch watch = glsl::watch_domains(*pass.text, pass.facts, scope);
         auto linked = StandIn::link(moment, watch.text, k_what, part);
         if (linked)
             return WatchedDomains(std::move(watch), *std::move(linked));
@@ -25,6 +25,7 @@ void WatchedDomains::set(int site, double value, const PixelGrid& grid, size_t o
     stand_in_.set(watch_.left_uniform, grid.left);
     stand_in_.set(watch_.down_uniform, grid.down);
     stand_in_.set(watch_.count_uniform, double(objectives));
+    stand_in_.set(watch_.width_uniform, stand_in_.target().extent().width);
 }
 
 std::vector<uint32_t> WatchedDomains::draw(const Moment& moment, const PixelGrid& grid) {

@@ -118,7 +118,7 @@ TEST(Domains, CallsThatTheTextItselfSettlesAreNotWatched) {
         read("const float c = sqrt(2.0);\nfloat f(float x) {\n"
              "return sqrt(2.0) + pow(2.0, x) + mod(x, 3.0) + smoothstep(0.0, 1.0, x) + atan(x) +\n"
              "atan(x, 1.0) + pow(x, -2.0) + mod(x, x) + smoothstep(-0.5, (-0.5), x) + log(-1.0); }\n");
-    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::floats);
+    const DomainWatch watch = watch_domains(*of.text, of.facts, DomainScope::floats);
     std::string names;
     for (const DomainSite& site : watch.sites)
         names += std::string(called_name(*of.text, site.node)) + " ";
@@ -130,7 +130,7 @@ TEST(Domains, QuotientsAreWatchedWhereBothMayBeZero) {
     const Read of = read("float f(float x, int n, vec2 v) {\nx /= x; v.y /= v.x + 1.0; x /= 2.0;\n"
                          "return x / v.x + 1.0 / x + x / 3.0 + float(n / n) + x / max(x, 0.1) +\n"
                          "x / iResolution.x; }\n");
-    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::floats);
+    const DomainWatch watch = watch_domains(*of.text, of.facts, DomainScope::floats);
     EXPECT_EQ(watch.sites.size(), 3u);
     EXPECT_EQ(count(watch.text, "x =tmw0_quotient(x , (x),0,tmw0_m[0])"), 1);
     EXPECT_EQ(count(watch.text, "v . y =tmw0_quotient(v . y , (v . x + 1.0),1,tmw0_m[1])"), 1);
@@ -142,7 +142,7 @@ TEST(Domains, WholeNumbersHaveBounds) {
     const Read of = read("float a[3];\nvoid f(int n, uint u, float x, vec3 v, sampler2D s) {\n"
                          "a[n] = a[1] + v[n]; n = 7 / n + 7 / 2 + 7 % n; n <<= n; u = u >> 3;\n"
                          "n = int(x) + int(u) + ivec2(v.xy).x; a[0] = texelFetch(s, ivec2(0), n).x; }\n");
-    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::everything);
+    const DomainWatch watch = watch_domains(*of.text, of.facts, DomainScope::everything);
     EXPECT_EQ(watch.sites.size(), 8u);
     EXPECT_EQ(watch.objectives.size(), 8u);
     EXPECT_EQ(count(watch.text, "a [ tmw0_index((n),int(a .length()),0,tmw0_m[0]) ] ="), 1);
@@ -155,7 +155,7 @@ TEST(Domains, WholeNumbersHaveBounds) {
 TEST(Domains, AComparisonHasTwoWaysToGo) {
     const Read of = read("void f(float x, int n) {\nif (x < 1.0 && n == 3) x = 0.0;\n"
                          "for (int i = 0; i < n; ++i) if (x != x) discard; }\nvoid main() { f(1.0, 2); }\n");
-    const DomainWatch watch = watch_domains(*of.text, of.facts, 64, DomainScope::everything);
+    const DomainWatch watch = watch_domains(*of.text, of.facts, DomainScope::everything);
     ASSERT_EQ(watch.sites.size(), 2u);
     ASSERT_EQ(watch.objectives.size(), 3u);
     EXPECT_TRUE(watch.objectives[1].second && !watch.objectives[1].equality);
@@ -195,7 +195,7 @@ TEST(Domains, ReadingsAreOfTheirSite) {
 
 TEST(Domains, AFunctionOfTheAuthorsIsItsOwnAffair) {
     const Read of = read("float sqrt(float x) { return x; }\nfloat f(float x) { return sqrt(x); }\n");
-    EXPECT_TRUE(watch_domains(*of.text, of.facts, 64, DomainScope::floats).sites.empty());
+    EXPECT_TRUE(watch_domains(*of.text, of.facts, DomainScope::floats).sites.empty());
 }
 
 } // namespace
