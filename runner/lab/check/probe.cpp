@@ -32,12 +32,6 @@ std::span<const Probe> all_probes() {
          "NaN in it spreads",
          ask_inputs},
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
-        {"search",
-         "NaN or infinity in moments, knobs and places of the mouse by lot and at the text's own numbers, "
-         "then "
-         "towards the edges of functions' domains and the other way of comparisons, and in single pixels of "
-         "640x360",
-         ask_search},
         {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
          ask_hashes},
         {"unassigned", "variables, members and `out` that some way leaves without a value, missing returns",
@@ -46,16 +40,6 @@ std::span<const Probe> all_probes() {
          "derivatives, and textures that choose a mipmap, where neighbouring pixels may have gone "
          "another way",
          ask_divergence},
-        {"undefined",
-         "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
-         "nothing, smoothstep with equal edges, mod by 0, 0 / 0: where the picture hangs on what a GPU makes "
-         "of "
-         "it",
-         ask_undefined},
-        {"bounds",
-         "indices outside of an array, shifts by 32 and more, whole numbers divided by 0, texels outside of "
-         "a texture, floats that no int holds, where the search came to them",
-         ask_bounds},
         {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
          ask_repeats},
         {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
@@ -109,6 +93,22 @@ std::span<const Probe> all_probes() {
          "slopes by differences of the field, in float against double, over 0.1 to 1e-6 (mainHit, "
          "march_field)",
          ask_normals},
+        {"search",
+         "NaN or infinity in moments, knobs and places of the mouse by lot and at the text's own numbers, "
+         "then "
+         "towards the edges of functions' domains and the other way of comparisons, and in single pixels of "
+         "640x360",
+         ask_search},
+        {"undefined",
+         "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
+         "nothing, smoothstep with equal edges, mod by 0, 0 / 0: where the picture hangs on what a GPU makes "
+         "of "
+         "it",
+         ask_undefined},
+        {"bounds",
+         "indices outside of an array, shifts by 32 and more, whole numbers divided by 0, texels outside of "
+         "a texture, floats that no int holds, where the search came to them",
+         ask_bounds},
         {"sine",
          "the picture with sines and cosines a unit in the last place up and down, and reduced and rounded "
          "as NVIDIA's: apart by more than 1/255 in 1 % of the pixels",
