@@ -14,9 +14,9 @@ namespace tidemark::glsl {
 enum class Specialise : unsigned char {
     nothing,
     unreachable, ///< functions, variables and structures: the driver makes the same code of what stays
-    settled, ///< knobs stand still: what they decide, what is worked out in vain, what may run side by side.
-             ///< The language promises the same values; a driver that rearranges sums may round them
-             ///< differently
+    settled,  ///< knobs stand still: what they decide, what is worked out in vain, what may run side by side.
+              ///< The language promises the same values; a driver that rearranges sums may round them
+              ///< differently
     constants ///< and knobs are constants, which the driver folds into its arithmetic: other roundings
 };
 
