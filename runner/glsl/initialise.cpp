@@ -17,6 +17,7 @@ constexpr size_t k_most_written_out = 64;
 /// Sets the global variables that are too large for an initialiser, when `main` begins.
 constexpr std::string_view k_start = "tidemark_start";
 constexpr std::string_view k_value = "tidemark_value";
+constexpr std::string_view k_unnamed = "tidemark_unnamed";
 
 class Zeros {
 public:
@@ -39,6 +40,9 @@ public:
                 local(variable);
         for (const NodeId function : all.without_return)
             give_back(function);
+        for (NodeId id = tree_[0].first_child; id != k_no_node; id = tree_[id].next)
+            if (tree_[id].kind == NodeKind::function)
+                name_parameters(id);
         if (!start_.empty())
             start_in_main();
         Changes changes{gaps_.edits(), {}};
@@ -87,6 +91,18 @@ private:
                                      : fmt::format("{} {};{}return {};", type_of(shape), k_value,
                                                    statements(std::string(k_value), shape), k_value);
         gaps_.offer(tree_[function].end - 1, text, true);
+    }
+
+    /// Mesa takes a definition like `float f(vec2) {…}` in the ES language alone.
+    void name_parameters(NodeId function) {
+        const std::vector<NodeId> parts = tree_.children(function);
+        if (tree_[parts.back()].kind != NodeKind::block)
+            return;
+        for (size_t i = 0; i < parts.size(); ++i) {
+            const NodeId type = tree_[parts[i]].first_child;
+            if (tree_[parts[i]].kind == NodeKind::parameter && tree_[parts[i]].word < tree_[type].end)
+                gaps_.offer(tree_[type].end, fmt::format(" {}_{}", k_unnamed, i), true);
+        }
     }
 
     void start_in_main() {

@@ -1,6 +1,6 @@
-// Zeros where a text counts on them. The site's compiler (ANGLE) gives a zero to whatever begins without a
-// value: variables of every type, `out` parameters, what a function gives back that comes to its end without
-// a `return`. A desktop driver does not. Text in, text out; no line moves.
+// What the site's compiler (ANGLE) adds to a text, and a desktop driver does not. It gives a zero to whatever
+// begins without a value: variables of every type, `out` parameters, what a function gives back that comes to
+// its end without a `return`; and a name to parameters that have none. Text in, text out; no line moves.
 #pragma once
 
 #include "glsl/dialect.hpp"
