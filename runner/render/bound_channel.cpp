@@ -39,6 +39,8 @@ void point_samplers(const gl::Program& program, int unit) {
 }
 
 void bind(const BoundChannel& channel, const gl::Texture& texture) {
+    if (texture.target == GL_TEXTURE_CUBE_MAP)
+        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // the site's language filters across faces; OpenGL only then
     glBindTextureUnit(GLuint(channel.unit), texture.id());
     glBindSampler(GLuint(channel.unit), channel.sampler.id());
 }
