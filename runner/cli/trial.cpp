@@ -21,11 +21,11 @@ namespace {
 
 using render::Renderer;
 
-/// A trial may cost this part of what the sequence costs.
+/// A trial of a sequence may cost this part of what the sequence costs.
 constexpr double k_share_of_sequence = 1.0 / 20;
-/// And draws about so many frames more than the sequence has.
+/// Frames that such a trial draws, about, starting up aside.
 constexpr double k_frames_of_trial = 3;
-/// However long they take.
+/// A trial in a window times so many pairs of frames at least, however long they take.
 constexpr size_t k_fewest_pairs = 3;
 
 /// Where threads of this process draw, and it does nothing else, their CPU time is the measure: other

@@ -13,7 +13,7 @@
 
 namespace tidemark::glsl {
 
-/// What `#version` says, in the order of our trust: see README, "How it is built".
+/// What `#version` says, in the order of our trust: see runner/scene/README.md, "Dialect".
 enum class Version { core_330, core_450, es_300 };
 
 /// What the author's floats are.

@@ -1,5 +1,5 @@
 // A context of its own beside a window's first one, so that a thread can prepare what the window shows later.
-// Shares no objects with any other context.
+// Shares textures and programs with it.
 #pragma once
 
 #include "base/result.hpp"

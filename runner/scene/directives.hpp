@@ -14,8 +14,8 @@ namespace tidemark::scene {
 
 struct Directives {
     Channels channels; ///< those that no directive names keep their defaults
-    /// What stands between the quotes of `#iChannelN "…"`, `file://` left out; empty where nothing does. A
-    /// name that is no picture, sound, video or volume is for channel_sources.hpp: its channel is Unbound.
+    /// What stands between the quotes of `#iChannelN "…"`, `file://` left out; empty where nothing does. The
+    /// name of a pass is for pass_loader.hpp: its channel is Unbound.
     std::array<std::string, k_channel_count> sources;
     std::vector<Knob> knobs;
     bool keyboard_helpers = false;    ///< `#iKeyboard`

@@ -1,5 +1,6 @@
 // A ShaderToy project as its JSON tells it, whatever the dialect of the JSON: passes with their code and
-// their inputs, still by ShaderToy's names. What the names mean is decided in compose.hpp.
+// their inputs, still by ShaderToy's names. What the names mean is decided in
+// project_inputs.hpp.
 #pragma once
 
 #include "base/result.hpp"

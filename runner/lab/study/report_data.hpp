@@ -9,7 +9,7 @@ namespace tidemark::lab {
 
 inline constexpr const char* k_study_schema = "tidemark study 1";
 
-/// README, "Studies", describes it. NaN and infinity are null.
+/// runner/lab/study/README.md, "Results", describes it. NaN and infinity are null.
 std::string to_json(const WorkPrecisionSet& set);
 
 /// One row for each point and view, and one for all views together.

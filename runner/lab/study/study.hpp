@@ -70,7 +70,7 @@ inline constexpr std::string_view k_defaults = "defaults";
 std::vector<Series> series_of(const std::vector<Axis>& axes);
 
 /// Reads a study file; `file` is named in the errors (ErrorCode::load), with a JSON pointer to the value.
-/// README, "Studies", has the schema.
+/// runner/lab/study/README.md, "Study files", has the schema.
 Result<Study> parse_study(std::string_view text, const std::string& file);
 
 } // namespace tidemark::lab
