@@ -1,0 +1,71 @@
+"""The tables of options in the pages, made from what --help prints. Run it to write them anew."""
+from __future__ import annotations
+
+import pathlib
+import re
+import subprocess
+
+from support.program import PROGRAM, ROOT, environment
+
+PAGES = [ROOT / "runner" / "cli" / "README.md", ROOT / "runner" / "lab" / "README.md", ROOT / "shaders" / "README.md"]
+# `<!-- options: check study -->`: those of these commands, less the rows that an earlier page has.
+BLOCK = re.compile(r"(<!-- options: ([a-z ,]+) -->\n)(.*?)(<!-- end of options -->\n)", re.DOTALL)
+WIDTH = 30  # of the column of names in CLI11's help, in bytes
+
+
+def printed_help(command: str) -> str:
+    return subprocess.run([PROGRAM, *command.split(), "--help"], check=True, capture_output=True, text=True,
+                          env=environment()).stdout
+
+
+def commands(command: str = "") -> list[str]:
+    """Every command that does something, `bake noise` and its like included."""
+    listed = printed_help(command).partition("\nSubcommands:\n")[2].partition("\n\n")[0]
+    names = re.findall(r"^  (\S+)", listed, re.MULTILINE)
+    return [inner for name in names for inner in commands(f"{command} {name}".strip())] or [command]
+
+
+def options_of(command: str) -> list[tuple[str, str]]:
+    """(`--size WxH=640x360`, what it means), as help lists them."""
+    lines = printed_help(command).splitlines()
+    found = []
+    for line, following in zip(lines, lines[1:]):
+        if not line.startswith("  -") or line.startswith("  -h,"):
+            continue
+        if following.startswith(" " * WIDTH):
+            head, meaning = line, following
+        else:
+            head, meaning = line.encode()[:WIDTH].decode(), line.encode()[WIDTH:].decode()
+        found.append((re.sub(r" (Needs|Excludes): .*| \.\.\.$", "", head.strip()), meaning.strip()))
+    return found
+
+
+def names_of(head: str) -> list[str]:
+    return head.split(" ")[0].split(",")
+
+
+def table(users: list[str], known: set[tuple[str, str]]) -> str:
+    """Adds its rows to `known`, and leaves out what is there."""
+    rows: dict[tuple[str, str], list[str]] = {}
+    for command in users:
+        for option in options_of(command):
+            if option not in known:
+                rows.setdefault(option, []).append(command)
+    known.update(rows)
+    lines = ["| option | of | meaning |", "|---|---|---|"]
+    for (head, meaning), of in sorted(rows.items(), key=lambda row: row[0][0].lstrip("-").lower()):
+        cells = (f"`{head}`", ", ".join(of), meaning)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def written_anew() -> dict[pathlib.Path, str]:
+    """Each page as it should be."""
+    known: set[tuple[str, str]] = set()
+    return {page: BLOCK.sub(lambda block: block[1] + table(block[2].split(", "), known) + block[4], page.read_text())
+            for page in PAGES}
+
+
+if __name__ == "__main__":
+    for page, text in written_anew().items():
+        page.write_text(text)
