@@ -32,7 +32,7 @@ class Scene(ProgramTest):
         self.assertEqual(list(sizes), ["plain", "specialised", "long_sequence", "constant_knobs"])
         self.assertEqual(facts["passes"], [{
             "name": "Image", "channels": {"iChannel1": "noise"},
-            "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0, "side_by_side": 0}}])
+            "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0}}])
         self.assertEqual(facts["knobs"], [
             {"name": "height", "type": "float", "value": [1.25], "low": [0], "high": [2]},
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
@@ -60,7 +60,7 @@ class Scene(ProgramTest):
         del facts["passes"][0]["program"]
         self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{
             "name": "Image", "channels": {},
-            "code_removed": {"lines": 0, "branches": 0, "out_of_loops": 0, "side_by_side": 0,
+            "code_removed": {"lines": 0, "branches": 0, "out_of_loops": 0,
                              "none_because": "there is nothing to leave out"}}]))
         self.assertEqual(facts["left_out"][-1], "noise texture")
 
@@ -105,7 +105,7 @@ class Scene(ProgramTest):
                                 "        c += heavy();\n"
                                 "}\n")
         self.assertIn("  code removed: 3 lines; in a long sequence also 1 branches closed, 1 expressions taken out "
-                      "of loops, 0 run side by side", self.succeed("inspect", "loop.glsl").stdout.decode().splitlines())
+                      "of loops", self.succeed("inspect", "loop.glsl").stdout.decode().splitlines())
         plain = self.succeed("inspect", "loop.glsl", "--source").stdout.decode()
         self.assertIn("float heavy()", plain)
         text = self.succeed("inspect", "loop.glsl", "--source", "--specialised").stdout.decode()

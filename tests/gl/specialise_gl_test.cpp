@@ -107,37 +107,6 @@ void mainImage(out vec4 colour, vec2 at) {
     expect_same_bytes(scene);
 }
 
-TEST_F(SpecialiseTest, calls_side_by_side_keep_their_bytes) {
-    const scene::Scene scene = scene_of(R"(
-vec3 tint = vec3(0.3, 0.5, 0.7);
-mat2 turn(float a) { float s = sin(a), c = cos(a); return mat2(c, -s, s, c); }
-float ridge(in vec2 p, const float sharp) {
-    const float half_way = 0.5;
-    vec2 q = abs(fract(turn(p.y * 0.1) * p) - half_way);
-    q.x += sin(q.y * 9.0);
-    q = q.yx * (int(sharp) > 1 ? 2.0 : 1.0);
-    float steps[2] = float[2](q.x, exp(-q.y));
-    return pow(max(steps[0] * steps[1], 0.0), sharp);
-}
-vec3 coloured(vec2 p) { float r = ridge(p, 2.0) + 0.1; return (tint * r + cos(vec3(p, r))).zyx; }
-float away(float x) { return (ridge(vec2(x, -x), 1.5)); }
-void mainImage(out vec4 colour, vec2 at) {
-    vec2 p = at / 9.0 + iTime;
-    vec3 c = coloured(p) - coloured(p.yx * 1.3);
-    c = max(c, vec3(away(p.x), away(p.y), away(p.x + p.y)));
-    colour = vec4(c, atan(ridge(p, 3.0), ridge(p + 1.0, 1.0)));
-}
-)");
-    EXPECT_EQ(left_out(scene, Specialise::settled).side_by_side, 3);
-    expect_same_bytes(scene);
-}
-
-TEST_F(SpecialiseTest, the_two_directions_of_the_ocean_run_side_by_side) {
-    auto scene = scene::load_scene(k_shaders / "procedural_ocean.glsl");
-    ASSERT_TRUE(scene);
-    EXPECT_EQ(left_out(*scene, Specialise::settled).side_by_side, 1);
-}
-
 TEST_F(SpecialiseTest, buffers_cubes_and_hits_keep_their_bytes) {
     fs::create_directories(path_of("waves"));
     const std::string common =

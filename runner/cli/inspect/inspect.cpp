@@ -84,10 +84,8 @@ Result<int> inspect_devices(bool as_json) {
 }
 
 Json to_json(const glsl::LeftOut& left_out) {
-    Json json = {{"lines", left_out.lines},
-                 {"branches", left_out.branches},
-                 {"out_of_loops", left_out.hoisted},
-                 {"side_by_side", left_out.side_by_side}};
+    Json json = {
+        {"lines", left_out.lines}, {"branches", left_out.branches}, {"out_of_loops", left_out.hoisted}};
     if (!left_out.anything())
         json["none_because"] = left_out.kept_whole;
     return json;
@@ -98,10 +96,8 @@ std::string to_line(const glsl::LeftOut& left_out) {
         return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
     std::string text = fmt::format("  code removed: {} lines", left_out.lines);
     if (left_out.in_doubt())
-        text +=
-            fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops, "
-                        "{} run side by side",
-                        left_out.branches, left_out.hoisted, left_out.side_by_side);
+        text += fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops",
+                            left_out.branches, left_out.hoisted);
     return text + '\n';
 }
 

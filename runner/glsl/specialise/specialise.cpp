@@ -3,7 +3,6 @@
 #include "glsl/specialise/constant_conditions.hpp"
 #include "glsl/specialise/globals.hpp"
 #include "glsl/specialise/hoist.hpp"
-#include "glsl/specialise/side_by_side.hpp"
 #include "glsl/specialise/value_types.hpp"
 #include "glsl/syntax/tree_facts.hpp"
 #include "glsl/syntax/word_edits.hpp"
@@ -161,19 +160,6 @@ private:
     WordEdits edits_;
 };
 
-/// Of what the closed branches left: a function without its `if` may be one that runs beside another.
-void arrange(Specialised& result) {
-    const auto text = ParsedText::read(result.source, {}, false);
-    if (!text)
-        return;
-    WordEdits edits(**text);
-    result.left_out.side_by_side = run_side_by_side(**text, edits);
-    if (edits.empty())
-        return;
-    result.source = edits.apply();
-    result.left_out.kept_whole.clear();
-}
-
 } // namespace
 
 Specialised specialise(const text::MappedText& source, std::span<const scene::Knob> knobs, Specialise how) {
@@ -185,10 +171,7 @@ Specialised specialise(const text::MappedText& source, std::span<const scene::Kn
         nothing.kept_whole = to_string(text.error());
         return {source, std::move(nothing)};
     }
-    Specialised result = Specialiser(**text, knobs, how).run();
-    if (how >= Specialise::settled)
-        arrange(result);
-    return result;
+    return Specialiser(**text, knobs, how).run();
 }
 
 } // namespace tidemark::glsl

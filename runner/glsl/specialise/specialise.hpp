@@ -14,9 +14,8 @@ namespace tidemark::glsl {
 enum class Specialise : unsigned char {
     nothing,
     unreachable, ///< functions, variables and structures: the driver makes the same code of what stays
-    settled,  ///< knobs stand still: what they decide, what is worked out in vain, what may run side by side.
-              ///< The language promises the same values; a driver that rearranges sums may round them
-              ///< differently
+    settled,  ///< knobs stand still: what they decide, and what loops work out in vain. The language promises
+              ///< the same values; a driver that rearranges sums may round them differently
     constants ///< and knobs are constants, which the driver folds into its arithmetic: other roundings
 };
 
@@ -26,12 +25,11 @@ struct LeftOut {
     int branches = 0;                         ///< closed by knobs or constants
     int hoisted = 0;                          ///< expressions out of loops
     int constants = 0;                        ///< knobs
-    int side_by_side = 0;                     ///< expressions whose calls run side by side
     std::string kept_whole = "not asked for"; ///< why nothing was done; empty where something was
 
     bool anything() const { return kept_whole.empty(); }
     /// Whether a driver may round differently.
-    bool in_doubt() const { return branches + hoisted + constants + side_by_side > 0; }
+    bool in_doubt() const { return branches + hoisted + constants > 0; }
 };
 
 struct Specialised {

@@ -256,67 +256,6 @@ TEST(Specialise, hoists_nothing_that_may_change_within_a_frame) {
     EXPECT_EQ(hoisted("void main() { for (int i = 0; i < 9; ++i) { cos(iTime); } }", "300 es"), 0);
 }
 
-TEST(Specialise, runs_two_calls_of_one_function_in_turns) {
-    // A step that takes the variable of its operand is set twice, which keeps Mesa from putting it back.
-    EXPECT_EQ(settled("float wave(float x) { float s = sin(x * 2.0); return s * s; } "
-                      "void main() { float h = wave(1.0) + wave(iTime); }"),
-              "float wave(float x) { float s = sin(x * 2.0); return s * s; } "
-              "void tidemark_in_turns1(float tidemark0x, float tidemark1x, out float tidemark_result0, "
-              "out float tidemark_result1) { "
-              "float tidemark_step0_0 = tidemark0x * 2.0; float tidemark_step1_0 = tidemark1x * 2.0; "
-              "tidemark_step0_0 = sin ( tidemark_step0_0 ); tidemark_step1_0 = sin ( tidemark_step1_0 ); "
-              "float tidemark0s = tidemark_step0_0 ; float tidemark1s = tidemark_step1_0 ; "
-              "float tidemark_step0_1 = tidemark0s * tidemark0s; "
-              "float tidemark_step1_1 = tidemark1s * tidemark1s; "
-              "tidemark_result0 = tidemark_step0_1; tidemark_result1 = tidemark_step1_1; } "
-              "float tidemark_together2(float tidemark0x, float tidemark1x) { "
-              "float tidemark_result0, tidemark_result1; "
-              "tidemark_in_turns1(tidemark0x, tidemark1x, tidemark_result0, tidemark_result1); "
-              "return tidemark_result0 + tidemark_result1; } "
-              "void main() { float h = tidemark_together2(1.0, iTime) ; }");
-}
-
-int side_by_side(std::string_view before, std::string_view expression) {
-    return specialised(
-               fmt::format("{} void main() {{ float x = 1.0; vec3 v = vec3({}); }}", before, expression),
-               Specialise::settled)
-        .left_out.side_by_side;
-}
-
-TEST(Specialise, runs_side_by_side_whatever_is_put_together_of_calls) {
-    constexpr std::string_view f = "float f(float x) { x *= 0.5; return sin(x); }";
-    for (const char* expression : {"f(x) - f(2.0)", "(f(x)) * f(x)", "max(f(x), f(2.0))",
-                                   "vec3(f(x), f(2.0), f(3.0))", "f(f(x) + f(2.0))"})
-        EXPECT_EQ(side_by_side(f, expression), 1) << expression;
-    EXPECT_EQ(side_by_side(f, "f(f(x) + f(2.0)) + f(x)"), 1) << "what is inside is said as it stands";
-    EXPECT_EQ(side_by_side(f, "f(x) + f(2.0), f(x) * f(1.0), 0.0"), 2);
-    // Reading what is global is no effect, and what was in the way may go with a branch.
-    EXPECT_EQ(side_by_side("float g[2]; float f(int i) { return exp(g[i]); }", "f(0) + f(1)"), 1);
-    EXPECT_EQ(side_by_side("float f(float x) { if (foam > 1.0) x = 0.0; return sin(x); }", "f(x) + f(2.0)"),
-              1);
-}
-
-TEST(Specialise, leaves_calls_one_after_the_other_that_may_meet) {
-    constexpr std::string_view f = "float f(float x) { return sin(x); }";
-    for (const char* expression : {"f(x) + 1.0", "f(x++) + f(x)", "f(x) + f(x = 2.0)", "cos(f(x))",
-                                   "f(x) < f(2.0)", "f(x), f(x), f(x), f(x), f(x)"})
-        EXPECT_EQ(side_by_side(f, expression), 0) << expression;
-    for (const char* text :
-         {"float n; float f(float x) { n += x; return sin(n); }",                  // an effect
-          "float n; void up() { ++n; } float f(float x) { up(); return sin(n); }", // of another
-          "float f(inout float x) { return sin(x); }",                             //
-          "float f(float x) { if (x > 0.5) x = 1.0; return sin(x); }",
-          "float f(float x) { for (int i = 0; i < 3; ++i) x = sin(x); return x; }",
-          "float f(float x) { discard; return sin(x); }",
-          "float f(float x) { return x * x; }", // nothing to wait for
-          "float f(float x) { return sin(x); } float f(int x) { return 1.0; }",
-          "float g(float x); float f(float x) { return sin(g(x)); } "
-          "float g(float x) { return x; }",
-          "#define T x\nfloat f(float x) { return sin(x); }\n#undef T\n#define x T\n"})
-        EXPECT_EQ(side_by_side(text, "f(x) + f(x)"), 0) << text;
-    EXPECT_EQ(side_by_side("float f(float x);", "f(x) + f(x)"), 0); // whose text is not there, or not yet
-}
-
 TEST(Specialise, writes_knobs_as_constants_when_asked_to) {
     const std::string text =
         specialised("void main() { float x = foam; }", Specialise::constants).source.text();
