@@ -14,11 +14,11 @@ ALLOWED = {
     "gl": ["base"],
     "image": ["base"],
     "sound": ["base"],
-    "terrain": ["base", "image"],
+    "bake": ["base", "image"],
     "platform": ["base"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
     "lab": ["base", "text", "scene", "glsl", "gl", "image", "render"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "terrain", "platform", "render", "lab"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "render", "lab"],
     "main.cpp": ["cli"],
 }
 
@@ -28,9 +28,9 @@ ROOMS = {
     # The plug-in is a library of its own: image/files knows the table of functions that it hands over.
     "image": {"": [], "files": ["", "plugin"], "made": ["", "files"], "compare": [""], "plugin": ["", "files"]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
-             "watch": ["syntax", "flow"]},
+             "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "fields": [], "study": ["", "fields"], "trace": [], "check": ["", "trace"]},
-    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""]},
+    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""]},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/(?:([a-z_]+)/)?', re.MULTILINE)

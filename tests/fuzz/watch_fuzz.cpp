@@ -1,7 +1,8 @@
 // Any text read to its tree and watched: an error that says something, or a text that is watched again
 // without one, as often as one likes.
 #include "fuzz.hpp"
-#include "glsl/watch/watch.hpp"
+#include "glsl/analysis/float_operation.hpp"
+#include "glsl/instrument/watch.hpp"
 
 #include <string>
 
@@ -31,9 +32,8 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const glsl::TreeFacts facts = glsl::find_facts(**parsed);
     glsl::WatchRequest request;
     request.reach = glsl::WatchRequest::Reach::everything;
-    request.zeroed = glsl::uninitialised(**parsed, facts);
     for (glsl::NodeId id = 1; id < tree.nodes.size(); ++id)
-        if (glsl::is_watched_operation(**parsed, facts, id)) {
+        if (glsl::is_float_operation(**parsed, facts, id)) {
             request.capture = id;
             break;
         }

@@ -1,6 +1,6 @@
 // Sums with one rounding, and from the other end: the numbers that a driver makes of the rewritten text.
 #include "gl_test.hpp"
-#include "glsl/watch/variation.hpp"
+#include "glsl/instrument/variation.hpp"
 #include "lab/trace/watched_run.hpp"
 
 #include <cmath>

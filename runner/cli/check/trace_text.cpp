@@ -122,12 +122,6 @@ std::string to_text(const NanTrace& trace) {
     if (trace.cure && !trace.cure_is_first)
         text += fmt::format("{}: {}: mending this one mends the pixel\n{}", place(trace.cure->where),
                             sentence(*trace.cure), way(*trace.cure));
-    if (!trace.uninitialised.empty()) {
-        text += "  a variable is read before it has a value:";
-        for (size_t i = 0; i < trace.uninitialised.size(); ++i)
-            text += fmt::format("{} {}", i > 0 ? " or" : "", trace.uninitialised[i]);
-        text += '\n';
-    }
     for (const std::string& note : trace.notes)
         text += fmt::format("  note: {}\n", note);
     return text;
@@ -140,7 +134,6 @@ Json to_json(const NanTrace& trace) {
     json["washed"] = trace.washed;
     json["first"] = trace.first ? to_json(*trace.first) : Json();
     json["cure"] = trace.cure ? to_json(*trace.cure) : Json();
-    json["uninitialised"] = trace.uninitialised;
     json["notes"] = trace.notes;
     return json;
 }

@@ -239,4 +239,29 @@ std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, c
     return found;
 }
 
+bool must_stay_constant(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    for (NodeId around = id; around != k_no_node; around = tree[around].parent) {
+        const Node& node = tree[around];
+        switch (node.kind) {
+        case NodeKind::label:
+        case NodeKind::type:
+        case NodeKind::structure: return true;
+        case NodeKind::index: // of a declarator, which has no `what`
+            if (text.word(node.begin) == "[")
+                return true;
+            break;
+        case NodeKind::declaration: {
+            const NodeId type = tree.child(around, 0);
+            if (has_qualifier(text, type, "const") || (node.parent == 0 && text.is_es()))
+                return true;
+            break;
+        }
+        case NodeKind::function: return false;
+        default: break;
+        }
+    }
+    return false;
+}
+
 } // namespace tidemark::glsl

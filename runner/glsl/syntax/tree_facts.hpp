@@ -75,6 +75,10 @@ bool is_change(const ParsedText& text, NodeId expression);
 /// `.length()`.
 std::string_view called_name(const ParsedText& text, NodeId call);
 
+/// Whether an expression must stay constant: part of a `const` declaration, an array's size or a case label;
+/// or, in GLSL ES, the value of a global variable.
+bool must_stay_constant(const ParsedText& text, NodeId id);
+
 /// The functions that `main` comes to by calls, overloads taken together: to tell authors about. What may be
 /// taken away is find_reached's to say (globals.hpp), which a word is enough for.
 std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, const TreeFacts& facts);

@@ -1,7 +1,7 @@
 // What is wrong where a value left its domain, in words.
 #pragma once
 
-#include "glsl/watch/domains.hpp"
+#include "glsl/instrument/domains.hpp"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // What other GPUs, drivers and roundings would make of the picture.
-#include "glsl/watch/variation.hpp"
+#include "glsl/instrument/variation.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/metrics.hpp"
 #include "lab/check/picture_gap.hpp"

@@ -1,6 +1,6 @@
 // What the text alone tells.
-#include "glsl/watch/divergence.hpp"
-#include "glsl/watch/unassigned.hpp"
+#include "glsl/analysis/divergence.hpp"
+#include "glsl/analysis/unassigned.hpp"
 #include "lab/check/probe_text.hpp"
 #include "lab/check/probes.hpp"
 #include "scene/host_uniforms.hpp"

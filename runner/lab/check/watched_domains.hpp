@@ -1,7 +1,7 @@
 // A pass that watches its domains (glsl/watch/domains.hpp), drawn in its place. A context must be current.
 #pragma once
 
-#include "glsl/watch/domains.hpp"
+#include "glsl/instrument/domains.hpp"
 #include "lab/check/explored.hpp"
 #include "lab/check/probe_text.hpp"
 #include "lab/trace/stand_in.hpp"

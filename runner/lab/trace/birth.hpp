@@ -2,7 +2,7 @@
 // with.
 #pragma once
 
-#include "glsl/watch/watch.hpp"
+#include "glsl/instrument/watch.hpp"
 #include "lab/trace/nan_trace.hpp"
 #include "scene/scene.hpp"
 

@@ -49,13 +49,11 @@ public:
 
     Result<void> run(bool nan_only) {
         nan_only_ = nan_only;
-        auto reading = locate({});
+        auto reading = locate();
         if (!reading)
             return fail(std::move(reading.error()));
         compare(*reading);
         if (reading->hit() == k_no_node) {
-            if (!trace_.washed)
-                test_variables();
             return {};
         }
         return follow(reading->hit());
@@ -75,20 +73,16 @@ private:
     }
 
     /// The first statement that is not finite; where none is, the first operation of all.
-    Result<WatchReading> locate(const std::vector<NodeId>& zeroed) {
+    Result<WatchReading> locate() {
         if (!everything_) {
-            WatchRequest statements = watch_request(Reach::statements);
-            statements.zeroed = zeroed;
-            auto reading = read(statements);
-            const bool enough = !reading || reading->hit() != k_no_node ||
-                                (is_finite(reading->colour) && !trace_.washed) || !zeroed.empty();
+            auto reading = read(watch_request(Reach::statements));
+            const bool enough =
+                !reading || reading->hit() != k_no_node || (is_finite(reading->colour) && !trace_.washed);
             if (enough)
                 return reading;
         }
         everything_ = true;
-        WatchRequest all = watch_request(Reach::everything);
-        all.zeroed = zeroed;
-        return read(all);
+        return read(watch_request(Reach::everything));
     }
 
     void compare(const WatchReading& reading) {
@@ -149,13 +143,11 @@ private:
                     return fail(std::move(birth.error()));
                 trace_.first = *std::move(birth);
                 tell();
-                if (suspects_variables(*trace_.first))
-                    test_variables();
                 if (trace_.washed)
                     return {};
             }
             repaired_.push_back(operation);
-            auto reading = locate({});
+            auto reading = locate();
             if (!reading)
                 return fail(std::move(reading.error()));
             if (is_finite(reading->colour))
@@ -181,35 +173,6 @@ private:
             return fail(std::move(birth.error()));
         trace_.cure = *std::move(birth);
         return {};
-    }
-
-    static bool suspects_variables(const Birth& birth) {
-        return birth.why.cause == BirthCause::undefined ||
-               (birth.why.cause == BirthCause::carried && birth.origin.empty());
-    }
-
-    bool cures(const std::vector<NodeId>& zeroed) {
-        auto reading = locate(zeroed);
-        return reading && is_finite(reading->colour);
-    }
-
-    /// Which variables without a value cure the pixel when they begin at zero.
-    void test_variables() {
-        const std::vector<NodeId> all = glsl::uninitialised(watched_.text, watched_.facts);
-        if (all.empty() || trace_.washed || !cures(all))
-            return;
-        for (size_t i = 0; i < all.size() && i < k_most_suspects; ++i)
-            if (cures({all[i]}))
-                trace_.uninitialised.push_back(name_of(all[i]));
-        if (trace_.uninitialised.empty())
-            for (const NodeId id : all)
-                trace_.uninitialised.push_back(name_of(id));
-        tell();
-    }
-
-    std::string name_of(NodeId variable) const {
-        const auto where = watched_.text.used(watched_.text.tree()[variable].word);
-        return fmt::format("{} ({}:{})", watched_.text.word_of(variable), where.file, where.line);
     }
 
     const Moment& moment_;

@@ -54,8 +54,7 @@ struct NanTrace {
     std::optional<Birth> first{};
     std::optional<Birth> cure{}; ///< the first whose mending, with those before it, makes the pixel finite
     bool cure_is_first = false;
-    std::vector<std::string> uninitialised{}; ///< variables without a value that cure the pixel at zero
-    std::vector<std::string> notes{};         ///< what could not be done, and why
+    std::vector<std::string> notes{}; ///< what could not be done, and why
 };
 
 struct TraceRequest {

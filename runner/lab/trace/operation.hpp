@@ -1,7 +1,7 @@
 // Why an operation of GLSL gave what it gave: from the operands that a shader wrote down, on the CPU.
 #pragma once
 
-#include "glsl/watch/watch.hpp"
+#include "glsl/instrument/watch.hpp"
 
 #include <array>
 #include <cstdint>

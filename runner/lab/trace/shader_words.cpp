@@ -1,6 +1,6 @@
 #include "lab/trace/shader_words.hpp"
 
-#include "glsl/watch/watch.hpp"
+#include "glsl/instrument/watch.hpp"
 
 namespace tidemark::lab {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "glsl/watch/watch.hpp"
+#include "glsl/instrument/watch.hpp"
 #include "lab/trace/stand_in.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // Which derivatives are taken where neighbouring pixels may have gone another way.
-#include "glsl/watch/divergence.hpp"
+#include "glsl/analysis/divergence.hpp"
 
 #include <gtest/gtest.h>
 

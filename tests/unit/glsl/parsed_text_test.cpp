@@ -1,5 +1,5 @@
 // A text without macros, its tree, and what the watch makes of it.
-#include "glsl/watch/watch.hpp"
+#include "glsl/instrument/watch.hpp"
 #include "glsl_support.hpp"
 
 #include <fmt/format.h>
@@ -172,19 +172,6 @@ TEST(Watch, what_must_stay_as_it_is_stays) {
               "voidg(outfloatx);voidf(intn){inti=n*2;g(a[n+1]);floatq[2*3];}");
     EXPECT_EQ(watched("float f(){return b&&c/d>1.?e*2.:g;}"),
               "floatf(){returnb&&tmw0_P(c/d,)>1.?tmw0_P(e*2.,):g;}");
-}
-
-TEST(Watch, variables_without_a_value_can_begin_at_zero) {
-    const std::string text =
-        "struct S{float a;};void f(out vec2 o){float a=1.,b;int n[3];S s;}void g(out float);";
-    const auto parsed = read(text);
-    ASSERT_TRUE(parsed);
-    WatchRequest request;
-    request.zeroed = uninitialised(**parsed, find_facts(**parsed));
-    EXPECT_EQ(request.zeroed.size(), 4u);
-    const std::string zeroed = watched(text, request);
-    for (const std::string_view piece : {"o=vec2(0);", "b=float(0);", "n[tmw0_i0]=int(0);", "s=tmw0_zero_S;"})
-        EXPECT_EQ(count(zeroed, piece), 1) << piece << " in " << zeroed;
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Variables without a value: those that some read surely sees so, and none that may have one.
-#include "glsl/watch/unassigned.hpp"
+#include "glsl/analysis/unassigned.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // A text as other GPUs would compute it, and with its domains watched: what is led through us and what is
 // not. What that draws is tested through the program, tests/cli/check_test.py.
-#include "glsl/watch/domains.hpp"
-#include "glsl/watch/variation.hpp"
+#include "glsl/instrument/domains.hpp"
+#include "glsl/instrument/variation.hpp"
 #include "glsl_support.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,198 @@
+#include "bake/fast_marching.hpp"
+
+#include "bake/shore_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace tidemark::bake {
+namespace {
+
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+
+/// One axis of the upwind scheme: weight (u - base)² is the square of its difference.
+struct Upwind {
+    double base = k_infinite;
+    double weight = 0.0;
+};
+
+/// The larger root of the sum of both axes = 1; of the nearer axis alone where the other lies ahead.
+double solve(Upwind a, Upwind b) {
+    if (a.base > b.base)
+        std::swap(a, b);
+    const double along_a = a.base + 1.0 / std::sqrt(a.weight);
+    if (!(along_a > b.base))
+        return along_a;
+    const double gap = b.base - a.base;
+    const double sum = a.weight + b.weight;
+    const double root = sum - a.weight * b.weight * gap * gap; // above 0: along_a > b.base
+    return a.base + (b.weight * gap + std::sqrt(std::max(root, 0.0))) / sum;
+}
+
+/// The shortest way to `to` over the segment from `a` to `b`, at whose ends u is `u_a` and `u_b` and between
+/// them linear. Either may be infinite.
+double over_segment(Point to, Point a, double u_a, Point b, double u_b) {
+    const double from_ends = std::min(u_a + distance(to, a), u_b + distance(to, b));
+    const double length = distance(a, b);
+    const double slope = (u_b - u_a) / length;
+    if (!(std::abs(slope) < 1.0)) // NaN too: an end without a value, two crossings in one point
+        return from_ends;
+    const Point along{(b.x - a.x) / length, (b.y - a.y) / length};
+    const Point offset{to.x - a.x, to.y - a.y};
+    const double foot = offset.x * along.x + offset.y * along.y;
+    const double away = std::abs(offset.x * along.y - offset.y * along.x);
+    const double at = foot - slope * away / std::sqrt(1.0 - slope * slope);
+    if (at <= 0.0 || at >= length)
+        return from_ends;
+    const double rest = foot - at;
+    return std::min(from_ends, u_a + slope * at + std::sqrt(away * away + rest * rest));
+}
+
+class March {
+public:
+    March(const HeightMap& map, Stencil stencil)
+        : map_(map), shore_(map), second_order_(stencil == Stencil::second_order),
+          inverse_square_(1.0 / (map.spacing() * map.spacing())), u_(size_t(shore_.vertices()), k_infinite),
+          accepted_(size_t(shore_.vertices()), false) {}
+
+    Distances run(std::span<const double> known) {
+        std::vector<int> sources;
+        for (int node = 0; node < int(map_.heights.size()); ++node)
+            if (map_.is_water(node) && !std::isnan(known[size_t(node)])) {
+                value(node) = known[size_t(node)];
+                accepted_[size_t(node)] = true;
+                sources.push_back(node);
+            }
+        for (const int node : sources)
+            spread(node);
+        while (!heap_.empty()) {
+            const auto [reached, vertex] = heap_.top();
+            heap_.pop();
+            ++result_.heap_operations;
+            if (reached > value(vertex)) // improved since it was pushed
+                continue;
+            accepted_[size_t(vertex)] = true;
+            spread(vertex);
+        }
+        u_.resize(map_.heights.size());
+        result_.of_node = std::move(u_);
+        return std::move(result_);
+    }
+
+private:
+    double& value(int vertex) { return u_[size_t(vertex)]; }
+    bool is_node(int vertex) const { return vertex < int(map_.heights.size()); }
+    Point place(int vertex) const {
+        return is_node(vertex) ? map_.position(vertex)
+                               : shore_.crossings()[size_t(vertex) - map_.heights.size()];
+    }
+
+    /// The node `steps` from `node` in direction (dx, dy), or -1 beyond the edge.
+    int beside(int node, int dx, int dy, int steps) const {
+        const int x = node % map_.side + dx * steps, y = node / map_.side + dy * steps;
+        return x < 0 || y < 0 || x >= map_.side || y >= map_.side ? -1 : map_.node(x, y);
+    }
+
+    double accepted_value(int node) const {
+        return node >= 0 && accepted_[size_t(node)] ? u_[size_t(node)] : k_infinite;
+    }
+
+    /// The side of an axis from which the front comes. Nodes of water that follow each other have water
+    /// between.
+    Upwind upwind(int node, int dx, int dy) const {
+        const double ahead = accepted_value(beside(node, dx, dy, 1));
+        const double behind = accepted_value(beside(node, -dx, -dy, 1));
+        const int side = ahead < behind ? 1 : -1;
+        const double near = std::min(ahead, behind);
+        if (!second_order_ || near == k_infinite)
+            return {near, inverse_square_};
+        const double far = accepted_value(beside(node, side * dx, side * dy, 2));
+        if (far > near)
+            return {near, inverse_square_};
+        return {(4.0 * near - far) / 3.0, 2.25 * inverse_square_};
+    }
+
+    double over_polygons(int vertex) const {
+        double least = k_infinite;
+        const Point to = place(vertex);
+        for (const int index : shore_.polygons_at(vertex)) {
+            const WaterPolygon& polygon = shore_.polygon(index);
+            for (int i = 0; i < polygon.size; ++i) {
+                const int a = polygon.corners[size_t(i)], b = polygon.corners[size_t((i + 1) % polygon.size)];
+                if (a == vertex || b == vertex)
+                    continue;
+                const double u_a = accepted_value(a), u_b = accepted_value(b);
+                if (u_a < k_infinite || u_b < k_infinite)
+                    least = std::min(least, over_segment(to, place(a), u_a, place(b), u_b));
+            }
+        }
+        return least;
+    }
+
+    void update(int vertex) {
+        const bool again = accepted_[size_t(vertex)];
+        if (again && shore_.polygons_at(vertex).empty())
+            return;
+        ++result_.updates;
+        double reached = over_polygons(vertex);
+        if (is_node(vertex) && !again) {
+            const Upwind x = upwind(vertex, 1, 0), y = upwind(vertex, 0, 1);
+            if (x.base < k_infinite || y.base < k_infinite)
+                reached = std::min(reached, solve(x, y));
+        }
+        // A correction below rounding is none: the march must end.
+        if (!(reached < value(vertex) - (again ? k_correction * map_.spacing() : 0.0)))
+            return;
+        value(vertex) = reached;
+        accepted_[size_t(vertex)] = false;
+        heap_.emplace(reached, vertex);
+        ++result_.heap_operations;
+    }
+
+    void spread(int vertex) {
+        if (is_node(vertex))
+            for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+                if (const int node = beside(vertex, dx, dy, 1); node >= 0 && map_.is_water(node))
+                    update(node);
+        for (const int index : shore_.polygons_at(vertex)) {
+            const WaterPolygon& polygon = shore_.polygon(index);
+            for (int i = 0; i < polygon.size; ++i)
+                if (polygon.corners[size_t(i)] != vertex)
+                    update(polygon.corners[size_t(i)]);
+        }
+    }
+
+    static constexpr double k_correction = 1e-9; ///< of a spacing
+
+    using Entry = std::pair<double, int>;
+    const HeightMap& map_;
+    ShoreCells shore_;
+    bool second_order_;
+    double inverse_square_;
+    std::vector<double> u_; ///< of every vertex: nodes, then crossings
+    std::vector<bool> accepted_;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
+    Distances result_;
+};
+
+} // namespace
+
+Distances fast_march(const HeightMap& map, std::span<const double> known, Stencil stencil) {
+    assert(known.size() == map.heights.size());
+    return March(map, stencil).run(known);
+}
+
+std::vector<double> known_from_circle(const HeightMap& map, double radius) {
+    std::vector<double> known(map.heights.size(), std::numeric_limits<double>::quiet_NaN());
+    for (int node = 0; node < int(known.size()); ++node)
+        if (const double straight = radius - length(map.position(node)); straight < 2.5 * map.spacing())
+            known[size_t(node)] = straight;
+    return known;
+}
+
+} // namespace tidemark::bake

@@ -1,0 +1,137 @@
+#include "bake/island.hpp"
+
+#include "bake/smooth_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+namespace tidemark::bake {
+namespace {
+
+constexpr double k_land_reach = 27.0;
+constexpr double k_rock_reach = 20.0;
+constexpr int k_rocks = 18;
+
+/// 0..1 from a lattice point: one odd multiplication each way and the high bits folded down between.
+double lattice(int64_t x, int64_t y, uint32_t seed) {
+    uint32_t bits = uint32_t(x) * 0x9e3779b1u ^ uint32_t(y) * 0x85ebca77u ^ seed * 0xc2b2ae3du;
+    bits = (bits ^ (bits >> 15)) * 0x2c1b3c6du;
+    bits = (bits ^ (bits >> 12)) * 0x297a2d39u;
+    return double(bits ^ (bits >> 15)) / 4294967296.0;
+}
+
+/// -1..1, one lattice cell a unit.
+double value_noise(Point p, uint32_t seed) {
+    const double cell_x = std::floor(p.x), cell_y = std::floor(p.y);
+    const double part_x = rise(0.0, 1.0, p.x - cell_x), part_y = rise(0.0, 1.0, p.y - cell_y);
+    const auto x = int64_t(cell_x), y = int64_t(cell_y);
+    const auto row = [&](int64_t at) {
+        const double left = lattice(x, at, seed);
+        return left + part_x * (lattice(x + 1, at, seed) - left);
+    };
+    const double low = row(y);
+    return 2.0 * (low + part_y * (row(y + 1) - low)) - 1.0;
+}
+
+/// About -1..1; the coarsest bumps are `size` metres apart, each octave half as large and 0.45 as high.
+double fractal(Point p, double size, int octaves, uint32_t seed) {
+    double sum = 0.0, weight = 0.55;
+    Point at{p.x / size, p.y / size};
+    for (int octave = 0; octave < octaves; ++octave) {
+        sum += weight * value_noise(at, seed + uint32_t(octave));
+        weight *= 0.45;
+        at = {1.6 * at.x - 1.2 * at.y + 17.3, 1.2 * at.x + 1.6 * at.y - 5.9}; // twice as fine, turned
+    }
+    return sum;
+}
+
+/// The larger, with a fillet of about `radius` where both are near.
+double smooth_max(double a, double b, double radius) {
+    const double near = std::max(radius - std::abs(a - b), 0.0) / radius;
+    return std::max(a, b) + 0.25 * radius * near * near;
+}
+
+struct Disc {
+    Point middle;
+    double radius;
+};
+
+/// Metres inwards from an outline that a few discs and noise make; below 0 at sea.
+double inland(Point p, uint32_t seed) {
+    static constexpr std::array<Disc, 5> k_discs{{{{2.0, 1.0}, 8.2},
+                                                  {{-8.8, 5.6}, 4.6},
+                                                  {{9.0, -6.6}, 4.0},
+                                                  {{8.2, 9.2}, 3.2},
+                                                  {{-13.6, -10.0}, 2.6}}};
+    const Point bent{p.x + 2.4 * fractal(p, 7.0, 3, seed + 11), p.y + 2.4 * fractal(p, 6.0, 3, seed + 23)};
+    double inward = -1e3;
+    for (const Disc& disc : k_discs)
+        inward = smooth_max(inward, disc.radius - distance(bent, disc.middle), 2.5);
+    return inward;
+}
+
+/// A beach on both sides of the waterline, hills behind it, and a floor that falls off to sea.
+double ground(Point p, uint32_t seed) {
+    const double inward = inland(p, seed);
+    const double beach = 0.2 * inward * (inward < 0.0 ? rise(8.0, 0.0, -inward) * 0.9 + 0.1 : 1.0);
+    const double hills = 3.0 * rise(0.9, 8.0, inward) * (1.0 + 0.55 * fractal(p, 5.0, 4, seed + 37));
+    const double cliffs = 0.9 * rise(0.25, 0.75, fractal(p, 7.0, 2, seed + 41)) * rise(0.9, 1.7, inward);
+    const double floor = -5.2 * rise(0.5, 15.0, -inward) * (1.0 + 0.5 * fractal(p, 7.0, 3, seed + 53));
+    return beach + hills + cliffs + floor;
+}
+
+struct Rock {
+    Point middle;
+    double radius; ///< at the waterline
+    double top;
+};
+
+std::vector<Rock> scatter_rocks(uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double from, double to) {
+        return from + (to - from) * (double(random()) / 4294967296.0); // the engine's output is standard
+    };
+    std::vector<Rock> rocks;
+    while (rocks.size() < k_rocks) {
+        const Point at{between(-k_rock_reach, k_rock_reach), between(-k_rock_reach, k_rock_reach)};
+        const double size = between(0.0, 1.0), top = between(1.1, 1.8);
+        const double from_land = -inland(at, seed);
+        if (length(at) > k_rock_reach || from_land < 1.2 || from_land > 6.0)
+            continue;
+        const double radius = 0.4 + 1.2 * size * size * size;
+        const bool apart = std::none_of(rocks.begin(), rocks.end(), [&](const Rock& rock) {
+            return distance(rock.middle, at) < 1.3 * (rock.radius + radius);
+        });
+        if (apart)
+            rocks.push_back({at, radius, top * (0.4 + 0.8 * radius)});
+    }
+    return rocks;
+}
+
+double with_rocks(double floor, Point p, const std::vector<Rock>& rocks, uint32_t seed) {
+    for (const Rock& rock : rocks) {
+        const double away = distance(p, rock.middle) / rock.radius;
+        if (away > 3.0)
+            continue;
+        const double rough = away * (1.0 + 0.4 * fractal(p, 1.1, 3, seed + 67));
+        floor = smooth_max(floor, rock.top * (1.0 - rough * rough), 0.25);
+    }
+    return floor;
+}
+
+} // namespace
+
+HeightMap make_island(int side, uint32_t seed) {
+    HeightMap map(side, k_island_extent);
+    const std::vector<Rock> rocks = scatter_rocks(seed);
+    for (int node = 0; node < side * side; ++node) {
+        const Point p = map.position(node);
+        const double height = with_rocks(ground(p, seed), p, rocks, seed);
+        // Whatever the seed, the open sea begins at k_land_reach.
+        map.heights[size_t(node)] = height - (height + 5.0) * rise(k_rock_reach, k_land_reach, length(p));
+    }
+    return map;
+}
+
+} // namespace tidemark::bake

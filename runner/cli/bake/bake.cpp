@@ -1,0 +1,76 @@
+#include "bake/ramps.hpp"
+#include "cli/bake/bake_island.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/value_check.hpp"
+#include "image/files/picture_file.hpp"
+#include "image/made/noise.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct BakeOptions {
+    fs::path output{}; ///< empty: the command's own
+    uint32_t seed = image::k_noise_seed;
+};
+
+Result<int> write(const OutputPath& output, const image::Image& image) {
+    const fs::path& path = output.path();
+    if (auto known = image::check_picture_name(path); !known)
+        return fail(std::move(known.error()));
+    const auto depth =
+        image.type == image::SampleType::f32 ? image::SampleDepth::u16 : image::natural_depth(path);
+    const image::PictureFormat format{depth, {{"Software", "tidemark bake"}}};
+    if (auto written = image::write_picture(output, image, format); !written)
+        return fail(std::move(written.error()));
+    say(fmt::format("wrote {}", path.string()));
+    return 0;
+}
+
+Result<int> bake_noise(const BakeOptions& options) {
+    return write(OutputPath::typed_or(options.output, "noise.png"), image::make_noise(options.seed));
+}
+
+Result<int> bake_ramps(const BakeOptions& options) {
+    for (const bake::NamedImage& ramp : bake::make_ramps())
+        if (auto written = write(OutputPath::typed(options.output) / (ramp.name + ".png"), ramp.image);
+            !written)
+            return written;
+    return 0;
+}
+
+} // namespace
+
+void add_bake(CLI::App& app, Action& chosen) {
+    CLI::App* command = app.add_subcommand("bake", "Makes the textures that scenes need");
+    command->require_subcommand(1);
+
+    auto noise = std::make_shared<BakeOptions>();
+    CLI::App* noise_command = command->add_subcommand("noise", "The 256x256 noise that iChannels read");
+    noise_command->add_option("-o,--output", noise->output, "File [noise.png]")->type_name("FILE");
+    noise_command->add_option("--seed", noise->seed, "Another noise of the same kind")
+        ->check(number<uint32_t>("a whole number from 0"))
+        ->type_name("N")
+        ->capture_default_str();
+    noise_command->callback([noise, &chosen] { chosen = [noise] { return bake_noise(*noise); }; });
+
+    auto ramps = std::make_shared<BakeOptions>();
+    ramps->output = ".";
+    CLI::App* ramps_command =
+        command->add_subcommand("ramps", "The ramps of shaders/pseudo3d_water.glsl and stylized_waves.glsl");
+    ramps_command->add_option("-o,--output", ramps->output, "Folder")
+        ->type_name("FOLDER")
+        ->capture_default_str();
+    ramps_command->callback([ramps, &chosen] { chosen = [ramps] { return bake_ramps(*ramps); }; });
+
+    add_bake_island(*command, chosen);
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,149 @@
+#include "cli/bake/bake_island.hpp"
+
+#include "bake/island.hpp"
+#include "bake/wave_map.hpp"
+#include "cli/bake/bake_island_study.hpp"
+#include "cli/console.hpp"
+#include "cli/value_check.hpp"
+#include "image/files/picture_file.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct IslandOptions {
+    fs::path output; ///< empty: island.exr; of --study no folder
+    image::SampleDepth depth = image::SampleDepth::half;
+    int side = 512;
+    uint32_t seed = bake::k_island_seed;
+    fs::path heights; ///< of the user; empty: our own island
+    double extent = bake::k_island_extent;
+    double sea = 0.0;
+    double metres = 1.0;
+    bool study = false;
+    MarchStudyRequest march_study;
+};
+
+Result<bake::HeightMap> heights_of(const IslandOptions& options) {
+    if (options.heights.empty())
+        return bake::make_island(options.side, options.seed);
+    return image::read_picture(options.heights).and_then([&](const image::Image& picture) {
+        return bake::heights_from(picture, options.extent, options.sea, options.metres)
+            .map_error([&](Error error) {
+                error.message = fmt::format("cannot use '{}': {}", options.heights.string(), error.message);
+                return error;
+            });
+    });
+}
+
+image::PictureFormat format_of(const IslandOptions& options, const bake::HeightMap& map) {
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"Software", "tidemark bake"},
+        {"channels", "path distance, wave mask, depth, height"},
+        {"extent", fmt::format("{:g}", map.extent)},
+        {"radius", fmt::format("{:g}", bake::circle_radius(map))},
+    };
+    if (options.heights.empty())
+        facts.emplace_back("seed", fmt::format("{}", options.seed));
+    else
+        facts.emplace_back("heights", options.heights.filename().string());
+    return {options.depth, std::move(facts)};
+}
+
+Result<int> bake(const IslandOptions& options) {
+    OutputPath output = OutputPath::typed_or(options.output, "island.exr");
+    if (!options.heights.empty())
+        output = output.sparing({options.heights});
+    if (auto known = image::check_picture_format(output.path(), options.depth); !known)
+        return fail(std::move(known.error()));
+    const std::jthread loading = image::preload_picture_codec(output.path());
+    if (auto place = output.place(); !place)
+        return fail(std::move(place.error()));
+    const auto map = heights_of(options);
+    if (!map)
+        return fail(map.error());
+    const auto baked = bake::bake_wave_map(*map);
+    if (!baked) {
+        const std::string name =
+            options.heights.empty() ? fmt::format("island {}", options.seed) : options.heights.string();
+        return fail(baked.error().code, fmt::format("cannot use '{}': {}", name, baked.error().message));
+    }
+    if (auto written = image::write_picture(output, *baked, format_of(options, *map)); !written)
+        return fail(std::move(written.error()));
+    say(fmt::format("wrote {}", output.string()));
+    return 0;
+}
+
+} // namespace
+
+void add_bake_island(CLI::App& bake_command, Action& chosen) {
+    auto options = std::make_shared<IslandOptions>();
+    CLI::App* island = bake_command.add_subcommand(
+        "island", "Waves' ways over water, sheltered places, depth and height of an island's sea");
+    island
+        ->add_option("-o,--output", options->output,
+                     "File, .exr or (with --depth float) .tif [island.exr]; of --study the report's folder")
+        ->type_name("FILE");
+    island
+        ->add_option_function<std::string>(
+            "--depth",
+            [options](const std::string& depth) {
+                options->depth = depth == "half" ? image::SampleDepth::half : image::SampleDepth::f32;
+            },
+            "Bits of a sample [half]")
+        ->check(one_of({"half", "float"}))
+        ->type_name("half|float");
+    CLI::Option* side = island->add_option("--size", options->side, "Texels a side of the generated island")
+                            ->check(number<int>(fmt::format("a whole number from {} to {}",
+                                                            bake::k_least_side, bake::k_largest_side),
+                                                bake::k_least_side, bake::k_largest_side))
+                            ->type_name("N")
+                            ->capture_default_str();
+    CLI::Option* seed =
+        island->add_option("--seed", options->seed, "Another island of the same kind")->capture_default_str();
+    CLI::Option* heights =
+        island
+            ->add_option("--heights", options->heights, "Your own square height map instead (first channel)")
+            ->type_name("FILE")
+            ->excludes(side)
+            ->excludes(seed);
+    island->add_option("--extent", options->extent, "Metres along a side of that map")
+        ->needs(heights)
+        ->check(
+            number(fmt::format("metres from 1 to {:g}", bake::k_largest_metres), 1.0, bake::k_largest_metres))
+        ->type_name("M")
+        ->capture_default_str();
+    island->add_option("--sea", options->sea, "Its value at the sea's level")
+        ->needs(heights)
+        ->check(number("a number from -1e6 to 1e6", -1e6, 1e6))
+        ->type_name("V")
+        ->capture_default_str();
+    island->add_option("--metres", options->metres, "Metres of height a value of 1")
+        ->needs(heights)
+        ->check(number("metres from 1e-6 to 1e6", 1e-6, 1e6))
+        ->type_name("M")
+        ->capture_default_str();
+    CLI::Option* study = island->add_flag(
+        "--study", options->study,
+        "Print error against run time on maps with known answers; with -o FOLDER a report of it, too");
+    island->add_option("--budget", options->march_study.budget, "Seconds for the timing of that report")
+        ->needs(study)
+        ->check(number("seconds from 0.01 to 1e6", 0.01, 1e6))
+        ->type_name("S")
+        ->capture_default_str();
+    island->callback([options, &chosen] {
+        chosen = [options] {
+            options->march_study.folder = options->output;
+            return options->study ? study_march(options->march_study) : bake(*options);
+        };
+    });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,314 @@
+#include "glsl/analysis/divergence.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace tidemark::glsl {
+namespace {
+
+using Names = std::unordered_set<std::string_view>;
+
+bool takes_derivatives(std::string_view function) {
+    return function.starts_with("dFd") || function.starts_with("fwidth");
+}
+
+/// Those that choose the mipmap by themselves.
+bool chooses_mipmap(std::string_view function) {
+    return function == "texture" || function == "textureOffset" || function == "textureProj" ||
+           function == "textureProjOffset";
+}
+
+/// Finds what may differ between pixels, what is made of such values, or set where they decided the way; and
+/// from that, where neighbours part.
+class Partings {
+public:
+    Partings(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts), differs_(tree_.nodes.size(), false) {
+        names_.insert("gl_FragCoord");
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+            declare(id);
+        while (round()) { // grows, and so ends
+        }
+    }
+
+    /// What parts pixels on their way to the node.
+    std::optional<Parting> before(NodeId node) const {
+        const NodeId function = tree_.around(node, NodeKind::function);
+        if (const NodeId condition = condition_within(function, node); condition != k_no_node)
+            return Parting{condition};
+        if (const NodeId exit = exit_before(function, node); exit != k_no_node)
+            return Parting{exit, true};
+        const auto parted = parted_functions_.find(function == k_no_node ? "" : text_.word_of(function));
+        return parted == parted_functions_.end() ? std::nullopt : std::optional(parted->second);
+    }
+
+private:
+    /// Of `outer`, where it decides whether, or how often, its child `inner` is run.
+    NodeId condition_over(NodeId inner, NodeId outer) const {
+        const auto first = tree_.child(outer, 0);
+        switch (tree_[outer].kind) {
+        case NodeKind::if_else:
+        case NodeKind::conditional:
+        case NodeKind::switch_on:
+        case NodeKind::loop_while: return inner == first ? k_no_node : first;
+        case NodeKind::loop_for: return inner == first ? k_no_node : tree_.child(outer, 1);
+        case NodeKind::loop_do: return tree_.child(outer, 1);
+        case NodeKind::binary: {
+            const std::string_view word = text_.word_of(outer);
+            return inner != first && (word == "&&" || word == "||") ? first : k_no_node;
+        }
+        default: return k_no_node;
+        }
+    }
+
+    /// The innermost condition in `scope` that parts pixels on their way to the node; k_no_node: none does.
+    NodeId condition_within(NodeId scope, NodeId node) const {
+        for (NodeId inner = node, outer = tree_[node].parent; inner != scope && inner != k_no_node;
+             inner = outer, outer = tree_[outer].parent)
+            if (const NodeId condition = condition_over(inner, outer);
+                condition != k_no_node && (differs_[condition] || parted_loops_.contains(outer)))
+                return condition;
+        return k_no_node;
+    }
+
+    /// Some pixels leave `scope`, a function or what a loop repeats, at the statement.
+    struct Exit {
+        NodeId statement;
+        NodeId scope;
+    };
+
+    /// The first in the function that stands before the node, on its way.
+    NodeId exit_before(NodeId function, NodeId node) const {
+        const auto exits = exits_.find(function);
+        if (exits != exits_.end())
+            for (const Exit& exit : exits->second)
+                if (tree_[exit.statement].end <= tree_[node].begin && tree_.is_within(node, exit.scope) &&
+                    leads_to(exit.statement, node))
+                    return exit.statement;
+        return k_no_node;
+    }
+
+    /// Whether who does not leave at `exit` may come to the node behind it: not from one branch to the other,
+    /// nor over a jump.
+    bool leads_to(NodeId exit, NodeId node) const {
+        NodeId from = exit;
+        while (!tree_.is_within(node, tree_[from].parent))
+            from = tree_[from].parent;
+        const NodeId common = tree_[from].parent;
+        if (tree_[common].kind == NodeKind::if_else || tree_[common].kind == NodeKind::conditional)
+            return from == tree_.child(common, 0);
+        for (NodeId between = tree_[from].next; between != k_no_node && !tree_.is_within(node, between);
+             between = tree_[between].next)
+            if (tree_[between].kind == NodeKind::jump || tree_[between].kind == NodeKind::give_back)
+                return false;
+        return true;
+    }
+
+    /// Whether anything new was found. Children have the smaller numbers.
+    bool round() {
+        const size_t before = found_;
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            differs_[id] = differs_by_itself(id);
+            for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next)
+                differs_[id] = differs_[id] || differs_[child];
+        }
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+            note(id);
+        return found_ > before;
+    }
+
+    bool differs_by_itself(NodeId id) const {
+        if (tree_[id].kind == NodeKind::name)
+            return names_.contains(text_.word_of(id));
+        return tree_[id].kind == NodeKind::call && functions_.contains(called_name(text_, id));
+    }
+
+    /// What nobody sees outside of its function.
+    void declare(NodeId id) {
+        const bool handed_out =
+            tree_[id].kind == NodeKind::parameter && (has_qualifier(text_, tree_.child(id, 0), "out") ||
+                                                      has_qualifier(text_, tree_.child(id, 0), "inout"));
+        if ((tree_[id].kind == NodeKind::declarator || tree_[id].kind == NodeKind::parameter) && !handed_out)
+            locals_[tree_.around(id, NodeKind::function)].insert(text_.word_of(id));
+    }
+
+    void add(Names& names, std::string_view name) { found_ += names.insert(name).second; }
+
+    void note(NodeId id) {
+        const NodeId first = tree_.child(id, 0);
+        switch (tree_[id].kind) {
+        case NodeKind::assign:
+            if (differs_[id] || set_by_some(id))
+                add(names_, text_.word_of(base_of(tree_, first)));
+            return;
+        case NodeKind::prefix:
+        case NodeKind::postfix:
+            if ((text_.word_of(id) == "++" || text_.word_of(id) == "--") && set_by_some(id))
+                add(names_, text_.word_of(base_of(tree_, first)));
+            return;
+        case NodeKind::declarator:
+            if (differs_[id] || (first != k_no_node && parted(id)))
+                add(names_, text_.word_of(id));
+            return;
+        case NodeKind::call: call(id); return;
+        case NodeKind::give_back:
+        case NodeKind::jump: leave(id); return;
+        default: return;
+        }
+    }
+
+    /// By a condition, or where the function is called.
+    bool parted(NodeId id) const {
+        const NodeId function = tree_.around(id, NodeKind::function);
+        return function != k_no_node && (parted_functions_.contains(text_.word_of(function)) ||
+                                         condition_within(function, id) != k_no_node);
+    }
+
+    /// Behind an exit a function's own variables are for those who stayed; behind a `continue` nothing is.
+    bool set_by_some(NodeId assignment) const {
+        if (parted(assignment))
+            return true;
+        const NodeId function = tree_.around(assignment, NodeKind::function);
+        const NodeId exit = exit_before(function, assignment);
+        if (exit == k_no_node)
+            return false;
+        const auto locals = locals_.find(function);
+        return text_.word_of(exit) == "continue" || locals == locals_.end() ||
+               !locals->second.contains(text_.word_of(base_of(tree_, tree_.child(assignment, 0))));
+    }
+
+    /// Arguments become parameters; what is written through one may be anything.
+    void call(NodeId id) {
+        const std::string_view name = called_name(text_, id);
+        const FunctionFacts* function = name.empty() ? nullptr : facts_.function(name);
+        if (function) {
+            if (auto parting = before(id)) {
+                parting->called = true;
+                found_ += parted_functions_.emplace(name, *parting).second;
+            }
+            if (discarding_.contains(name))
+                leave(id);
+        }
+        size_t index = 0;
+        for (NodeId part = tree_[tree_.child(id, 0)].next; part != k_no_node;
+             part = tree_[part].next, ++index) {
+            if (!name.empty() && facts_.writes_argument(name, index) && (differs_[id] || function))
+                add(names_, text_.word_of(base_of(tree_, part)));
+            if (function && differs_[part])
+                for (const NodeId definition : function->definitions)
+                    if (const NodeId parameter = tree_.child(definition, index + 1);
+                        parameter != k_no_node && tree_[parameter].kind == NodeKind::parameter)
+                        add(names_, text_.word_of(parameter));
+        }
+    }
+
+    /// A way out of a function or a loop: by return, discard, continue, break, or a call that discards.
+    void leave(NodeId id) {
+        const NodeId function = tree_.around(id, NodeKind::function);
+        if (function == k_no_node)
+            return;
+        const bool returns = tree_[id].kind == NodeKind::give_back;
+        const bool discards = tree_[id].kind == NodeKind::call || text_.word_of(id) == "discard";
+        const bool continues = tree_[id].kind == NodeKind::jump && text_.word_of(id) == "continue";
+        if (discards)
+            add(discarding_, text_.word_of(function));
+        if (returns && (differs_[id] || parted(id)))
+            add(functions_, text_.word_of(function));
+        if (returns || discards)
+            leave(id, function, discards && partly_.contains(called_name_or_none(id)));
+        else if (const NodeId around = left_by(id); around != k_no_node && continues)
+            leave(id, body_of(around), false);
+        else if (around != k_no_node && condition_within(around, id) != k_no_node)
+            found_ += parted_loops_.insert(around).second;
+    }
+
+    /// `partly`: of itself, whatever is around it.
+    void leave(NodeId id, NodeId scope, bool partly) {
+        if (!partly && condition_within(scope, id) == k_no_node)
+            return;
+        const NodeId function = tree_.around(id, NodeKind::function);
+        std::vector<Exit>& exits = exits_[function];
+        if (std::ranges::find(exits, id, &Exit::statement) != exits.end())
+            return;
+        exits.push_back({id, scope});
+        std::ranges::sort(exits, {}, [&](const Exit& exit) { return tree_[exit.statement].begin; });
+        ++found_;
+        if (scope != function)
+            return;
+        if (tree_[id].kind != NodeKind::give_back)
+            add(partly_, text_.word_of(function));
+        for (NodeId around = tree_[id].parent; around != function; around = tree_[around].parent)
+            if (is_loop(tree_[around].kind))
+                found_ += parted_loops_.insert(around).second;
+    }
+
+    std::string_view called_name_or_none(NodeId id) const {
+        return tree_[id].kind == NodeKind::call ? called_name(text_, id) : std::string_view{};
+    }
+
+    /// The loop that a break or a continue is about; k_no_node: it leaves a switch.
+    NodeId left_by(NodeId jump) const {
+        for (NodeId around = tree_[jump].parent; around != k_no_node; around = tree_[around].parent) {
+            if (is_loop(tree_[around].kind))
+                return around;
+            if (tree_[around].kind == NodeKind::switch_on && text_.word_of(jump) == "break")
+                return k_no_node;
+        }
+        return k_no_node;
+    }
+
+    NodeId body_of(NodeId loop) const {
+        return tree_.child(loop, tree_[loop].kind == NodeKind::loop_for     ? 3
+                                 : tree_[loop].kind == NodeKind::loop_while ? 1
+                                                                            : 0);
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    size_t found_ = 0;          ///< entries of what stands below
+    std::vector<bool> differs_; ///< expressions
+    Names names_;               ///< of variables
+    Names functions_;           ///< by what they give back
+    Names discarding_;          ///< functions that may
+    Names partly_;              ///< functions in which some pixels are discarded
+    std::unordered_map<std::string_view, Parting> parted_functions_; ///< by where they are called
+    std::unordered_map<NodeId, std::vector<Exit>> exits_;            ///< of a function, as they stand in it
+    std::unordered_map<NodeId, Names> locals_;                       ///< of a function
+    std::unordered_set<NodeId> parted_loops_;
+};
+
+} // namespace
+
+std::vector<Divergent> find_divergent(const ParsedText& text, const TreeFacts& facts,
+                                      const std::function<bool(std::string_view sampler)>& has_mipmaps) {
+    const SyntaxTree& tree = text.tree();
+    const auto reached = functions_of_main(text, facts);
+    const auto needs_neighbours = [&](NodeId call) {
+        const std::string_view name = called_name(text, call);
+        const NodeId sampler = tree.child(call, 1);
+        return !facts.function(name) &&
+               (takes_derivatives(name) ||
+                (chooses_mipmap(name) && sampler != k_no_node && tree[sampler].kind == NodeKind::name &&
+                 has_mipmaps(text.word_of(sampler))));
+    };
+    std::optional<Partings> partings; // most texts need none
+    std::vector<Divergent> found;
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        if (tree[id].kind != NodeKind::call || !needs_neighbours(id))
+            continue;
+        const NodeId function = tree.around(id, NodeKind::function);
+        if (function == k_no_node || !reached.contains(text.word_of(function)))
+            continue;
+        if (!partings)
+            partings.emplace(text, facts);
+        if (const auto parting = partings->before(id))
+            found.push_back({id, *parting});
+    }
+    std::ranges::sort(found, {}, [&](const Divergent& each) { return tree[each.call].begin; });
+    return found;
+}
+
+} // namespace tidemark::glsl

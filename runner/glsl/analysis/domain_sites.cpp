@@ -1,0 +1,246 @@
+#include "glsl/analysis/domain_sites.hpp"
+
+#include "glsl/analysis/float_operation.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+namespace tidemark::glsl {
+namespace {
+
+constexpr Domain k_domains[] = {
+    {"pow", "float x,float y", "x<0.0||(x==0.0&&y<=0.0)", "x", "x", "of a negative number"},
+    {"sqrt", "float x", "x<0.0", "x", "x", "of a negative number"},
+    {"inversesqrt", "float x", "x<=0.0", "x", "x", "of a number that is not above 0"},
+    {"log", "float x", "x<=0.0", "x", "x", "of a number that is not above 0"},
+    {"log2", "float x", "x<=0.0", "x", "x", "of a number that is not above 0"},
+    {"asin", "float x", "abs(x)>1.0", "1.0-abs(x)", "x", "of a number beyond 1"},
+    {"acos", "float x", "abs(x)>1.0", "1.0-abs(x)", "x", "of a number beyond 1"},
+    {"acosh", "float x", "x<1.0", "x-1.0", "x", "of a number below 1"},
+    {"atanh", "float x", "abs(x)>=1.0", "1.0-abs(x)", "x", "of a number that is not below 1"},
+    {"atan", "float x,float y", "x==0.0&&y==0.0", "abs(x)+abs(y)", "x", "of 0 and 0"},
+    {"mod", "float x,float y", "y==0.0", "abs(y)", "y", "by 0"},
+    {"smoothstep", "float x,float y,float z", "x==y", "abs(x-y)", "x", "with equal edges"},
+};
+
+/// A number that stands in the text.
+std::optional<double> number_of(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[id].kind == NodeKind::parenthesis)
+        return number_of(text, tree.child(id, 0));
+    if (tree[id].kind == NodeKind::prefix && text.word_of(id) == "-") {
+        const auto inside = number_of(text, tree.child(id, 0));
+        return inside ? std::optional(-*inside) : std::nullopt;
+    }
+    if (tree[id].kind != NodeKind::literal)
+        return std::nullopt;
+    double value = 0;
+    const std::string_view digits = text.word_of(id);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc{})
+        return std::nullopt;
+    return value;
+}
+
+/// Every number of `2.0`, `vec3(1.0, 2.0, 3.0)`; nothing for what does not stand in the text.
+std::optional<std::vector<double>> numbers_of(const ParsedText& text, NodeId id) {
+    if (const auto one = number_of(text, id))
+        return std::vector<double>{*one};
+    const SyntaxTree& tree = text.tree();
+    if (tree[id].kind != NodeKind::call || class_of_type(called_name(text, id)) != TypeClass::floating)
+        return std::nullopt;
+    std::vector<double> all;
+    for (NodeId part = tree[tree.child(id, 0)].next; part != k_no_node; part = tree[part].next) {
+        const auto one = number_of(text, part);
+        if (!one)
+            return std::nullopt;
+        all.push_back(*one);
+    }
+    return all;
+}
+
+/// `iResolution.xy`: the host draws nothing without a size.
+bool is_the_size(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    while (tree[id].kind == NodeKind::member || tree[id].kind == NodeKind::parenthesis)
+        id = tree.child(id, 0);
+    return tree[id].kind == NodeKind::name && text.word_of(id) == "iResolution";
+}
+
+/// `max(x, 0.01)`.
+bool is_guarded(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[id].kind != NodeKind::call || called_name(text, id) != "max")
+        return false;
+    const auto is_positive = [&](NodeId part) {
+        const auto numbers = numbers_of(text, part);
+        return numbers && std::ranges::all_of(*numbers, [](double v) { return v > 0; });
+    };
+    return is_positive(tree.child(id, 1)) || is_positive(tree.child(id, 2));
+}
+
+/// Whether the text itself says that the call is inside of its domain.
+bool surely_defined(const ParsedText& text, NodeId call, std::string_view name) {
+    const SyntaxTree& tree = text.tree();
+    const size_t before = tree[call].kind == NodeKind::call; // its name is a child
+    const NodeId first = tree.child(call, before);
+    const NodeId second = tree.child(call, before + 1);
+    const auto all = [&](NodeId id, auto&& holds) {
+        const auto numbers = id == k_no_node ? std::nullopt : numbers_of(text, id);
+        return numbers && std::ranges::all_of(*numbers, holds);
+    };
+    const auto not_zero = [](double v) { return v != 0; };
+    if (name == "smoothstep") {
+        const auto low = number_of(text, first);
+        return low && all(second, [&](double edge) { return edge != *low; });
+    }
+    if (name == "mod")
+        return all(second, not_zero);
+    if (name == k_quotient && (is_the_size(text, second) || is_guarded(text, second)))
+        return true;
+    if (name == k_quotient || name == "atan")
+        return all(first, not_zero) || all(second, not_zero);
+    if (name == "normalize")
+        return all(first, not_zero);
+    if (name == "asin" || name == "acos" || name == "atanh" || name == "acosh")
+        return false;
+    return all(first, [](double v) { return v > 0; });
+}
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+    return std::ranges::find(words, word) != words.end();
+}
+
+/// A name, or members and elements of one: saying it twice does nothing twice.
+bool is_place(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    switch (tree[id].kind) {
+    case NodeKind::name: return true;
+    case NodeKind::literal: return true;
+    case NodeKind::member:
+    case NodeKind::parenthesis: return is_place(text, tree.child(id, 0));
+    case NodeKind::index: return is_place(text, tree.child(id, 0)) && is_place(text, tree.child(id, 1));
+    default: return false;
+    }
+}
+
+class Finder {
+public:
+    Finder(const ParsedText& text, const TreeFacts& facts) : text_(text), tree_(text.tree()), facts_(facts) {}
+
+    std::vector<DomainSite> run(DomainScope scope) {
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            if (!is_expression(tree_[id].kind) || must_stay_constant(text_, id))
+                continue;
+            if (is_float_site(id))
+                add(id, domain_name(text_, id) == k_quotient ? DomainKind::quotient : DomainKind::function);
+            else if (scope == DomainScope::everything)
+                look(id);
+        }
+        return std::move(found_);
+    }
+
+private:
+    void add(NodeId id, DomainKind kind, bool to_unsigned = false) {
+        found_.push_back({id, kind, to_unsigned});
+    }
+
+    /// Whether `id` is a call or a quotient with a domain, as GLSL's own functions have.
+    bool is_float_site(NodeId id) const {
+        const std::string_view name = domain_name(text_, id);
+        const bool watched = tree_[id].kind != NodeKind::call
+                                 ? name == k_quotient && is_float_operation(text_, facts_, id)
+                                 : (name == k_normalize || domain_of(name)) && !facts_.function(name) &&
+                                       (name != "atan" || tree_.child_count(id) == 3);
+        return watched && !surely_defined(text_, id, name);
+    }
+
+    void look(NodeId id) {
+        switch (tree_[id].kind) {
+        case NodeKind::binary:
+        case NodeKind::assign: return operation(id);
+        case NodeKind::index: return index(id);
+        case NodeKind::call: return call(id);
+        default: return;
+        }
+    }
+
+    void operation(NodeId id) {
+        const std::string_view op = text_.word_of(id);
+        const NodeId right = tree_.child(id, 1);
+        const auto number = number_of(text_, right);
+        if (is_one_of(op, {"<<", ">>", "<<=", ">>="})) {
+            if (!number || *number < 0 || *number > 31)
+                add(id, DomainKind::shift);
+        } else if (is_one_of(op, {"%", "%="}) ||
+                   (is_one_of(op, {"/", "/="}) && facts_.surely_whole[tree_.child(id, 0)] &&
+                    facts_.surely_whole[right])) {
+            if (!number || *number == 0)
+                add(id, DomainKind::divisor);
+        } else if (is_one_of(op, {"/", "/="}) && facts_.surely_whole[tree_.child(id, 0)] && !number) {
+            add(id, DomainKind::quotient); // `7 / s.n`: by what the driver finds it to be
+        } else if (is_one_of(op, {"<", ">", "<=", ">="}) ||
+                   (is_one_of(op, {"==", "!="}) && (number || number_of(text_, tree_.child(id, 0))))) {
+            if (!counts(id))
+                add(id, DomainKind::comparison);
+        }
+    }
+
+    /// `i < 10` at the head of a loop.
+    bool counts(NodeId id) const {
+        return facts_.surely_whole[tree_.child(id, 0)] && tree_[tree_[id].parent].kind == NodeKind::loop_for;
+    }
+
+    void index(NodeId id) {
+        const NodeId what = tree_.child(id, 0), which = tree_.child(id, 1);
+        if (tree_[which].kind == NodeKind::absent || number_of(text_, which) || !is_place(text_, what) ||
+            facts_.is_type(text_.word(tree_[what].begin))) // `float[n](…)`
+            return;
+        if (text_.is_es()) { // where vectors have no length
+            const auto name = facts_.names.find(text_.word_of(what));
+            if (tree_[what].kind != NodeKind::name || name == facts_.names.end() || !name->second.array)
+                return;
+        }
+        add(id, DomainKind::index);
+    }
+
+    void call(NodeId id) {
+        const std::string_view name = called_name(text_, id);
+        if (name.empty() || facts_.function(name))
+            return;
+        if (name == "texelFetch" && tree_.child_count(id) == 4) {
+            add(id, DomainKind::fetch);
+        } else if (class_of_type(name) == TypeClass::whole && !name.starts_with("b")) {
+            for (NodeId part = tree_[tree_.child(id, 0)].next; part != k_no_node; part = tree_[part].next)
+                if (!facts_.surely_whole[part] && !number_of(text_, part))
+                    add(part, DomainKind::conversion, name.starts_with("u"));
+        }
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    std::vector<DomainSite> found_;
+};
+
+} // namespace
+
+const Domain* domain_of(std::string_view name) {
+    const auto* found = std::ranges::find(k_domains, name, &Domain::name);
+    return found == std::end(k_domains) ? nullptr : found;
+}
+
+std::string_view domain_name(const ParsedText& text, NodeId id) {
+    switch (text.tree()[id].kind) {
+    case NodeKind::call: return called_name(text, id);
+    case NodeKind::binary:
+    case NodeKind::assign: return text.word_of(id).starts_with('/') ? k_quotient : std::string_view{};
+    default: return {};
+    }
+}
+
+std::vector<DomainSite> find_domain_sites(const ParsedText& text, const TreeFacts& facts, DomainScope scope) {
+    return Finder(text, facts).run(scope);
+}
+
+} // namespace tidemark::glsl

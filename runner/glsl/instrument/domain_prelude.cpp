@@ -1,0 +1,319 @@
+#include "glsl/instrument/domain_prelude.hpp"
+
+#include "glsl/instrument/domains.hpp"
+#include "glsl/instrument/source_rewriter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace tidemark::glsl {
+namespace {
+
+constexpr std::string_view k_basis = R"(layout(std430,binding=0) buffer $Buffer{uint $out[];};
+uniform int $number;
+uniform float $value;
+uniform int $stride;
+uniform int $left;
+uniform int $down;
+uniform int $count;
+uniform int $width;
+float $none;
+vec4 $place(){return vec4((gl_FragCoord.xy-0.5)*float($stride)+vec2($left,$down)+0.5,gl_FragCoord.zw);}
+void $note(int i,uint told,uint limit){
+atomicAdd($out[4*i],1u);
+atomicMax($out[4*i+1],~uint(int(gl_FragCoord.x)+$width*int(gl_FragCoord.y)));
+atomicMax($out[4*i+2],told);
+atomicMax($out[4*i+3],limit);
+}
+float $undefined(int i,float told,float plain){
+uint bits=floatBitsToUint(told);
+$note(i,bits<<1|bits>>31,0u);
+return $number==i?$value:$number<0?plain:0.0;}
+void $whole(int i,int told,uint limit){$note(i,uint(told)<<1|uint(told)>>31,limit);}
+void $near(inout float m,float room){m=room<m?room:m;}
+)";
+
+/// A float's bits, so that less room is a larger word; 0 is none at all.
+constexpr std::string_view k_objectives = R"(float $m[@];
+void $begin(){for(int i=0;i<$count;++i)$m[i]=3e38;}
+void $flush(){for(int i=0;i<$count;++i)if($m[i]<3e38){
+uint bits=floatBitsToUint($m[i]);
+uint key=bits>>31!=0u?bits:~bits&0x7fffffffu;
+uint placed=(key&0xfffff000u)|uint(int(gl_FragCoord.x)+$width*int(gl_FragCoord.y));
+if(key>$out[#+2*i])atomicMax($out[#+2*i],key);
+if(placed>$out[#+2*i+1])atomicMax($out[#+2*i+1],placed);
+}}
+)";
+
+constexpr std::string_view k_normalize_overload =
+    "@ $normalize(@ x,int i,inout float m){@ r=normalize(x);$near(m,dot(x,x));"
+    "if(dot(x,x)==0.0)r=@($undefined(i,0.0,0.0));return r;}\n";
+
+/// Overloads that mix a float with vectors: bit i is set where argument i is a vector.
+std::vector<unsigned> shapes(const Domain& domain) {
+    if (domain.name == "mod")
+        return {0b11, 0b01};
+    if (domain.name == "smoothstep")
+        return {0b111, 0b100};
+    return {domain.arguments.size() > 8 ? 0b11u : 0b1u};
+}
+
+std::string overloads(const Domain& domain, std::string_view prefix) {
+    constexpr std::string_view k_names = "xyz";
+    const size_t count = 1 + size_t(std::ranges::count(domain.arguments, ','));
+    std::string passed;
+    for (size_t i = 0; i < count; ++i)
+        passed += fmt::format("{}{}", i > 0 ? "," : "", k_names[i]);
+    std::string text = fmt::format("float {0}{1}({2},int i,inout float m){{float r={1}({3});{0}near(m,{6});"
+                                   "if({4})r={0}undefined(i,{5},r);return r;}}\n",
+                                   prefix, domain.name, domain.arguments, passed, domain.undefined,
+                                   domain.told, domain.room);
+    for (const unsigned shape : shapes(domain))
+        for (size_t size = 2; size <= 4; ++size) {
+            std::string declared, parts;
+            for (size_t i = 0; i < count; ++i)
+                declared += (shape >> i & 1u) != 0 ? fmt::format("vec{} {},", size, k_names[i])
+                                                   : fmt::format("float {},", k_names[i]);
+            for (size_t part = 0; part < size; ++part) {
+                parts += fmt::format("{}{}{}(", part > 0 ? "," : "", prefix, domain.name);
+                for (size_t i = 0; i < count; ++i)
+                    parts += (shape >> i & 1u) != 0 ? fmt::format("{}[{}],", k_names[i], part)
+                                                    : fmt::format("{},", k_names[i]);
+                parts += "i,m)";
+            }
+            text += fmt::format("vec{0} {1}{2}({3}int i,inout float m){{return vec{0}({4});}}\n", size,
+                                prefix, domain.name, declared, parts);
+        }
+    return text;
+}
+
+/// One branch for a vector, for there are many quotients, many of them in loops.
+std::string float_quotients(std::string_view prefix) {
+    std::string text =
+        fmt::format("float {0}quotient(float x,float y,int i,inout float m){{float r=x/y;{0}near(m,abs(y));"
+                    "if(abs(x)+abs(y)==0.0)r={0}undefined(i,0.0,r);return r;}}\n",
+                    prefix);
+    for (const std::string_view vector : {"vec2", "vec3", "vec4"})
+        for (const auto& [left, right] : {std::pair(vector, vector), {vector, "float"}, {"float", vector}}) {
+            std::string least = "abs(y)";
+            if (right != "float") {
+                least = "abs(y.x)";
+                for (const char part : std::string_view("yzw").substr(0, size_t(right.back() - '1')))
+                    least = fmt::format("min({},abs(y.{}))", least, part);
+            }
+            text += fmt::format("{1} {0}quotient({2} x,{3} y,int i,inout float m){{{1} r=x/y;{0}near(m,{4});"
+                                "b{1} none=equal({1}(abs(x)+abs(y)),{1}(0.0));if(any(none)){{"
+                                "float other={0}undefined(i,0.0,0.0);"
+                                "if({0}number>=0)r=mix(r,{1}(other),none);}}return r;}}\n",
+                                prefix, vector, left, right, least);
+        }
+    return text;
+}
+
+/// `make(type, components)` for the types of whole numbers.
+template <class Make>
+std::string for_whole_types(Make make) {
+    std::string text;
+    for (const std::string_view number : {"int", "uint"})
+        for (int size = 1; size <= 4; ++size)
+            text += make(size == 1 ? std::string(number) : fmt::format("{}vec{}", number[0], size), size);
+    return text;
+}
+
+std::string part_of(std::string_view name, int size, int part) {
+    return size == 1 ? std::string(name) : fmt::format("{}.{}", name, std::string_view("xyzw")[size_t(part)]);
+}
+
+/// Divisors of whole numbers, `$divisor(y)`: 1 in the place of 0, which some drivers stop at.
+std::string divisors(std::string_view prefix) {
+    return for_whole_types([&](const std::string& type, int size) {
+        std::string text = fmt::format("{0} {1}divisor({0} y,int i,inout float m){{", type, prefix);
+        for (int part = 0; part < size; ++part) {
+            const std::string each = part_of("y", size, part);
+            text += fmt::format("{0}near(m,abs(float({1})));if(int({1})==0){{{0}whole(i,0,1u);"
+                                "{1}={2}(1);}}",
+                                prefix, each, type[0] == 'u' ? "uint" : "int");
+        }
+        return text + "return y;}\n";
+    });
+}
+
+/// Quotients that turn out to be of whole numbers, and those with matrices, which are not watched.
+std::string other_quotients(std::string_view prefix) {
+    std::string text = divisors(prefix);
+    const auto add = [&](const std::string& left, const std::string& right, const std::string& result,
+                         bool whole) {
+        text += fmt::format("{0} {1}quotient({2} x,{3} y,int i,inout float m){{return x/{4};}}\n", result,
+                            prefix, left, right, whole ? fmt::format("{}divisor(y,i,m)", prefix) : "y");
+    };
+    for (const std::string number : {"int", "uint"}) {
+        add(number, number, number, true);
+        for (int size = 2; size <= 4; ++size) {
+            const std::string vector = fmt::format("{}vec{}", number[0], size);
+            add(vector, vector, vector, true);
+            add(vector, number, vector, true);
+            add(number, vector, vector, true);
+        }
+    }
+    for (int columns = 2; columns <= 4; ++columns)
+        for (int rows = 2; rows <= 4; ++rows) {
+            const std::string matrix = fmt::format("mat{}x{}", columns, rows);
+            add(matrix, matrix, matrix, false);
+            add(matrix, "float", matrix, false);
+            add("float", matrix, matrix, false);
+        }
+    return text;
+}
+
+std::string shifts(std::string_view prefix) {
+    return for_whole_types([&](const std::string& type, int size) {
+        std::string text = fmt::format("{0} {1}shift({0} y,int i,inout float m){{", type, prefix);
+        for (int part = 0; part < size; ++part) {
+            const std::string each = part_of("y", size, part);
+            text += fmt::format("{0}near(m,min(float({1}),31.0-float({1}))+0.5);"
+                                "if(uint({1})>31u){{{0}whole(i,int({1}),31u);"
+                                "if({0}number>=0){1}={2}(0);}}",
+                                prefix, each, type[0] == 'u' ? "uint" : "int");
+        }
+        return text + "return y;}\n";
+    });
+}
+
+/// An index that there is, whatever was asked for: a write beyond could hit anything.
+constexpr std::string_view k_index = R"(int $index(int x,int n,int i,inout float m){
+$near(m,min(float(x),float(n-1)-float(x))+0.5);
+if(x<0||x>=n){$whole(i,x,uint(n-1));x=$number==i?($value==1.0?n-1:0):clamp(x,0,n-1);}
+return x;}
+uint $index(uint x,int n,int i,inout float m){
+$near(m,float(n-1)-float(x)+0.5);
+if(x>=uint(n)){$whole(i,int(x),uint(n-1));x=$number==i&&$value!=1.0?0u:uint(n-1);}
+return x;}
+)";
+
+/// Its words are x and y of the texel, 16 bits each, and the size.
+std::string fetches(std::string_view prefix) {
+    std::string text;
+    for (const auto& [sampler, place, z] :
+         {std::array<std::string_view, 3>{"sampler2D", "ivec2", "0"}, {"sampler3D", "ivec3", "p.z"}})
+        text += spell(fmt::format("vec4 $texelFetch({0} s,{1} p,int l,int i,inout float m){{{1} n="
+                                  "textureSize(s,max(l,0));ivec2 o=ivec2(p.x<0||p.x>=n.x?p.x:p.y,"
+                                  "p.x<0||p.x>=n.x?n.x:n.y);"
+                                  "$near(m,min(float(min(p.x,p.y)),float(min(n.x-p.x,n.y-p.y))-1.0)+0.5);"
+                                  "if(l<0){{$whole(i,l,0x10000000u);return vec4(0.0);}}"
+                                  "if(p.x<0||p.y<0||p.x>=n.x||p.y>=n.y||{2}<0||{2}>={3}){{"
+                                  "$whole(i,o.x,uint(max(o.y-1,0)));return vec4(0.0);}}"
+                                  "return texelFetch(s,p,l);}}\n",
+                                  sampler, place, z, z == "0" ? "1" : "n.z"),
+                      prefix, {});
+    return text;
+}
+
+/// `$toint(x)` and `$touint(x)` give back what they got.
+std::string conversions(std::string_view prefix) {
+    std::string text;
+    for (const auto& [name, low, high] :
+         {std::array<std::string_view, 3>{"toint", "-2147483648.0", "2147483648.0"},
+          {"touint", "-0.99999994", "4294967296.0"}}) {
+        for (int size = 1; size <= 4; ++size) {
+            const std::string type = size == 1 ? "float" : fmt::format("vec{}", size);
+            text += fmt::format("{0} {1}{2}({0} x,int i,inout float m){{", type, prefix, name);
+            for (int part = 0; part < size; ++part)
+                text += fmt::format("{0}near(m,min({1}-({2}),{3}-{1}));if(!({1}>={2}&&{1}<{3}))"
+                                    "{0}undefined(i,{1},0.0);",
+                                    prefix, part_of("x", size, part), low, high);
+            text += "return x;}\n";
+        }
+        const auto same = [&](const std::string& type) {
+            return fmt::format("{0} {1}{2}({0} x,int i,inout float m){{return x;}}\n", type, prefix, name);
+        };
+        text += for_whole_types([&](const std::string& type, int) { return same(type); }) + same("bool");
+        for (int size = 2; size <= 4; ++size)
+            text += same(fmt::format("bvec{}", size));
+    }
+    return text;
+}
+
+constexpr std::pair<std::string_view, std::string_view> k_comparisons[] = {
+    {"less", "<"}, {"less_equal", "<="}, {"greater", ">"}, {"greater_equal", ">="}};
+
+std::string comparisons(std::string_view prefix) {
+    constexpr std::pair<std::string_view, std::string_view> k_types[] = {
+        {"float", "float"}, {"int", "int"}, {"uint", "uint"}, {"int", "uint"}, {"uint", "int"}};
+    std::string text;
+    for (const auto& [left, right] : k_types) {
+        const std::string difference = left == "float" ? "a-b" : "float(a)-float(b)";
+        const std::string common = left == right ? "a{}b" : "uint(a){}uint(b)";
+        for (const auto& [name, op] : k_comparisons)
+            text += fmt::format("bool {0}{1}({2} a,{3} b,inout float m,inout float k){{float d={4};"
+                                "{0}near(m,d);{0}near(k,-d);return {5};}}\n",
+                                prefix, name, left, right, difference, fmt::format(fmt::runtime(common), op));
+        for (const auto& [name, op] : {std::pair("same", "=="), {"other", "!="}})
+            text += fmt::format("bool {0}{1}({2} a,{3} b,inout float m,inout float k){{"
+                                "{0}near(m,abs({4}));return {5};}}\n",
+                                prefix, name, left, right, difference, fmt::format(fmt::runtime(common), op));
+    }
+    return text + fmt::format("bool {0}same(bool a,bool b,inout float m,inout float k){{return a==b;}}\n"
+                              "bool {0}other(bool a,bool b,inout float m,inout float k){{return a!=b;}}\n",
+                              prefix);
+}
+
+void fill(std::string& text, char hole, size_t number) {
+    for (size_t at = text.find(hole); at != text.npos; at = text.find(hole, at))
+        text.replace(at, 1, std::to_string(number));
+}
+
+} // namespace
+
+std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> sites,
+                           const DomainPreludeOptions& options) {
+    const std::string& prefix = options.prefix;
+    std::vector<const Domain*> used;
+    bool kinds[8] = {}, normalizes = false;
+    for (const DomainSite& site : sites) {
+        kinds[size_t(site.kind)] = true;
+        if (site.kind != DomainKind::function)
+            continue;
+        if (const Domain* domain = domain_of(domain_name(text, site.node)); !domain)
+            normalizes = true;
+        else if (std::ranges::find(used, domain) == used.end())
+            used.push_back(domain);
+    }
+    const auto has = [&](DomainKind kind) { return kinds[size_t(kind)]; };
+    std::string objectives(k_objectives);
+    std::string basis(k_basis);
+    for (std::string* each : {&basis, &objectives}) {
+        fill(*each, '#', options.first_objective);
+        fill(*each, '@', std::max<size_t>(options.objectives, 1));
+        *each = spell(*each, prefix);
+    }
+    std::string prelude = basis + objectives;
+    for (const Domain* domain : used)
+        prelude += overloads(*domain, prefix);
+    if (has(DomainKind::quotient))
+        prelude += float_quotients(prefix) + other_quotients(prefix);
+    else if (has(DomainKind::divisor))
+        prelude += divisors(prefix);
+    if (normalizes)
+        for (const std::string_view type : {"float", "vec2", "vec3", "vec4"})
+            prelude += spell(k_normalize_overload, prefix, type);
+    if (has(DomainKind::shift))
+        prelude += shifts(prefix);
+    if (has(DomainKind::index))
+        prelude += spell(k_index, prefix);
+    if (has(DomainKind::fetch))
+        prelude += fetches(prefix);
+    if (has(DomainKind::conversion))
+        prelude += conversions(prefix);
+    if (has(DomainKind::comparison))
+        prelude += comparisons(prefix);
+    return prelude;
+}
+
+std::string domain_main(std::string_view prefix) {
+    return spell("\nvoid main(){$begin();$main();$flush();}\n", prefix);
+}
+
+} // namespace tidemark::glsl

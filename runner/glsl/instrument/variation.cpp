@@ -1,0 +1,188 @@
+#include "glsl/instrument/variation.hpp"
+
+#include "glsl/analysis/float_operation.hpp"
+#include "glsl/instrument/source_rewriter.hpp"
+#include "glsl/instrument/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+constexpr std::string_view k_vectors[] = {"vec2", "vec3", "vec4"};
+constexpr std::string_view k_wholes[] = {"int",   "ivec2", "ivec3", "ivec4", "uint",  "uvec2",
+                                         "uvec3", "uvec4", "bool",  "bvec2", "bvec3", "bvec4"};
+
+constexpr std::string_view k_unit =
+    R"(uniform int $mode;
+float $unit(float v,int by){uint b=floatBitsToUint(v);
+return (b&0x7fffffffu)==0u||(b&0x7f800000u)==0x7f800000u?v:uintBitsToFloat(uint(int(b)+by));}
+)";
+
+/// 0.15915494 and 6.2831855 are the binary32 numbers nearest to 1 / 2 pi and 2 pi.
+constexpr std::string_view k_sine =
+    R"(float $@(float x){float r=@(x);
+return $mode==1?$unit(r,1):$mode==2?$unit(r,-1):$mode==3?
+floor(@(6.2831855*fract(x*0.15915494))*4194304.0+0.5)/4194304.0:r;}
+)";
+
+constexpr std::string_view k_input = "float $input(float v){return $mode==0?v:$unit(v,1);}\n";
+
+/// The last bit turned over where the eighth from the end is set: as good as a lot, always the same one, and
+/// whole numbers, halves, zeros and infinities, which come out exact anywhere, stay. Three instructions, for
+/// there is one behind every operation.
+constexpr std::string_view k_lot =
+    "float $off(float v){uint b=floatBitsToUint(v);return uintBitsToFloat(b^((b>>7u)&uint($mode)));}\n";
+
+/// To the nearest half, a tie to the even one. Below 2^-14 halves have fewer bits: those are kept.
+constexpr std::string_view k_half =
+    R"(float $off(float v){uint b=floatBitsToUint(v);
+if($mode==0||(b&0x7f800000u)==0x7f800000u)return v;
+float h=uintBitsToFloat((b+0xfffu+((b>>13u)&1u))&0xffffe000u);
+return abs(h)>65504.0?uintBitsToFloat((b&0x80000000u)|0x7f800000u):h;}
+)";
+
+/// Overloads of a function of one float, part by part.
+std::string vector_overloads(std::string_view function, std::string_view prefix) {
+    std::string text;
+    for (const std::string_view type : k_vectors) {
+        std::string parts;
+        for (int i = 0; i < type.back() - '0'; ++i)
+            parts += fmt::format("{}{}{}(v[{}])", i > 0 ? "," : "", prefix, function, i);
+        text += fmt::format("{0} {1}{2}({0} v){{return {0}({3});}}\n", type, prefix, function, parts);
+    }
+    return text;
+}
+
+/// Whatever else an operation may give: matrices column by column, other types as they are.
+std::string other_overloads(std::string_view function, std::string_view prefix) {
+    std::string text;
+    for (int columns = 2; columns <= 4; ++columns)
+        for (int rows = 2; rows <= 4; ++rows) {
+            std::string parts;
+            for (int i = 0; i < columns; ++i)
+                parts += fmt::format("{}{}{}(v[{}])", i > 0 ? "," : "", prefix, function, i);
+            text += fmt::format("mat{0}x{1} {2}{3}(mat{0}x{1} v){{return mat{0}x{1}({4});}}\n", columns, rows,
+                                prefix, function, parts);
+        }
+    for (const std::string_view type : k_wholes)
+        text += fmt::format("{0} {1}{2}({0} v){{return v;}}\n", type, prefix, function);
+    return text;
+}
+
+} // namespace
+
+Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    Variation result{{}, prefix + "mode"};
+    SourceRewriter edits(text);
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        if (tree[id].kind != NodeKind::call)
+            continue;
+        const std::string_view name = called_name(text, id);
+        if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
+            continue;
+        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
+        ++result.places;
+    }
+    std::string prelude = spell(k_unit, prefix);
+    for (const std::string_view name : {"sin", "cos"})
+        prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
+    result.text = headers_with_buffers(text) + prelude + edits.text();
+    return result;
+}
+
+Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    Variation result{{}, prefix + "mode"};
+    SourceRewriter edits(text);
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        const std::string_view name = tree[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
+        if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
+            continue;
+        const auto meanings = facts.names.find(name);
+        if (meanings == facts.names.end() || !meanings->second.uniform)
+            continue;
+        edits.wrap(id, prefix + "input(", ")");
+        ++result.places;
+    }
+    result.text = headers_with_buffers(text) + spell(k_unit, prefix) + spell(k_input, prefix) +
+                  vector_overloads("input", prefix) + edits.text();
+    return result;
+}
+
+namespace {
+
+/// Every result of an operation, an assignment or a call led through `$off` where `is_meant` says so.
+template <class IsMeant>
+Variation vary_results(const ParsedText& text, std::string_view off, IsMeant is_meant) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    Variation result{{}, prefix + "mode"};
+    SourceRewriter edits(text);
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        if (!is_meant(id) || must_stay_constant(text, id))
+            continue;
+        if (tree[id].kind != NodeKind::assign) {
+            edits.wrap(id, prefix + "off(", ")");
+        } else {
+            const std::string target = words_of(text, tree.child(id, 0));
+            edits.wrap(id, "(", fmt::format(",{}={}off({}))", target, prefix, target));
+        }
+        ++result.places;
+    }
+    result.text = headers_with_buffers(text) + spell("uniform int $mode;\n", prefix) + spell(off, prefix) +
+                  vector_overloads("off", prefix) + other_overloads("off", prefix) + edits.text();
+    return result;
+}
+
+/// Arithmetic by an operator.
+bool is_operation(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    return text.tree()[id].kind != NodeKind::call && is_float_operation(text, facts, id);
+}
+
+constexpr std::string_view k_inexact[] = {"sqrt", "inversesqrt", "pow", "exp", "exp2", "log", "log2"};
+
+} // namespace
+
+Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
+    return vary_results(text, k_lot, [&](NodeId id) {
+        if (is_operation(text, facts, id))
+            return text.word_of(id).front() == '/';
+        const std::string_view name =
+            text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        return !facts.function(name) && std::ranges::find(k_inexact, name) != std::end(k_inexact);
+    });
+}
+
+Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
+    const bool asked = std::ranges::any_of(
+        text.words(), [](const Word& word) { return word.text == "mediump" || word.text == "lowp"; });
+    if (!asked)
+        return {};
+    return vary_results(text, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
+}
+
+Variation vary_precision(const ParsedText& text, const TreeFacts&) {
+    const SyntaxTree& tree = text.tree();
+    Variation result;
+    SourceRewriter edits(text);
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
+            continue;
+        const NodeId type = tree.child(id, 0);
+        if (class_of_type(type_name(text, type)) != TypeClass::floating ||
+            has_qualifier(text, type, "const") || has_qualifier(text, type, "precise"))
+            continue;
+        edits.wrap(type, "precise ", "");
+        ++result.places;
+    }
+    result.text = headers_with_buffers(text) + "#extension GL_ARB_gpu_shader5 : enable\n" + edits.text();
+    return result;
+}
+
+} // namespace tidemark::glsl

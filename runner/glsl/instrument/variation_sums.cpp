@@ -1,0 +1,240 @@
+// Sums as other compilers write them: a product taken in with one rounding, and added up from the other end.
+#include "glsl/analysis/float_operation.hpp"
+#include "glsl/instrument/source_rewriter.hpp"
+#include "glsl/instrument/variation.hpp"
+#include "glsl/instrument/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace tidemark::glsl {
+namespace {
+
+// A product that goes into a sum, `$sum($product(a,b),c)`, is handed over in double: whole, or as mode 0 has
+// it, rounded. Which functions these are the driver finds out from the types; those where nothing is
+// contracted (whole numbers, products of matrices) add and multiply as they are.
+
+/// A number or a vector of 1 to 4 of them.
+std::string shape(std::string_view number, std::string_view vector, int size) {
+    return size == 1 ? std::string(number) : fmt::format("{}{}", vector, size);
+}
+
+/// `make(left, right, result)` of the sizes that an operator takes.
+template <class Make>
+std::string for_sizes(Make make) {
+    std::string text;
+    for (int left = 1; left <= 4; ++left)
+        for (int right = 1; right <= 4; ++right)
+            if (left == right || left == 1 || right == 1)
+                text += make(left, right, std::max(left, right));
+    return text;
+}
+
+std::string float_overloads() {
+    return for_sizes([](int left, int right, int result) {
+        const auto single = [](int size) { return shape("float", "vec", size); };
+        const auto wide = [](int size) { return shape("double", "dvec", size); };
+        return fmt::format("{5} $product({0} a,{1} b){{return $mode==1?{3}(a)*{4}(b):{5}(a*b);}}\n"
+                           "{2} $sum({3} a,{1} b){{return {2}(a+{4}(b));}}\n"
+                           "{2} $sum({0} a,{4} b){{return {2}({3}(a)+b);}}\n"
+                           "{2} $sum({0} a,{1} b){{return a+b;}}\n",
+                           single(left), single(right), single(result), wide(left), wide(right),
+                           wide(result));
+    });
+}
+
+std::string plain(std::string_view name, std::string_view left, char op, std::string_view right,
+                  std::string_view result) {
+    return fmt::format("{0} ${1}({2} a,{3} b){{return a{4}b;}}\n", result, name, left, right, op);
+}
+
+std::string whole_overloads() {
+    std::string text;
+    for (const std::string_view number : {"int", "uint"})
+        text += for_sizes([&](int left, int right, int result) {
+            const auto whole = [&](int size) {
+                return shape(number, number == "int" ? "ivec" : "uvec", size);
+            };
+            return plain("product", whole(left), '*', whole(right), whole(result)) +
+                   plain("sum", whole(left), '+', whole(right), whole(result));
+        });
+    return text;
+}
+
+std::string matrix_overloads() {
+    std::string text;
+    const auto matrix = [](int columns, int rows) { return fmt::format("mat{}x{}", columns, rows); };
+    for (int columns = 2; columns <= 4; ++columns)
+        for (int rows = 2; rows <= 4; ++rows) {
+            const std::string type = matrix(columns, rows);
+            const std::string row = shape("", "vec", columns), column = shape("", "vec", rows);
+            for (const auto& [name, op] : {std::pair("product", '*'), std::pair("sum", '+')})
+                text += plain(name, type, op, "float", type) + plain(name, "float", op, type, type);
+            text += plain("product", type, '*', row, column) + plain("product", column, '*', type, row) +
+                    plain("sum", type, '+', type, type) +
+                    fmt::format("{0} $sum({0} a,double b){{return a+float(b);}}\n"
+                                "{0} $sum(double a,{0} b){{return float(a)+b;}}\n",
+                                type);
+            for (int others = 2; others <= 4; ++others)
+                text += plain("product", type, '*', matrix(others, columns), matrix(others, rows));
+        }
+    return text;
+}
+
+/// The first product is rounded, the others go in with their sums.
+std::string dot_overloads() {
+    std::string text = "float $dot(float a,float b){return a*b;}\n";
+    for (int size = 2; size <= 4; ++size) {
+        std::string chain = "a[0]*b[0]";
+        for (int i = 1; i < size; ++i)
+            chain = fmt::format("float(double(a[{0}])*double(b[{0}])+double({1}))", i, chain);
+        text += fmt::format("float $dot(vec{0} a,vec{0} b){{return $mode==1?{1}:dot(a,b);}}\n", size, chain);
+    }
+    return text;
+}
+
+std::string contraction_prelude(const ParsedText& text) {
+    std::string prelude = "uniform int $mode;\n" + float_overloads() + whole_overloads() + dot_overloads();
+    if (std::ranges::any_of(text.words(), [](const Word& word) { return word.text.starts_with("mat"); }))
+        prelude += matrix_overloads();
+    return prelude;
+}
+
+/// The product that an operand is; k_no_node where it is something else.
+NodeId product_of(const ParsedText& text, const TreeFacts& facts, NodeId operand) {
+    const SyntaxTree& tree = text.tree();
+    while (tree[operand].kind == NodeKind::parenthesis)
+        operand = tree.child(operand, 0);
+    const bool is_product = tree[operand].kind == NodeKind::binary && text.word_of(operand) == "*";
+    return is_product && !facts.surely_whole[operand] ? operand : k_no_node;
+}
+
+class Contraction {
+public:
+    Contraction(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts), edits_(text), prefix_(fresh_prefix(text)) {}
+
+    Variation run() {
+        Variation result{{}, prefix_ + "mode"};
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+            result.places += contracted(id) ? 1 : 0;
+        result.text = headers_with_buffers(text_) +
+                      "#extension GL_ARB_gpu_shader_fp64 : enable\n"
+                      "#extension GL_ARB_gpu_shader5 : enable\n" +
+                      spell(contraction_prelude(text_), prefix_) + edits_.text();
+        return result;
+    }
+
+private:
+    bool contracted(NodeId id) {
+        if (must_stay_constant(text_, id))
+            return false;
+        switch (tree_[id].kind) {
+        case NodeKind::call: return dot(id);
+        case NodeKind::binary: return sum(id);
+        case NodeKind::assign: return added(id);
+        default: return false;
+        }
+    }
+
+    bool dot(NodeId id) {
+        if (called_name(text_, id) != "dot" || facts_.function("dot"))
+            return false;
+        edits_.replace(tree_[tree_.child(id, 0)].word, prefix_ + "dot");
+        return true;
+    }
+
+    /// Of two products compilers take in one: here the left one.
+    bool sum(NodeId id) {
+        const std::string_view op = text_.word_of(id);
+        if ((op != "+" && op != "-") || !is_float_operation(text_, facts_, id))
+            return false;
+        const NodeId right = tree_.child(id, 1);
+        const NodeId left_product = product_of(text_, facts_, tree_.child(id, 0));
+        const NodeId product = left_product != k_no_node ? left_product : product_of(text_, facts_, right);
+        if (product == k_no_node)
+            return false;
+        hand_over(product);
+        edits_.replace(tree_[id].word, ",");
+        if (op == "-")
+            edits_.wrap(right, "-(", ")");
+        edits_.wrap(id, prefix_ + "sum(", ")");
+        return true;
+    }
+
+    /// `x += a * b`.
+    bool added(NodeId id) {
+        const std::string_view op = text_.word_of(id);
+        if ((op != "+=" && op != "-=") || !is_float_operation(text_, facts_, id))
+            return false;
+        const NodeId value = tree_.child(id, 1);
+        const NodeId product = product_of(text_, facts_, value);
+        if (product == k_no_node)
+            return false;
+        hand_over(product);
+        edits_.replace(tree_[id].word,
+                       fmt::format("={}sum({},", prefix_, words_of(text_, tree_.child(id, 0))));
+        edits_.wrap(value, op == "-=" ? "-(" : "(", "))");
+        return true;
+    }
+
+    void hand_over(NodeId product) {
+        edits_.wrap(product, prefix_ + "product(", ")");
+        edits_.replace(tree_[product].word, ",");
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    SourceRewriter edits_;
+    std::string prefix_;
+};
+
+bool adds(const ParsedText& text, NodeId id) {
+    return text.tree()[id].kind == NodeKind::binary && (text.word_of(id) == "+" || text.word_of(id) == "-");
+}
+
+/// `a - b + c` becomes `a - (b - c)`: the mirror image of ((c - b) + a), and the same to the bit. What is
+/// asked for in its operands comes in the order of the text.
+void reverse(const ParsedText& text, NodeId chain, SourceRewriter& edits) {
+    const SyntaxTree& tree = text.tree();
+    std::string closing;
+    for (NodeId sum = chain; adds(text, sum); sum = tree.child(sum, 0)) {
+        if (const NodeId before = tree.child(sum, 0); adds(text, before)) {
+            edits.replace(tree[sum].word, text.word_of(sum) == text.word_of(before) ? "+" : "-");
+            closing += ')';
+        }
+        if (sum != chain)
+            edits.wrap(tree.child(sum, 1), "(", "");
+    }
+    edits.wrap(tree.child(chain, 1), "", closing);
+}
+
+} // namespace
+
+Variation vary_contraction(const ParsedText& text, const TreeFacts& facts) {
+    return Contraction(text, facts).run();
+}
+
+Variation vary_order(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    Variation result;
+    SourceRewriter edits(text);
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        const NodeId parent = tree[id].parent;
+        const bool whole_chain = !adds(text, parent) || tree.child(parent, 0) != id;
+        if (!adds(text, id) || !whole_chain || !adds(text, tree.child(id, 0)) || facts.surely_whole[id] ||
+            must_stay_constant(text, id))
+            continue;
+        reverse(text, id, edits);
+        ++result.places;
+    }
+    result.text = headers_with_buffers(text) + edits.text();
+    return result;
+}
+
+} // namespace tidemark::glsl
