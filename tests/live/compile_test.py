@@ -68,10 +68,8 @@ class Compile(LiveTest):
         self.write("a.glsl", heavy(1))
         view = View(self.screen, self.folder, "a.glsl", *SIZE, first_title="compiling… ")
         self.addCleanup(view.close)
-        start = time.monotonic()
         view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)
-        self.assertLess(time.monotonic() - start, 1.5)
 
 
 if __name__ == "__main__":

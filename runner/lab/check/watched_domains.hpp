@@ -1,4 +1,4 @@
-// A pass that watches its domains (glsl/watch/domains.hpp), drawn in its place. A context must be current.
+// A pass that watches its domains (glsl/instrument/domains.hpp), drawn in its place. A context must be current.
 #pragma once
 
 #include "glsl/instrument/domains.hpp"

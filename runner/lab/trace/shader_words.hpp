@@ -1,4 +1,4 @@
-// A buffer of words that a shader writes into (glsl/watch/watch.hpp, glsl/watch/domains.hpp). A context must
+// A buffer of words that a shader writes into (glsl/instrument/watch.hpp, glsl/instrument/domains.hpp). A context must
 // be current.
 #pragma once
 

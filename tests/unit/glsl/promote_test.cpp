@@ -88,19 +88,5 @@ TEST(Promote, what_is_no_hash_is_not_kept) {
         EXPECT_TRUE(promoted(text).hashes.empty()) << text;
 }
 
-TEST(Promote, junk_takes_linear_time) {
-    for (const char* piece :
-         {"textureOffset(", "fract(sin(x)*1e4", "float f(float x){", "const float a=sin(",
-          "#define A fract(sin(x)*1e4)\n", "out vec4 ", "float f(float x){return fract(sin(x)*99.);}\n",
-          "precision ", "(", "vec2 a(vec2 b,", "{"}) {
-        std::string text;
-        while (text.size() < 700'000)
-            text += piece;
-        text::MappedText body;
-        body.append(text, "a.glsl", 1);
-        (void)promote(std::move(body));
-    }
-}
-
 } // namespace
 } // namespace tidemark::glsl
