@@ -4,6 +4,7 @@
 #include "image/files/tiff_check.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -25,24 +26,9 @@ uint8_t byte_at(std::string_view file, size_t at) {
     return uint8_t(file[at]);
 }
 
-constexpr std::array<uint32_t, 256> make_crc_table() {
-    std::array<uint32_t, 256> table{};
-    for (uint32_t i = 0; i < 256; ++i) {
-        uint32_t value = i;
-        for (int bit = 0; bit < 8; ++bit)
-            value = (value >> 1) ^ ((value & 1u) != 0 ? 0xedb88320u : 0u);
-        table[i] = value;
-    }
-    return table;
-}
-
-/// CRC-32 as in the PNG specification, annex D.
-uint32_t crc32(std::string_view bytes) {
-    static constexpr std::array<uint32_t, 256> table = make_crc_table();
-    uint32_t value = 0xffffffffu;
-    for (const char c : bytes)
-        value = table[(value ^ uint8_t(c)) & 0xffu] ^ (value >> 8);
-    return ~value;
+/// As in the PNG specification, annex D.
+uint32_t checksum(std::string_view bytes) {
+    return uint32_t(crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), uInt(bytes.size())));
 }
 
 struct Signature {
@@ -104,7 +90,7 @@ bool may_be_left_out(std::string_view chunk) {
 /// What is wrong with one chunk: its checksum, its place, or that there is one too many.
 Objection chunk_objection(std::string_view chunk, bool is_first, int palettes) {
     const std::string_view name = chunk.substr(4, 4);
-    if (crc32(chunk.substr(4, chunk.size() - 8)) != big_endian(chunk, chunk.size() - 4, 4))
+    if (checksum(chunk.substr(4, chunk.size() - 8)) != big_endian(chunk, chunk.size() - 4, 4))
         return "the file is damaged: a checksum in it is wrong";
     if ((name == "IHDR") != is_first)
         return "its PNG header is not valid";
