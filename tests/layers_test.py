@@ -30,7 +30,7 @@ ROOMS = {
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "fields": [], "study": ["", "fields"], "trace": [], "check": ["", "trace"]},
-    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""]},
+    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""]},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/(?:([a-z_]+)/)?', re.MULTILINE)

@@ -25,11 +25,12 @@ constexpr AddCommand k_commands[] = {
     add_view,
 #endif
     add_capture, add_inspect, add_check, add_compare,    add_study,
-    add_import,  add_export,  add_bake,  add_completion,
+    add_import,  add_export,  add_bake,  add_completion, add_help,
 };
 
 constexpr const char* k_footer =
-    R"(`tidemark SCENE` is short for `tidemark view SCENE`. `tidemark COMMAND --help` lists the options.
+    R"(`tidemark SCENE` is short for `tidemark view SCENE`. `tidemark COMMAND --help` lists the options,
+`tidemark help` the sections of the manual.
 Exit codes: 0 ok, 1 a check failed, 2 usage, 3 scene does not load or compile, 4 output cannot be written or
 memory ran out, 5 timed out or more memory than --memory, 70 internal error, 77 no OpenGL context, 130 interrupted.)";
 

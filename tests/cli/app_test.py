@@ -1,7 +1,7 @@
 """The program as a whole: help, version, commands and options that do not exist."""
 from support.program import ProgramTest, environment, main
 
-COMMANDS = ["view", "capture", "inspect", "import", "export", "bake", "completion"]
+COMMANDS = ["view", "capture", "inspect", "import", "export", "bake", "completion", "help"]
 SHADER = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n"
 
 

@@ -25,7 +25,7 @@ class Completion(ProgramTest):
     def test_commands(self):
         self.assertEqual(self.completed("cap"), {"capture"})
         self.assertEqual(self.completed(""), {"view", "capture", "inspect", "check", "compare", "study", "import",
-                                              "export", "bake",
+                                              "export", "bake", "help",
                                               "completion", "--help", "-h",
                                               "--version", "completion.bash"})
 

@@ -16,6 +16,9 @@ LONGEST, LONGEST_FIRST = 250, 150  # lines of a page; of README.md itself
 PROBES = ROOT / "runner" / "lab" / "check" / "README.md"
 DIRECTIVES = ROOT / "runner" / "scene" / "README.md"
 ROOMS = ROOT / "runner" / "README.md"
+HELP_PAGES = [ROOT / name / "README.md" for name in (
+    "runner/cli", "runner/cli/capture", "runner/cli/view", "runner/scene", "runner/lab", "runner/lab/check",
+    "runner/lab/study", "shaders")]
 
 # Commands of the pages that are not run: they open a window, or take what no test machine can give.
 NOT_RUN = (
@@ -184,12 +187,35 @@ class Explained(unittest.TestCase):
             with self.subTest(directive=directive):
                 self.assertRegex(self.rows(DIRECTIVES), rf"`#{directive}\d?\b")
 
+    def test_every_section_is_a_topic_of_help(self) -> None:
+        def printed(*topic: str) -> str:
+            return subprocess.run([PROGRAM, "help", *topic], check=True, capture_output=True, text=True).stdout
+
+        topics = [line.strip() for line in printed().splitlines()[1:] if line]
+        self.assertEqual(len(topics), len(set(topics)))
+        for page in HELP_PAGES:
+            text = page.read_text()
+            for heading in re.findall(r"^##? (.*)$", re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL),
+                                      re.MULTILINE):
+                with self.subTest(page=relative(page), heading=heading):
+                    topic = re.sub(r"[^\w -]", "", heading).lower().replace(" ", "-")
+                    self.assertIn(topic, topics)
+                    section = printed(topic)
+                    self.assertTrue(section.startswith(heading + "\n"))
+                    self.assertNotRegex(section, r"\]\(|^\|--|<!--|!\[|<img|\*\*")
+        self.assertRegex(printed("keys"), r"\n  S +save a picture \(`SCENE-FRAME.png` in the current folder\)\n")
+
+    def test_a_topic_that_is_not_there(self) -> None:
+        done = subprocess.run([PROGRAM, "help", "keyz"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout, done.stderr),
+                         (2, "", "tidemark: error: no topic 'keyz': did you mean 'keys'?\n"))
+
     def test_every_room_stands_in_the_table(self) -> None:
-        rooms = [path.name for path in (ROOT / "runner").rglob("*")
-                 if path.is_dir() and len(path.relative_to(ROOT / "runner").parts) == 1]
-        for room in rooms:
-            with self.subTest(room=room):
-                self.assertIn(f"`{room}`", self.rows(ROOMS))
+        rooms = {path.name for path in (ROOT / "runner").glob("*/") if path.is_dir()}
+        rooms |= {path.name for path in (ROOT / "runner").glob("*/*") if path.is_dir() and path.parts[-2] != "cli"}
+        table = ROOMS.read_text().partition("\n## Rooms\n")[2].partition("\n## ")[0]
+        cells = re.findall(r"^\| (?:&nbsp;)*(`[^|]*`) \|", table, re.MULTILINE)
+        self.assertEqual({name for cell in cells for name in re.findall(r"\w+", cell)}, rooms)
 
 
 class Names(unittest.TestCase):

@@ -1,6 +1,7 @@
 """The tables of options in the pages, made from what --help prints. Run it to write them anew."""
 from __future__ import annotations
 
+import functools
 import pathlib
 import re
 import subprocess
@@ -25,6 +26,7 @@ def commands(command: str = "") -> list[str]:
     return [inner for name in names for inner in commands(f"{command} {name}".strip())] or [command]
 
 
+@functools.cache
 def options_of(command: str) -> list[tuple[str, str]]:
     """(`--size WxH=640x360`, what it means), as help lists them."""
     lines = printed_help(command).splitlines()
@@ -46,15 +48,13 @@ def names_of(head: str) -> list[str]:
 
 def table(users: list[str], known: set[tuple[str, str]]) -> str:
     """Adds its rows to `known`, and leaves out what is there."""
-    rows: dict[tuple[str, str], list[str]] = {}
-    for command in users:
-        for option in options_of(command):
-            if option not in known:
-                rows.setdefault(option, []).append(command)
+    options = {command: options_of(command) for command in commands()}
+    rows = {option for command in users for option in options[command]} - known
     known.update(rows)
     lines = ["| option | of | meaning |", "|---|---|---|"]
-    for (head, meaning), of in sorted(rows.items(), key=lambda row: row[0][0].lstrip("-").lower()):
-        cells = (f"`{head}`", ", ".join(of), meaning)
+    for head, meaning in sorted(rows, key=lambda row: (row[0].lstrip("-").lower(), row)):
+        of = ", ".join(command for command in options if (head, meaning) in options[command])
+        cells = (f"`{head}`", of, meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 

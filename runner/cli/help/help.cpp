@@ -1,0 +1,50 @@
+#include "base/hint.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/help/pages.hpp"
+#include "cli/help/topics.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+std::string list_of(const std::vector<Topic>& topics) {
+    std::string list =
+        "tidemark help TOPIC prints a page, or one of the sections that stand below it here.\n";
+    for (const Topic& topic : topics)
+        list += (topic.whole_page ? "\n" : "  ") + topic.name + '\n';
+    return list;
+}
+
+Result<int> help(const std::string& name) {
+    const std::vector<Topic> topics = topics_of(help_pages());
+    if (name.empty())
+        return put(list_of(topics)).map([] { return 0; });
+    const auto topic =
+        std::find_if(topics.begin(), topics.end(), [&](const Topic& t) { return t.name == name; });
+    if (topic != topics.end())
+        return put(plain_text(topic->markdown)).map([] { return 0; });
+    std::vector<std::string> names;
+    for (const Topic& there : topics)
+        names.push_back(there.name);
+    const std::string nearest = nearest_name(name, names);
+    return fail(ErrorCode::usage, fmt::format("no topic '{}': {}", name,
+                                              nearest.empty() ? "`tidemark help` lists them"
+                                                              : fmt::format("did you mean '{}'?", nearest)));
+}
+
+} // namespace
+
+void add_help(CLI::App& app, Action& chosen) {
+    auto topic = std::make_shared<std::string>();
+    CLI::App* command = app.add_subcommand("help", "Prints a section of the manual, or the list of them");
+    command->add_option("TOPIC", *topic, "A section, as in keys, recordings, directives, check");
+    command->callback([topic, &chosen] { chosen = [topic] { return help(*topic); }; });
+}
+
+} // namespace tidemark::cli

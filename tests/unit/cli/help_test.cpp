@@ -1,0 +1,46 @@
+#include "cli/help/topics.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tidemark::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::Field;
+
+TEST(HelpTopics, a_page_and_its_sections_by_their_titles) {
+    constexpr std::string_view page = "# Command line\n\nAll.\n\n## Exit codes\n\nNone.\n\n## Keys\nS\n";
+    const std::string_view pages[] = {page};
+    const auto topics = topics_of(pages);
+    EXPECT_THAT(topics, ElementsAre(Field(&Topic::name, "command-line"), Field(&Topic::name, "exit-codes"),
+                                    Field(&Topic::name, "keys")));
+    EXPECT_EQ(topics[0].markdown, page);
+    EXPECT_EQ(topics[1].markdown, "## Exit codes\n\nNone.\n");
+    EXPECT_EQ(topics[2].markdown, "## Keys\nS\n");
+}
+
+TEST(HelpText, links_and_emphasis_are_their_words_alone) {
+    EXPECT_EQ(plain_text("## Keys\n\n**Press** [S](keys.md), not `[PASS:]N`.\n"),
+              "Keys\n\nPress S, not `[PASS:]N`.\n");
+}
+
+TEST(HelpText, pictures_and_comments_are_left_out) {
+    EXPECT_EQ(plain_text("a\n![sea](sea.png)\n<!-- options -->\nb"), "a\nb\n");
+}
+
+TEST(HelpText, code_is_kept_as_it_is) {
+    EXPECT_EQ(plain_text("```sh\n**a** [b](c) | d\n```\n"), "    **a** [b](c) | d\n");
+}
+
+TEST(HelpText, a_narrow_table_stands_in_columns) {
+    EXPECT_EQ(plain_text("| key | does |\n|---|---|\n| `S` | saves |\n| `é` | half\\|full |\n"),
+              "  key  does\n  `S`  saves\n  `é`  half|full\n");
+}
+
+TEST(HelpText, the_cells_of_a_wide_table_stand_below_each_other) {
+    const std::string wide(50, 'x');
+    EXPECT_EQ(plain_text("| " + wide + " | b | c |\n\nd\n"), "  " + wide + "\n      b\n      c\n\nd\n");
+}
+
+} // namespace
+} // namespace tidemark::cli
