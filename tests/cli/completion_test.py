@@ -24,10 +24,10 @@ class Completion(ProgramTest):
 
     def test_commands(self):
         self.assertEqual(self.completed("cap"), {"capture"})
-        self.assertEqual(self.completed(""), {"view", "capture", "inspect", "check", "compare", "study", "import",
-                                              "export", "bake", "help",
-                                              "completion", "--help", "-h",
-                                              "--version", "completion.bash"})
+        listed = self.succeed("--help").stdout.decode().partition("Subcommands:\n")[2].partition("\n\n")[0]
+        commands = {line.split()[0] for line in listed.splitlines()}
+        self.assertLessEqual({"capture", "bake"}, commands)
+        self.assertEqual(self.completed(""), commands | {"--help", "-h", "--version", "completion.bash"})
 
     def test_options_of_a_command(self):
         self.assertEqual(self.completed("capture", "--fra"), {"--frame", "--frames"})

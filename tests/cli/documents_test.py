@@ -13,6 +13,7 @@ PAGES = sorted(path for path in ROOT.rglob("README.md") if "build" not in path.r
 LONGEST, LONGEST_FIRST = 250, 150  # lines of a page; of README.md itself
 
 # The page that explains each kind of thing.
+COMMANDS = ROOT / "runner" / "cli" / "README.md"
 PROBES = ROOT / "runner" / "lab" / "check" / "README.md"
 DIRECTIVES = ROOT / "runner" / "scene" / "README.md"
 ROOMS = ROOT / "runner" / "README.md"
@@ -143,9 +144,12 @@ class Explained(unittest.TestCase):
         """The first cells of a page's tables."""
         return "\n".join(re.findall(r"^\| (.*?) \|", page.read_text(), re.MULTILINE))
 
-    def test_tables_of_options_are_what_help_says(self) -> None:
+    def needs_the_window(self) -> None:
         if "view" not in option_table.commands():
-            self.skipTest("a build without a window has other options")
+            self.skipTest("this build has no window, the pages have its options")
+
+    def test_tables_of_options_are_what_help_says(self) -> None:
+        self.needs_the_window()
         for page, text in option_table.written_anew().items():
             with self.subTest(page=relative(page)):
                 self.assertEqual(page.read_text(), text, "python3 tests/support/option_table.py writes it anew")
@@ -160,6 +164,7 @@ class Explained(unittest.TestCase):
                         self.assertRegex(tables, rf"\| `([-\w]+,)?{re.escape(name)}[ ,`=]")
 
     def test_no_page_names_an_option_that_is_not_there(self) -> None:
+        self.needs_the_window()
         there = {name for command in option_table.commands() for head, _ in option_table.options_of(command)
                  for name in option_table.names_of(head)} | {"--help", "--version"}
         foreign = {"--long", "--rounds", "--preset", "--build", "--install", "--prefix"}  # of ./dev and CMake
@@ -204,6 +209,20 @@ class Explained(unittest.TestCase):
                     self.assertTrue(section.startswith(heading + "\n"))
                     self.assertNotRegex(section, r"\]\(|^\|--|<!--|!\[|<img|\*\*")
         self.assertRegex(printed("keys"), r"\n  S +save a picture \(`SCENE-FRAME.png` in the current folder\)\n")
+
+    def test_every_exit_code_has_its_row(self) -> None:
+        footer = option_table.printed_help("").partition("Exit codes: ")[2]
+        codes = re.findall(r"(?:^|, )(\d+) ", footer.replace("\n", " "))
+        table = COMMANDS.read_text().partition("\n## Exit codes\n")[2].partition("\n## ")[0]
+        self.assertEqual(re.findall(r"^\| (\d+) \|", table, re.MULTILINE), codes)
+
+    def test_every_key_has_its_row(self) -> None:
+        source = (ROOT / "runner" / "cli" / "view" / "viewer.cpp").read_text()
+        shown = re.search(r'k_help = R"\((.*?)\nA scene', source, re.DOTALL)[1]
+        keys = {key for line in shown.splitlines() for cell in re.split(r"  +", line)[::2] for key in cell.split(", ")}
+        table = COMMANDS.read_text().partition("\n## Keys\n")[2].partition("\n## ")[0]
+        rows = re.findall(r"^\| ([^|]*) \|", table, re.MULTILINE)
+        self.assertEqual(keys, {key for row in rows for key in re.split(", |; ", row)} - {"key", "---"})
 
     def test_a_topic_that_is_not_there(self) -> None:
         done = subprocess.run([PROGRAM, "help", "keyz"], capture_output=True, text=True)
