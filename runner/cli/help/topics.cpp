@@ -89,6 +89,7 @@ std::string table_text(const std::vector<Row>& rows) {
             else
                 text += row[i];
         }
+        text.erase(text.find_last_not_of(' ') + 1);
         text += '\n';
     }
     return text;

@@ -33,8 +33,8 @@ TEST(HelpText, code_is_kept_as_it_is) {
 }
 
 TEST(HelpText, a_narrow_table_stands_in_columns) {
-    EXPECT_EQ(plain_text("| key | does |\n|---|---|\n| `S` | saves |\n| `é` | half\\|full |\n"),
-              "  key  does\n  `S`  saves\n  `é`  half|full\n");
+    EXPECT_EQ(plain_text("| key | does |\n|---|---|\n| `S` | saves |\n| `é` | half\\|full |\n| H | |\n"),
+              "  key  does\n  `S`  saves\n  `é`  half|full\n  H\n");
 }
 
 TEST(HelpText, the_cells_of_a_wide_table_stand_below_each_other) {
