@@ -33,6 +33,9 @@ ROOMS = {
     "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""]},
 }
 
+# Modules whose files (a .cpp and its .hpp count as one) never lead back to where they started.
+WITHOUT_CIRCLES = ["base", "text", "scene", "gl", "sound", "platform", "render"]
+
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/(?:([a-z_]+)/)?', re.MULTILINE)
 
 
@@ -53,6 +56,20 @@ class Layers(unittest.TestCase):
                     self.assertIn(included, ALLOWED[module] + [module])
                     if included == module and module in ROOMS:
                         self.assertIn(its_room, ROOMS[module][room] + [room])
+
+    def test_files_follow_each_other_without_a_circle(self):
+        for module in WITHOUT_CIRCLES:
+            arrows = {}
+            for source in (RUNNER / module).rglob("*.[ch]pp"):
+                included = re.findall(rf'#\s*include\s+"({module}/[^"]+)\.hpp"', source.read_text())
+                name = str(source.relative_to(RUNNER).with_suffix(""))
+                arrows.setdefault(name, set()).update(set(included) - {name})
+            # A file that includes none of those left is at the bottom: what cannot be taken away is a circle.
+            while bottom := {name for name in arrows if not arrows[name] & arrows.keys()}:
+                for name in bottom:
+                    del arrows[name]
+            with self.subTest(module=module):
+                self.assertEqual(sorted(arrows), [])
 
     def test_every_module_is_in_the_table(self):
         modules = {p.name for p in RUNNER.iterdir() if p.is_dir()}

@@ -3,6 +3,8 @@
 #include "cli/console.hpp"
 #include "glsl/overrides.hpp"
 #include "render/mouse.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 
 #include <fmt/format.h>
 

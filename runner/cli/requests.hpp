@@ -8,6 +8,7 @@
 #include "glsl/dialect.hpp"
 #include "render/frame_inputs.hpp"
 #include "render/orbit_camera.hpp"
+#include "scene/load_options.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/vec4.hpp>

@@ -2,6 +2,7 @@
 
 #include "base/hint.hpp"
 #include "glsl/syntax/preprocess.hpp"
+#include "scene/overrides.hpp"
 #include "text/tokens.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 
 #include "base/hint.hpp"
 #include "glsl/overrides.hpp"
+#include "scene/overrides.hpp"
 
 #include <fmt/format.h>
 

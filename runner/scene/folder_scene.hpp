@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "scene/load_options.hpp"
 #include "scene/pass_names.hpp"
 #include "scene/scene.hpp"
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "scene/project.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -25,9 +24,6 @@ Result<Json> parse_json(std::string_view text, const std::string& file);
 /// `{"Error": …}`, on several shaders, and on JSON that is something else; what it finds may still be no
 /// list.
 Result<Json*> find_passes(Json& json, const std::string& file);
-
-/// The passes of that list; read_project is this for a text.
-Result<Project> read_passes(const Json& passes, const std::string& file, CodeIn code);
 
 /// A string, or a number as its digits; empty for everything else.
 std::string as_text(const Json& object, const char* key);

@@ -7,7 +7,7 @@
 namespace tidemark::scene {
 namespace {
 
-using Kind = ProjectPass::Kind;
+using Kind = PassName::Kind;
 
 constexpr int k_letters = 26;
 

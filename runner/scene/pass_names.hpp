@@ -1,8 +1,6 @@
 // The names of passes: as people write them on tabs and files, and as we write them.
 #pragma once
 
-#include "scene/project.hpp"
-
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,7 +9,8 @@
 namespace tidemark::scene {
 
 struct PassName {
-    ProjectPass::Kind kind = ProjectPass::Kind::image;
+    enum class Kind { common, buffer, cubemap, image, sound }; ///< in the order of drawing
+    Kind kind = Kind::image;
     int number = 0; ///< of a buffer: 0 is A
 
     bool operator==(const PassName&) const = default;

@@ -4,6 +4,9 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "scene/pass_names.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -25,7 +28,7 @@ struct ProjectInput {
 };
 
 struct ProjectPass {
-    enum class Kind { common, buffer, cubemap, image, sound }; ///< in the order of drawing
+    using Kind = PassName::Kind;
     Kind kind = Kind::image;
     std::string name;   ///< the author's, for messages only
     std::string output; ///< id of what it draws
@@ -46,6 +49,9 @@ enum class CodeIn { json, files };
 /// Reads the JSON of ShaderToy's API, of its site, or of 2014, alone or as a list of one. `file` is for the
 /// messages.
 Result<Project> read_project(std::string_view json, const std::string& file, CodeIn code = CodeIn::json);
+
+/// The same for the list of passes that find_passes (scene/json_text.hpp) finds in a JSON.
+Result<Project> read_passes(const nlohmann::ordered_json& passes, const std::string& file, CodeIn code);
 
 /// A name for each pass, unique and the same in every project: `Common`, `Buffer A` … by what it draws, not
 /// by the author's name; `Cube A`, `Image`, `Sound`.

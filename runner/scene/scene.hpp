@@ -1,14 +1,12 @@
 // What to draw, as values: the passes of a scene, what their channels read, and its knobs.
 #pragma once
 
-#include "base/result.hpp"
 #include "scene/channel.hpp"
 #include "scene/knob.hpp"
 #include "text/mapped_text.hpp"
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace tidemark::scene {
@@ -47,25 +45,5 @@ struct Scene {
 };
 
 TextureKind texture_kind(const Scene& scene, const ChannelInput& input);
-
-struct LoadOptions {
-    std::filesystem::path media; ///< --media: where ShaderToy's media files are looked up by name
-    bool allow_outside = false;  ///< --allow-outside: files may lie outside the scene's folder
-};
-
-/// Reads a scene: a bare `.glsl` or `.frag`, a scene folder, or a ShaderToy `.json`. Fails (ErrorCode::load)
-/// with file and line. Pictures and other media are named, not opened.
-Result<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
-
-/// Carries out `--channel [PASS:]N=WHAT`: a picture file, `noise`, `none`; sampled as ShaderToy's textures
-/// are.
-Result<void> override_channel(Scene& scene, std::string_view setting);
-
-/// Carries out `--set NAME=VALUE`. A value outside of the knob's range is taken, with a warning.
-Result<void> override_knob(Scene& scene, std::string_view setting);
-
-/// NAME and VALUE of `NAME=VALUE`; the error names the option that wants this form.
-Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_view setting,
-                                                                    std::string_view option);
 
 } // namespace tidemark::scene

@@ -6,6 +6,7 @@
 // --bytes-kept: without the level that makes knobs constants.
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
+#include "scene/load_scene.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>

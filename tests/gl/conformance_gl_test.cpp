@@ -4,6 +4,8 @@
 #include "gl_test.hpp"
 #include "render/mouse.hpp"
 #include "render/sound_renderer.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -5,6 +5,7 @@
 #include "image/image.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
+#include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "support/temporary_folder.hpp"
 

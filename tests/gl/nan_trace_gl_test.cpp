@@ -2,6 +2,7 @@
 // tests/cases/trace/faults, where `// born VALUE: reason; …` marks the line, the others in …/sound.
 #include "gl_test.hpp"
 #include "lab/trace/nan_trace.hpp"
+#include "scene/load_scene.hpp"
 
 #include <gmock/gmock.h>
 

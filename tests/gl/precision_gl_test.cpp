@@ -4,6 +4,7 @@
 #include "glsl/hit.hpp"
 #include "image/compare/metrics.hpp"
 #include "render/sound_renderer.hpp"
+#include "scene/load_scene.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,6 +2,7 @@
 #include "gl_test.hpp"
 #include "lab/fields/lattice.hpp"
 #include "lab/fields/value_noise.hpp"
+#include "scene/load_scene.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -2,6 +2,8 @@
 // goes on, features whose code is gone when they are off.
 #include "glsl/syntax/preprocess.hpp"
 #include "image/census.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 #include "text/tokens.hpp"
 #include "waters.hpp"
 

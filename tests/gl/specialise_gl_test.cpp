@@ -4,6 +4,7 @@
 #include "gl_test.hpp"
 #include "glsl/hit.hpp"
 #include "glsl/overrides.hpp"
+#include "scene/load_scene.hpp"
 
 #include <gmock/gmock.h>
 

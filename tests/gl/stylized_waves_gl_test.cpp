@@ -1,6 +1,8 @@
 #include "gl_test.hpp"
 #include "glsl/overrides.hpp"
 #include "image/census.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,7 @@
 #include "gl_test.hpp"
 #include "image/files/picture_file.hpp"
 #include "image/made/noise.hpp"
+#include "scene/overrides.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,6 +2,7 @@
 #include "gl_test.hpp"
 #include "glsl/assemble.hpp"
 #include "render/bands.hpp"
+#include "scene/load_scene.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,7 @@
 #include "gl_test.hpp"
 #include "render/mouse.hpp"
 #include "render/orbit_camera.hpp"
+#include "scene/overrides.hpp"
 
 #include <gmock/gmock.h>
 

@@ -8,6 +8,7 @@
 #include "lab/fields/gerstner_waves_field.hpp"
 #include "lab/fields/procedural_ocean_field.hpp"
 #include "lab/fields/water_surface_field.hpp"
+#include "scene/load_scene.hpp"
 
 #include <algorithm>
 #include <string>

@@ -4,6 +4,8 @@
 #include "lab/fields/knob_reader.hpp"
 #include "lab/fields/value_noise.hpp"
 #include "lab/statistics.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 #include "waters.hpp"
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "cli/view/held_values.hpp"
 
 #include "glsl/overrides.hpp"
+#include "scene/overrides.hpp"
 
 #include <fmt/format.h>
 

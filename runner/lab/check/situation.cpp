@@ -2,6 +2,7 @@
 
 #include "base/shell_word.hpp"
 #include "render/mouse.hpp"
+#include "scene/overrides.hpp"
 
 #include <fmt/format.h>
 

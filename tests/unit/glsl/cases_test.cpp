@@ -6,6 +6,8 @@
 #include "base/file.hpp"
 #include "glsl/overrides.hpp"
 #include "glsl/pass_reading.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 #include "lab/fields/certified_march.hpp"
 #include "lab/fields/water_surface_field.hpp"
 #include "lab/hits.hpp"
+#include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 
 #include <gtest/gtest.h>

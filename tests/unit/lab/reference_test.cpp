@@ -6,6 +6,7 @@
 #include "lab/fields/procedural_ocean_field.hpp"
 #include "lab/fields/reference.hpp"
 #include "lab/fields/water_surface_field.hpp"
+#include "scene/load_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "lab/setting.hpp"
 #include "lab/study/stricter.hpp"
 #include "lab/study/study.hpp"
+#include "scene/load_scene.hpp"
 #include "support/scene_of.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,7 @@
 #include "dense_march.hpp"
 #include "lab/fields/water_surface_field.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/geometric.hpp>

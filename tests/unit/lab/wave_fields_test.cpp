@@ -4,6 +4,8 @@
 #include "lab/fields/field_text.hpp"
 #include "lab/fields/gerstner_waves_field.hpp"
 #include "lab/fields/procedural_ocean_field.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/overrides.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,5 @@
 // ShaderToy's JSON in all its forms becomes a Scene.
+#include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,4 +1,5 @@
 // ShaderToy's media: by every name they have had, in a folder, or replaced.
+#include "scene/load_scene.hpp"
 #include "scene/media.hpp"
 #include "scene_support.hpp"
 

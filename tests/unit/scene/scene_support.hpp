@@ -1,6 +1,7 @@
 // What the tests of scenes in files share: a folder to write scenes into, and words for what comes out.
 #pragma once
 
+#include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,0 +1,121 @@
+#include "scene/overrides.hpp"
+
+#include "scene/builder.hpp"
+#include "scene/sources.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace tidemark::scene {
+namespace {
+
+bool in_range(const Knob& knob) {
+    if (!knob.range)
+        return true;
+    for (size_t i = 0; i < size_t(info(knob.type).components); ++i)
+        if (knob.value[i] < knob.range->low[i] || knob.value[i] > knob.range->high[i])
+            return false;
+    return true;
+}
+
+/// How to say what has no `=` in it: a number, of a pass perhaps, wants a source; a source wants a number.
+std::string channel_setting_like(std::string_view setting) {
+    const std::string_view number = setting.substr(setting.rfind(':') + 1);
+    if (!number.empty() && number.find_first_not_of("0123456789") == number.npos)
+        return fmt::format("{0}=FILE, {0}=noise or {0}=none{1}", number.size() == 1 ? setting : "N",
+                           number.size() == 1 ? "" : fmt::format(", N from 0 to {}", k_channel_count - 1));
+    return fmt::format("0={}", setting.empty() || setting.front() == '=' ? "noise" : setting);
+}
+
+/// What only `--channel` knows.
+std::optional<ChannelInput> test_input(std::string_view name) {
+    constexpr std::pair<std::string_view, Constant::Kind> k_names[] = {{"black", Constant::Kind::black},
+                                                                       {"white", Constant::Kind::white},
+                                                                       {"nan", Constant::Kind::nan},
+                                                                       {"texel", Constant::Kind::texel}};
+    if (name == "none")
+        return Unbound{};
+    for (const auto& [known, kind] : k_names)
+        if (name == known)
+            return Constant{kind};
+    return std::nullopt;
+}
+
+/// Image, or the pass that stands before a colon, with the number behind it.
+Result<std::pair<Pass*, std::string_view>> channel_of(Scene& scene, std::string_view place) {
+    const size_t colon = place.rfind(':');
+    if (colon == std::string_view::npos)
+        return std::pair(&scene.passes[scene.image_index()], place);
+    const std::string_view name = place.substr(0, colon);
+    const auto pass = std::ranges::find(scene.passes, name, &Pass::name);
+    if (pass != scene.passes.end())
+        return std::pair(&*pass, place.substr(colon + 1));
+    std::string names;
+    for (const Pass& known : scene.passes)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
+    return fail(ErrorCode::usage, fmt::format("--channel {}: the scene has {}", place, names));
+}
+
+} // namespace
+
+Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_view setting,
+                                                                    std::string_view option) {
+    const size_t equals = setting.find('=');
+    if (equals == 0 || equals == std::string_view::npos)
+        return fail(ErrorCode::usage,
+                    fmt::format("{} {}: give it as {}", option, setting,
+                                option == "--channel" ? channel_setting_like(setting) : "NAME=VALUE"));
+    return std::pair(setting.substr(0, equals), setting.substr(equals + 1));
+}
+
+Result<void> override_channel(Scene& scene, std::string_view setting) {
+    const auto split = split_setting(setting, "--channel");
+    if (!split)
+        return fail(split.error());
+    const std::string_view what = split->second;
+    const auto place = channel_of(scene, split->first);
+    if (!place)
+        return fail(place.error());
+    const auto [pass, number] = *place;
+    if (number.size() != 1 || number[0] < '0' || number[0] >= '0' + k_channel_count || what.empty())
+        return fail(ErrorCode::usage,
+                    fmt::format("--channel {}: give it as N=FILE, N=noise or N=none, N from 0 to {}", setting,
+                                k_channel_count - 1));
+    const auto test = test_input(what);
+    if (!test && names_a_pass(what))
+        return fail(ErrorCode::usage,
+                    fmt::format("--channel {}: '{}' is a pass: a scene names it with #iChannel{}", setting,
+                                what, number));
+    // The person's own path: no bounds.
+    Channel channel;
+    channel.input = test ? *test : input_of_name(what, {});
+    if (std::holds_alternative<Keyboard>(channel.input))
+        channel.sampling = k_keyboard_sampling;
+    pass->channels[size_t(number[0] - '0')] = channel;
+    note_files(scene, channel);
+    return {};
+}
+
+Result<void> override_knob(Scene& scene, std::string_view setting) {
+    const auto split = split_setting(setting, "--set");
+    if (!split)
+        return fail(split.error());
+    const auto knob = find_knob(scene.knobs, split->first);
+    if (!knob)
+        return fail(knob.error());
+    const auto value = parse_knob_value(**knob, split->second);
+    if (!value)
+        return fail(value.error());
+    (*knob)->value = *value;
+    if (!in_range(**knob))
+        scene.warnings.push_back(
+            {(*knob)->where, Severity::warning,
+             fmt::format("--set {}: {} has the range {} to {}; the value is taken as it is", setting,
+                         (*knob)->name, to_string(**knob, (*knob)->range->low),
+                         to_string(**knob, (*knob)->range->high))});
+    return {};
+}
+
+} // namespace tidemark::scene
