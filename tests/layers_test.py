@@ -71,6 +71,17 @@ class Layers(unittest.TestCase):
             with self.subTest(module=module):
                 self.assertEqual(sorted(arrows), [])
 
+    def test_kinds_of_input_are_asked_for_by_traits_or_visited(self):
+        """A kind that is asked for by its name is a place that a new kind is forgotten at."""
+        kinds = re.search(r"using ChannelInput =\s*std::variant<([^>]+)>;",
+                          (RUNNER / "scene/channel_input.hpp").read_text())[1].replace("\n", " ").split(",")
+        asked = re.compile(rf"(get_if|holds_alternative|get)<(scene::)?({'|'.join(kind.strip() for kind in kinds)})>\(")
+        # What a BoundChannel reads is another variant.
+        bound = re.compile(r"std::get_if<scene::PassOutput>\(&channel\.source\)")
+        for source in RUNNER.rglob("*.[ch]pp"):
+            with self.subTest(source=str(source.relative_to(RUNNER))):
+                self.assertIsNone(asked.search(bound.sub("", source.read_text())))
+
     def test_every_module_is_in_the_table(self):
         modules = {p.name for p in RUNNER.iterdir() if p.is_dir()}
         self.assertEqual(modules, set(ALLOWED) - {"main.cpp"})

@@ -86,7 +86,7 @@ private:
                 const bool read =
                     std::find(pass.channels.begin(), pass.channels.end(), i) != pass.channels.end();
                 const bool named = !channel.where.file.empty();
-                if (read || (several && std::holds_alternative<scene::Unbound>(channel.input)) ||
+                if (read || (several && !traits_of(channel.input).loaded) ||
                     (i >= scene::k_site_channel_count && !named))
                     continue;
                 names.push_back(several ? fmt::format("iChannel{} of {}", i, scene_.passes[pass.pass].name)
@@ -104,10 +104,12 @@ private:
         return names;
     }
 
+    /// What stands where nobody named an input.
     bool reads_noise() const {
         for (const PassFacts& pass : facts_.passes)
             for (const int i : pass.channels)
-                if (std::holds_alternative<scene::Noise>(scene_.passes[pass.pass].channels[size_t(i)].input))
+                if (const auto& traits = traits_of(scene_.passes[pass.pass].channels[size_t(i)].input);
+                    traits.default_input && traits.loaded)
                     return true;
         return false;
     }

@@ -11,37 +11,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a channel reads, in a word or by its file.
-class Describer {
-public:
-    explicit Describer(const scene::Scene& scene) : scene_(scene) {}
-
-    std::string operator()(const scene::Unbound&) const { return "none"; }
-    std::string operator()(const scene::Noise&) const { return "noise"; }
-    std::string operator()(const scene::Picture& picture) const { return picture.file.string(); }
-    std::string operator()(const scene::PassOutput& output) const { return scene_.passes[output.pass].name; }
-    std::string operator()(const scene::Cubemap& cubemap) const { return cubemap.files.front().string(); }
-    std::string operator()(const scene::Volume& volume) const { return volume.file.string(); }
-    std::string operator()(const scene::Keyboard&) const { return "keyboard"; }
-    std::string operator()(const scene::Music& music) const {
-        return music.file.empty() ? "silent signal" : music.file.string();
-    }
-    std::string operator()(const scene::Video& video) const { return video.file.string(); }
-    std::string operator()(const scene::Constant&) const { return "one value"; }
-    std::string operator()(const scene::StandIn&) const { return "stand-in"; }
-
-private:
-    const scene::Scene& scene_;
-};
-
 std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValue& value) {
     return {value.begin(), value.begin() + scene::info(knob.type).components};
 }
 
 /// Somebody chose what it reads. Noise that nobody asked for is only there in case a program reads it.
 bool is_chosen(const scene::Channel& channel) {
-    return !channel.where.file.empty() || !(std::holds_alternative<scene::Noise>(channel.input) ||
-                                            std::holds_alternative<scene::Unbound>(channel.input));
+    return !channel.where.file.empty() || !traits_of(channel.input).default_input;
 }
 
 /// Blanks and breaks come down to one; what is long is cut.
@@ -59,7 +35,10 @@ std::string in_short(std::string_view text) {
 } // namespace
 
 std::string describe(const scene::Scene& scene, const scene::Channel& channel) {
-    return std::visit(Describer(scene), channel.input);
+    if (const size_t* pass = source_pass(channel.input))
+        return scene.passes[*pass].name;
+    const auto files = input_files(channel.input);
+    return files.empty() ? std::string(traits_of(channel.input).name) : files.front().string();
 }
 
 Json files_of(const scene::Scene& scene) {

@@ -20,7 +20,7 @@ Chosen unspecified(const scene::Pass& pass) {
     Chosen chosen{};
     for (size_t i = 0; i < k_channels; ++i)
         chosen[i] = pass.channels[i].where.file.empty() &&
-                    (std::holds_alternative<scene::Unbound>(pass.channels[i].input) ||
+                    (!traits_of(pass.channels[i].input).loaded ||
                      pass.channels[i].input == scene::ChannelInput(scene::Noise{}));
     return chosen;
 }

@@ -19,8 +19,8 @@ std::vector<std::string> sampler_names(int unit) {
 Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
                                   ChannelTextures& textures) {
     BoundChannel bound{unit, make_sampler(channel.sampling), {}};
-    if (const auto* output = std::get_if<scene::PassOutput>(&channel.input)) {
-        bound.source = *output;
+    if (const size_t* pass = source_pass(channel.input)) {
+        bound.source = scene::PassOutput{*pass};
     } else {
         const auto texture = textures.require(channel);
         if (!texture)

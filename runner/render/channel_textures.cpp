@@ -50,16 +50,14 @@ void spread_grey(const gl::Texture& texture, int channels) {
     glTextureParameteriv(texture.id(), GL_TEXTURE_SWIZZLE_RGBA, swizzle);
 }
 
-/// Music and videos play again and again, as on the site.
-double play_time(double time, double duration) {
-    return duration > 0 && time >= 0 ? std::fmod(time, duration) : time;
-}
+/// iChannelTime of the site's silent input at iTime 0, in seconds.
+constexpr double k_silence_starts = 10;
 
 /// What `load` makes of an input.
 struct Loaded {
     gl::Texture texture;
     TextureUpdate update{};
-    double duration = 0; ///< of what plays
+    std::optional<Playback> playback{};
 };
 
 /// Fills a texture of one channel with `bytes`, unless they are those of last time.
@@ -175,14 +173,16 @@ public:
                 return fail(sound.error());
             spectrum = std::make_shared<sound::Spectrum>(*sound);
         }
-        return Loaded{
-            gl::make_texture({sound::k_signal_width, 2}, GL_R8, 1),
-            [spectrum, upload = ByteUpload()](const gl::Texture& texture, const FrameInputs& inputs) mutable {
-                const auto bytes = spectrum ? spectrum->at(play_time(inputs.time, spectrum->duration()))
-                                            : sound::silent_signal(inputs.time);
-                return upload(texture, std::as_bytes(std::span(bytes)));
-            },
-            spectrum ? spectrum->duration() : 0};
+        const Playback playback =
+            spectrum ? Playback{0, spectrum->duration()} : Playback{k_silence_starts, 0};
+        return Loaded{gl::make_texture({sound::k_signal_width, 2}, GL_R8, 1),
+                      [spectrum, playback, upload = ByteUpload()](const gl::Texture& texture,
+                                                                  const FrameInputs& inputs) mutable {
+                          const auto bytes = spectrum ? spectrum->at(playback.time_at(inputs.time))
+                                                      : sound::silent_signal(inputs.time);
+                          return upload(texture, std::as_bytes(std::span(bytes)));
+                      },
+                      playback};
     }
 
     Result<Loaded> operator()(const scene::Video& video) const {
@@ -207,7 +207,7 @@ public:
                           gl::make_mipmaps(texture);
                           return true;
                       },
-                      frames->duration()};
+                      frames->duration() > 0 ? std::optional(Playback{0, frames->duration()}) : std::nullopt};
     }
 
 private:
@@ -297,7 +297,7 @@ Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& ch
     if (!loaded)
         return fail(std::move(loaded.error()));
     entries_.push_back({channel.input, channel.sampling.vflip, mipmaps, std::move(loaded->texture),
-                        std::move(loaded->update), loaded->duration});
+                        std::move(loaded->update), loaded->playback});
     return Index(entries_.size() - 1);
 }
 
@@ -309,24 +309,25 @@ void ChannelTextures::update(const FrameInputs& inputs) {
 
 bool ChannelTextures::follow_clock() const {
     return std::ranges::any_of(entries_, [](const Entry& entry) {
-        return std::holds_alternative<scene::Music>(entry.input) ||
-               std::holds_alternative<scene::Video>(entry.input);
+        return traits_of(entry.input).changes == scene::Changes::with_clock;
     });
+}
+
+double Playback::time_at(double now) const {
+    return start + (duration > 0 && now >= 0 ? std::fmod(now, duration) : now);
 }
 
 ChannelFact ChannelTextures::fact(Index index, const FrameInputs& inputs) const {
     const Entry& entry = entries_[size_t(index)];
     const gl::Texture& texture = entry.texture;
-    if (std::holds_alternative<scene::Unbound>(entry.input))
+    if (!traits_of(entry.input).loaded)
         return {};
     ChannelFact fact{
         {double(texture.extent.width), double(texture.extent.height), double(texture.depth)}, 0, true};
     if (texture.target == GL_TEXTURE_CUBE_MAP) // the site knows no size of a cubemap from files
         fact.resolution = {};
-    if (const auto* music = std::get_if<scene::Music>(&entry.input); music && music->file.empty())
-        fact.time = 10 + inputs.time;
-    else if (entry.duration > 0)
-        fact.time = play_time(inputs.time, entry.duration);
+    if (entry.playback)
+        fact.time = entry.playback->time_at(inputs.time);
     return fact;
 }
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace tidemark::render {
@@ -24,6 +25,14 @@ using ChannelFacts = std::array<ChannelFact, scene::k_channel_count>;
 
 /// Brings a texture up to date; true when its content is another now. Empty: it never is.
 using TextureUpdate = std::function<bool(const gl::Texture&, const FrameInputs&)>;
+
+/// What plays again and again, as music and videos do on the site.
+struct Playback {
+    double start = 0;    ///< iChannelTime at iTime 0
+    double duration = 0; ///< 0: it has no end
+
+    double time_at(double now) const;
+};
 
 class ChannelTextures {
 public:
@@ -50,7 +59,7 @@ private:
         bool mipmaps = false;
         gl::Texture texture;
         TextureUpdate update;
-        double duration = 0; ///< of what plays; 0: nothing does
+        std::optional<Playback> playback;
         Edition edition = 0;
     };
 

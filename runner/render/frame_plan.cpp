@@ -74,21 +74,20 @@ private:
             return;
         needed_[pass] = true;
         for (const int channel : channels_of(pass))
-            if (const auto* output =
-                    std::get_if<scene::PassOutput>(&scene_.passes[pass].channels[size_t(channel)].input))
-                need(output->pass);
+            if (const size_t* source = source_pass(scene_.passes[pass].channels[size_t(channel)].input))
+                need(*source);
     }
 
     void plan_read(size_t reader, const scene::Channel& channel) {
-        const auto* output = std::get_if<scene::PassOutput>(&channel.input);
-        if (!output)
+        const size_t* source = source_pass(channel.input);
+        if (!source)
             return;
-        TargetPlan& target = plan_.targets[output->pass];
+        TargetPlan& target = plan_.targets[*source];
         target.mipmaps = target.mipmaps || channel.sampling.mipmaps != scene::Mipmaps::none;
         // Whoever stands before the source reads last frame's texture before it is drawn over: only a pass
         // that reads itself needs a second one.
-        target.two_textures = target.two_textures || reader == output->pass;
-        plan_.feedback = plan_.feedback || frame_ref(reader, output->pass) == FrameRef::previous;
+        target.two_textures = target.two_textures || reader == *source;
+        plan_.feedback = plan_.feedback || frame_ref(reader, *source) == FrameRef::previous;
     }
 
     void plan_discarding(size_t pass) {
@@ -113,9 +112,8 @@ private:
 } // namespace
 
 bool needs_texture(const scene::ChannelInput& input, int number, const gl::Reflection& reflection) {
-    const bool known =
-        std::holds_alternative<scene::Unbound>(input) || std::holds_alternative<scene::PassOutput>(input);
-    return samples(reflection, number) || (!known && asks_about(reflection, number));
+    const bool facts_from_texture = traits_of(input).loaded && !source_pass(input);
+    return samples(reflection, number) || (facts_from_texture && asks_about(reflection, number));
 }
 
 const PlannedPass* FramePlan::find(size_t pass) const {

@@ -40,8 +40,8 @@ void supply_other_kinds(scene::Scene& scene, size_t pass, const glsl::ChannelKin
 
 bool reads(const scene::Pass& reader, size_t pass) {
     return std::ranges::any_of(reader.channels, [&](const scene::Channel& channel) {
-        const auto* output = std::get_if<scene::PassOutput>(&channel.input);
-        return output && output->pass == pass;
+        const size_t* source = source_pass(channel.input);
+        return source && *source == pass;
     });
 }
 
@@ -116,8 +116,8 @@ std::vector<bool> Renderer::reachable() const {
             continue;
         found[pass] = true;
         for (const scene::Channel& channel : scene_.passes[pass].channels)
-            if (const auto* output = std::get_if<scene::PassOutput>(&channel.input))
-                open.push_back(output->pass);
+            if (const size_t* source = source_pass(channel.input))
+                open.push_back(*source);
     }
     return found;
 }
@@ -314,12 +314,12 @@ ChannelFacts Renderer::facts_of(const CompiledPass& pass, PassKind kind, const F
         fact = textures_.fact(*texture, inputs);
         // A quirk of the site that shaders may rely on.
         if (kind == PassKind::cubemap &&
-            std::holds_alternative<scene::Keyboard>(channels[size_t(channel.unit)].input))
+            traits_of(channels[size_t(channel.unit)].input).changes == scene::Changes::with_keys)
             fact.resolution = {};
     }
     for (size_t i = 0; i < channels.size(); ++i) // drawn or not
-        if (const auto* output = std::get_if<scene::PassOutput>(&channels[i].input)) {
-            const bool cube = scene_.passes[output->pass].kind == PassKind::cubemap;
+        if (const size_t* source = source_pass(channels[i].input)) {
+            const bool cube = scene_.passes[*source].kind == PassKind::cubemap;
             const Extent size = cube ? Extent{k_cube_side, k_cube_side} : extent_;
             facts[i] = {{double(size.width), double(size.height), 1}, 0, true};
         }

@@ -17,9 +17,7 @@ namespace {
 
 /// The site binds pictures and volumes for a Sound pass. What is another one in another frame has none here.
 bool is_heard(const scene::ChannelInput& input) {
-    return !std::holds_alternative<scene::PassOutput>(input) &&
-           !std::holds_alternative<scene::Keyboard>(input) && !std::holds_alternative<scene::Music>(input) &&
-           !std::holds_alternative<scene::Video>(input);
+    return traits_of(input).changes == scene::Changes::never;
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
 
 namespace tidemark::scene {
 namespace fs = std::filesystem;
@@ -72,8 +71,7 @@ Result<void> check_entry(const Scene& scene, const Draft& draft) {
 bool is_read(const std::vector<Draft>& drafts, size_t wanted) {
     for (const Draft& draft : drafts)
         for (const Channel& channel : draft.pass.channels)
-            if (const auto* output = std::get_if<PassOutput>(&channel.input);
-                output && output->pass == wanted)
+            if (const size_t* read = source_pass(channel.input); read && *read == wanted)
                 return true;
     return false;
 }
@@ -103,16 +101,8 @@ void note_file(Scene& scene, const fs::path& file) {
 }
 
 void note_files(Scene& scene, const Channel& channel) {
-    std::visit(
-        [&](const auto& input) {
-            using Input = std::decay_t<decltype(input)>;
-            if constexpr (std::is_same_v<Input, Cubemap>)
-                for (const fs::path& face : input.files)
-                    note_file(scene, face);
-            else if constexpr (requires { input.file; })
-                note_file(scene, input.file);
-        },
-        channel.input);
+    for (const fs::path& file : input_files(channel.input))
+        note_file(scene, file);
 }
 
 Result<void> finish_scene(Scene& scene, std::vector<Draft> drafts, const std::vector<size_t>& order) {
@@ -131,8 +121,8 @@ Result<void> finish_scene(Scene& scene, std::vector<Draft> drafts, const std::ve
         place[drawn[i]] = i;
     for (const size_t draft : drawn) {
         for (Channel& channel : drafts[draft].pass.channels) {
-            if (auto* output = std::get_if<PassOutput>(&channel.input))
-                output->pass = place[output->pass];
+            if (size_t* read = source_pass(channel.input))
+                *read = place[*read];
             note_files(scene, channel);
         }
         scene.passes.push_back(std::move(drafts[draft].pass));

@@ -33,13 +33,7 @@ struct SamplingWishes {
 
 /// What a channel is sampled like: what only we have, by ShaderToy's defaults; pictures by the extension's.
 Sampling sampling_of(const Channel& channel, const SamplingWishes& wishes) {
-    Sampling sampling{};
-    if (std::holds_alternative<Noise>(channel.input))
-        sampling = k_texture_sampling;
-    else if (std::holds_alternative<Keyboard>(channel.input))
-        sampling = k_keyboard_sampling;
-    else if (std::holds_alternative<Cubemap>(channel.input) || std::holds_alternative<Volume>(channel.input))
-        sampling.vflip = false;
+    Sampling sampling = traits_of(channel.input).sampling;
     sampling.magnify = wishes.magnify.value_or(sampling.magnify);
     sampling.minify = wishes.minify.value_or(sampling.minify);
     sampling.mipmaps = wishes.mipmaps.value_or(sampling.mipmaps);
@@ -195,8 +189,9 @@ Result<Directives> DirectiveReader::read_all() {
     }
     for (size_t i = 0; i < wishes_.size(); ++i) {
         Channel& channel = directives_.channels[i];
-        if (const auto* picture = std::get_if<Picture>(&channel.input); picture && wishes_[i].cubemap)
-            channel.input = Cubemap{{picture->file}};
+        if (const std::string& source = directives_.sources[i]; !source.empty())
+            channel.input = input_of_name(source, fs::path(channel.where.file).parent_path(),
+                                          wishes_[i].cubemap ? PictureAs::cubemap : PictureAs::flat);
         channel.sampling = sampling_of(channel, wishes_[i]);
     }
     return std::move(directives_);
@@ -258,7 +253,6 @@ Result<void> DirectiveReader::read_channel_source(size_t number, const SourceLoc
         return fail(error_at(where, "the name of the picture is empty"));
     Channel& channel = directives_.channels[number];
     channel.where = where;
-    channel.input = input_of_name(*name, fs::path(where.file).parent_path());
     directives_.sources[number] = *std::move(name);
     return {};
 }

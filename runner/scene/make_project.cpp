@@ -1,3 +1,4 @@
+#include "base/overloaded.hpp"
 #include "base/printable.hpp"
 #include "scene/host_uniforms.hpp"
 #include "scene/json_text.hpp"
@@ -120,7 +121,7 @@ private:
             if (mentioned && i >= size_t(k_site_channel_count))
                 warn(pass.channels[i].where,
                      fmt::format("'{}' reads {}: ShaderToy has four channels", pass.name, channel));
-            else if (mentioned && !std::holds_alternative<Unbound>(pass.channels[i].input))
+            else if (mentioned && !traits_of(pass.channels[i].input).site_type.empty())
                 inputs.push_back(input_of(pass.channels[i], int(i)));
         }
         return {{"inputs", std::move(inputs)}, {"outputs", Json::array({{{"id", output}, {"channel", 0}}})},
@@ -144,20 +145,22 @@ private:
     }
 
     Json source_of(const Channel& channel) {
-        const ChannelInput& input = channel.input;
-        if (const auto* output = std::get_if<PassOutput>(&input))
-            return output_of(output->pass);
-        if (const auto* noise = std::get_if<Noise>(&input))
-            for (const NoiseFile& file : k_noise_files)
-                if (file.kind == noise->kind)
-                    return {{"id", file.id},
-                            {"src", fmt::format("/media/a/{}", file.file)},
-                            {"ctype", file.ctype}};
-        if (std::holds_alternative<Keyboard>(input))
-            return {{"id", 33}, {"src", "/presets/tex00.jpg"}, {"ctype", "keyboard"}};
-        const auto [type, file] = own_file(input);
-        warn(channel.where, fmt::format("ShaderToy has no '{}': choose something there", file));
-        return {{"id", 0}, {"src", file}, {"ctype", type}};
+        return std::visit(
+            Overloaded{[&](const PassOutput& output) { return output_of(output.pass); },
+                       [&](const Noise& noise) { return noise_of(noise, channel); },
+                       [](const Keyboard&) -> Json {
+                           return {{"id", 33}, {"src", "/presets/tex00.jpg"}, {"ctype", "keyboard"}};
+                       },
+                       [&](const auto&) { return own_file(channel); }},
+            channel.input);
+    }
+
+    Json noise_of(const Noise& noise, const Channel& channel) {
+        for (const NoiseFile& file : k_noise_files)
+            if (file.kind == noise.kind)
+                return {
+                    {"id", file.id}, {"src", fmt::format("/media/a/{}", file.file)}, {"ctype", file.ctype}};
+        return own_file(channel);
     }
 
     Json output_of(size_t pass) const {
@@ -168,25 +171,18 @@ private:
                 {"ctype", "buffer"}};
     }
 
-    /// Type and file of what the scene brings along.
-    std::pair<const char*, std::string> own_file(const ChannelInput& input) const {
-        const auto relative = [&](const std::filesystem::path& file) {
-            const auto& scene = scene_.file;
-            std::error_code ignored;
-            const bool folder = std::filesystem::is_directory(scene, ignored);
-            return file.lexically_proximate(folder ? scene : scene.parent_path()).string();
-        };
-        if (const auto* picture = std::get_if<Picture>(&input))
-            return {"texture", relative(picture->file)};
-        if (const auto* cubemap = std::get_if<Cubemap>(&input))
-            return {"cubemap", relative(cubemap->files.front())};
-        if (const auto* volume = std::get_if<Volume>(&input))
-            return {"volume", relative(volume->file)};
-        if (const auto* video = std::get_if<Video>(&input))
-            return {"video", relative(video->file)};
-        if (const auto* music = std::get_if<Music>(&input))
-            return {"music", relative(music->file)};
-        return {"texture", "stand-in"};
+    /// What the scene brings along.
+    Json own_file(const Channel& channel) {
+        const auto files = input_files(channel.input);
+        const std::string source = files.empty() ? "stand-in" : relative(files.front());
+        warn(channel.where, fmt::format("ShaderToy has no '{}': choose something there", source));
+        return {{"id", 0}, {"src", source}, {"ctype", traits_of(channel.input).site_type}};
+    }
+
+    std::string relative(const std::filesystem::path& file) const {
+        std::error_code ignored;
+        const bool folder = std::filesystem::is_directory(scene_.file, ignored);
+        return file.lexically_proximate(folder ? scene_.file : scene_.file.parent_path()).string();
     }
 
     const Scene& scene_;

@@ -81,6 +81,12 @@ std::string face_name(std::string_view base_name, int face) {
     return fmt::format("{}_{}{}", base_name.substr(0, dot), face, base_name.substr(dot));
 }
 
+Substitute generated(const StandIn& made) {
+    constexpr std::string_view k_words[] = {"picture", "cubemap", "volume"};
+    return {made,
+            fmt::format("a generated {} of {}x{}", k_words[size_t(made.kind)], made.width, made.height)};
+}
+
 } // namespace
 
 const Media* find_media(std::string_view source) {
@@ -157,13 +163,13 @@ std::vector<fs::path> MediaFolder::find_cubemap(std::string_view source) const {
     return faces.size() == 6 ? faces : std::vector<fs::path>{};
 }
 
-ChannelInput stand_in(MediaKind kind, const Media* media) {
-    if (media && media->noise && media->kind == kind)
-        return Noise{*media->noise};
+Substitute substitute_for(MediaKind kind, const Media* media) {
     const bool known = media && media->kind == kind;
+    if (known && media->noise)
+        return {Noise{*media->noise}, {}};
     const auto make = [&](StandIn::Kind made, int width, int height) {
-        return known ? StandIn{made, media->width, media->height, media->channels}
-                     : StandIn{made, width, height, 4};
+        return generated(known ? StandIn{made, media->width, media->height, media->channels}
+                               : StandIn{made, width, height, 4});
     };
     switch (kind) {
     case picture: return make(StandIn::Kind::picture, 512, 512);
@@ -172,7 +178,11 @@ ChannelInput stand_in(MediaKind kind, const Media* media) {
     case video: return make(StandIn::Kind::picture, 480, 360);
     case music: break;
     }
-    return Music{};
+    return {Music{}, "ShaderToy's signal for silence"};
+}
+
+Substitute substitute_for_webcam() {
+    return generated({StandIn::Kind::picture, 640, 480, 4});
 }
 
 } // namespace tidemark::scene

@@ -53,7 +53,12 @@ private:
     std::vector<std::filesystem::path> files_; ///< sorted by their name
 };
 
-/// What a channel reads instead of a file that is not to be had.
-ChannelInput stand_in(MediaKind kind, const Media* media);
+/// What a channel reads instead of what is not to be had.
+struct Substitute {
+    ChannelInput input;
+    std::string name; ///< "a generated picture of 512x512"; empty: it is as good as what it stands for
+};
+Substitute substitute_for(MediaKind kind, const Media* media);
+Substitute substitute_for_webcam();
 
 } // namespace tidemark::scene

@@ -91,7 +91,7 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
     // The person's own path: no bounds.
     Channel channel;
     channel.input = test ? *test : input_of_name(what, {});
-    if (std::holds_alternative<Keyboard>(channel.input))
+    if (traits_of(channel.input).changes == Changes::with_keys)
         channel.sampling = k_keyboard_sampling;
     pass->channels[size_t(number[0] - '0')] = channel;
     note_files(scene, channel);

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
 
 namespace tidemark::scene {
 namespace fs = std::filesystem;
@@ -131,25 +130,22 @@ Result<void> PassLoader::bind(size_t draft, const Directives& directives) {
 Result<ChannelInput> PassLoader::input_of(size_t draft, const Channel& channel, const std::string& source) {
     if (source == "self")
         return PassOutput{draft};
-    if (std::holds_alternative<Unbound>(channel.input) && is_shader_file(source))
+    if (is_shader_file(source))
         return output_of_file(draft, (fs::path(channel.where.file).parent_path() / source).lexically_normal(),
                               channel.where);
-    if (std::holds_alternative<Unbound>(channel.input))
+    if (names_a_pass(source))
         return output_of_name(source, channel.where);
-    Channel found = channel;
-    if (auto* cubemap = std::get_if<Cubemap>(&found.input)) {
-        cubemap->files = cubemap_faces(cubemap->files.front());
-        if (cubemap->files.empty())
-            return fail(
-                error_at(channel.where,
-                         fmt::format("there are no six files for '{}': they end in e w u d n s, in east "
-                                     "west up down north south, in px nx py ny pz nz or in posx negx posy "
-                                     "negy posz negz",
-                                     source)));
-    }
-    if (auto inside = check_bounds(found); !inside)
-        return fail(std::move(inside.error()));
-    return found.input;
+    ChannelInput found = channel.input;
+    if (!find_faces(found))
+        return fail(error_at(
+            channel.where, fmt::format("there are no six files for '{}': they end in e w u d n s, in east "
+                                       "west up down north south, in px nx py ny pz nz or in posx negx posy "
+                                       "negy posz negz",
+                                       source)));
+    for (const fs::path& file : input_files(found))
+        if (auto inside = bounds_.check(file); !inside)
+            return fail(error_at(channel.where, inside.error().message));
+    return found;
 }
 
 Result<ChannelInput> PassLoader::output_of_file(size_t reader, const fs::path& file,
@@ -193,15 +189,6 @@ Result<ChannelInput> PassLoader::output_of_name(const std::string& source,
         error_at(where, fmt::format("there is no pass '{}' here: a scene folder has it in a file '{}', and "
                                     "a single file names another by its path, as in \"blur.glsl\"",
                                     name, file_name_of(name))));
-}
-
-Result<void> PassLoader::check_bounds(const Channel& channel) const {
-    Scene files;
-    note_files(files, channel);
-    for (const fs::path& file : files.files)
-        if (auto inside = bounds_.check(file); !inside)
-            return fail(error_at(channel.where, inside.error().message));
-    return {};
 }
 
 std::string PassLoader::unique_name(const fs::path& file) const {

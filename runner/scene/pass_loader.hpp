@@ -50,7 +50,6 @@ private:
     Result<ChannelInput> output_of_file(size_t reader, const std::filesystem::path& file,
                                         const SourceLocation& where);
     Result<ChannelInput> output_of_name(const std::string& source, const SourceLocation& where) const;
-    Result<void> check_bounds(const Channel& channel) const;
     std::string unique_name(const std::filesystem::path& file) const;
     std::string cycle_from(size_t draft) const;
 

@@ -76,8 +76,8 @@ Result<ProjectDrafts> draft_project(Scene& scene, InputReader::Context context) 
             auto channel = inputs.read(input);
             if (!channel)
                 return fail(std::move(channel.error()));
-            if (auto* output = std::get_if<PassOutput>(&channel->input))
-                output->pass = *result.of_pass[output->pass];
+            if (size_t* read = source_pass(channel->input))
+                *read = *result.of_pass[*read];
             channels[size_t(input.channel)] = *std::move(channel);
         }
     }

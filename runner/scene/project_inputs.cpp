@@ -117,11 +117,8 @@ Result<ChannelInput> InputReader::input_of(const ProjectInput& input, Kind kind)
     case Kind::buffer: return output_of(input);
     case Kind::keyboard: return Keyboard{};
     case Kind::microphone: return Music{};
-    case Kind::webcam: {
-        const ChannelInput instead = StandIn{StandIn::Kind::picture, 640, 480, 4};
-        warn({0, "webcam", "webcam", "", "", "", ""}, nullptr, instead);
-        return instead;
-    }
+    case Kind::webcam:
+        return instead_of({0, "webcam", "webcam", "", "", "", ""}, nullptr, substitute_for_webcam());
     case Kind::cubemap:
         if (is_cube_id(input.id) || is_previz_cube(input.source) || parse_pass_name(input.source))
             return cube_output();
@@ -164,18 +161,12 @@ Result<ChannelInput> InputReader::media_input(const ProjectInput& input, MediaKi
     auto files = files_of(input, kind);
     if (!files)
         return fail(std::move(files.error()));
-    if (files->empty()) {
-        const Media* media = media_of(input);
-        ChannelInput instead = stand_in(kind, media);
-        if (!std::holds_alternative<Noise>(instead))
-            warn(input, media, instead);
-        return instead;
-    }
+    const Media* media = media_of(input);
+    if (files->empty())
+        return instead_of(input, media, substitute_for(kind, media));
     switch (kind) {
-    case MediaKind::picture: {
-        const Media* media = media_of(input);
+    case MediaKind::picture:
         return Picture{files->front(), media && media->kind == kind && media->channels == 1};
-    }
     case MediaKind::cubemap: return Cubemap{*std::move(files)};
     case MediaKind::volume: return Volume{files->front()};
     case MediaKind::video: return Video{files->front()};
@@ -203,24 +194,19 @@ Result<std::vector<fs::path>> InputReader::files_of(const ProjectInput& input, M
     return found.empty() ? std::vector<fs::path>{} : std::vector{std::move(found)};
 }
 
-void InputReader::warn(const ProjectInput& input, const Media* media, const ChannelInput& instead) {
-    if (!warned_.insert(input.source.empty() ? input.id : input.source).second)
-        return;
+/// Warns once of what is not here.
+ChannelInput InputReader::instead_of(const ProjectInput& input, const Media* media, Substitute instead) {
+    if (instead.name.empty() || !warned_.insert(input.source.empty() ? input.id : input.source).second)
+        return std::move(instead.input);
     std::string what = fmt::format("'{}'", shown(input));
     if (media && !media->title.empty())
         what += fmt::format(" ({})", media->title);
-    std::string made = "ShaderToy's signal for silence";
-    if (const auto* picture = std::get_if<StandIn>(&instead))
-        made = fmt::format("a generated {} of {}x{}",
-                           picture->kind == StandIn::Kind::cubemap  ? "cubemap"
-                           : picture->kind == StandIn::Kind::volume ? "volume"
-                                                                    : "picture",
-                           picture->width, picture->height);
     warnings_.push_back(
         {{context_.file},
          Severity::warning,
          fmt::format("{} is not here: {} stands in for it (--media DIR says where such files are)", what,
-                     made)});
+                     instead.name)});
+    return std::move(instead.input);
 }
 
 } // namespace tidemark::scene

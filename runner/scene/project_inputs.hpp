@@ -44,7 +44,7 @@ private:
     ChannelInput cube_output() const;
     Result<ChannelInput> media_input(const ProjectInput& input, MediaKind kind);
     Result<std::vector<std::filesystem::path>> files_of(const ProjectInput& input, MediaKind kind) const;
-    void warn(const ProjectInput& input, const Media* media, const ChannelInput& instead);
+    ChannelInput instead_of(const ProjectInput& input, const Media* media, Substitute instead);
 
     Context context_;
     std::vector<Diagnostic> warnings_;

@@ -22,19 +22,17 @@ size_t Scene::image_index() const {
 }
 
 TextureKind texture_kind(const Scene& scene, const ChannelInput& input) {
-    if (const auto* output = std::get_if<PassOutput>(&input))
-        return scene.passes[output->pass].kind == PassKind::cubemap ? TextureKind::cube : TextureKind::flat;
-    if (const auto* noise = std::get_if<Noise>(&input))
-        return noise->kind >= NoiseKind::grey_volume_32 ? TextureKind::volume : TextureKind::flat;
-    if (const auto* stand_in = std::get_if<StandIn>(&input))
-        return stand_in->kind == StandIn::Kind::cubemap  ? TextureKind::cube
-               : stand_in->kind == StandIn::Kind::volume ? TextureKind::volume
-                                                         : TextureKind::flat;
-    if (const auto* unbound = std::get_if<Unbound>(&input))
-        return unbound->kind;
-    if (std::holds_alternative<Cubemap>(input))
-        return TextureKind::cube;
-    return std::holds_alternative<Volume>(input) ? TextureKind::volume : TextureKind::flat;
+    return std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            if constexpr (k_traits<Kind>.from == ReadsFrom::pass)
+                return scene.passes[kind.pass].kind == PassKind::cubemap ? TextureKind::cube
+                                                                         : TextureKind::flat;
+            else if constexpr (k_traits<Kind>.texture)
+                return *k_traits<Kind>.texture;
+            else
+                return kind.texture();
+        },
+        input);
 }
 
 } // namespace tidemark::scene

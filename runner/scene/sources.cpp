@@ -1,5 +1,6 @@
 #include "scene/sources.hpp"
 
+#include "base/overloaded.hpp"
 #include "scene/pass_names.hpp"
 
 #include <algorithm>
@@ -8,44 +9,9 @@
 
 namespace tidemark::scene {
 namespace fs = std::filesystem;
+namespace {
 
-MediaKind media_kind_of(const fs::path& file) {
-    constexpr std::pair<std::string_view, MediaKind> k_extensions[] = {
-        {".mp3", MediaKind::music},  {".ogg", MediaKind::music}, {".wav", MediaKind::music},
-        {".flac", MediaKind::music}, {".mp4", MediaKind::video}, {".webm", MediaKind::video},
-        {".ogv", MediaKind::video},  {".gif", MediaKind::video}, {".bin", MediaKind::volume},
-    };
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    for (const auto& [known, kind] : k_extensions)
-        if (extension == known)
-            return kind;
-    return MediaKind::picture;
-}
-
-bool names_a_pass(std::string_view name) {
-    return name == "self" || parse_pass_name(name) || is_shader_file(fs::path(name));
-}
-
-ChannelInput input_of_name(std::string_view name, const fs::path& folder) {
-    if (name == "noise")
-        return Noise{};
-    if (name == "keyboard")
-        return Keyboard{};
-    if (names_a_pass(name))
-        return Unbound{};
-    fs::path file = (folder / name).lexically_normal();
-    switch (media_kind_of(file)) {
-    case MediaKind::music: return Music{std::move(file)};
-    case MediaKind::video: return Video{std::move(file)};
-    case MediaKind::volume: return Volume{std::move(file)};
-    case MediaKind::picture:
-    case MediaKind::cubemap: break;
-    }
-    return Picture{std::move(file)};
-}
-
+/// The name alone when it has neither `*` nor `{}`. Empty: no six files fit.
 std::vector<fs::path> cubemap_faces(const fs::path& name) {
     constexpr std::array<std::string_view, 6> k_suffixes[] = {
         {"e", "w", "u", "d", "n", "s"},
@@ -71,6 +37,55 @@ std::vector<fs::path> cubemap_faces(const fs::path& name) {
             return faces;
     }
     return {};
+}
+
+} // namespace
+
+MediaKind media_kind_of(const fs::path& file) {
+    constexpr std::pair<std::string_view, MediaKind> k_extensions[] = {
+        {".mp3", MediaKind::music},  {".ogg", MediaKind::music}, {".wav", MediaKind::music},
+        {".flac", MediaKind::music}, {".mp4", MediaKind::video}, {".webm", MediaKind::video},
+        {".ogv", MediaKind::video},  {".gif", MediaKind::video}, {".bin", MediaKind::volume},
+    };
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    for (const auto& [known, kind] : k_extensions)
+        if (extension == known)
+            return kind;
+    return MediaKind::picture;
+}
+
+bool names_a_pass(std::string_view name) {
+    return name == "self" || parse_pass_name(name) || is_shader_file(fs::path(name));
+}
+
+ChannelInput input_of_name(std::string_view name, const fs::path& folder, PictureAs picture) {
+    if (name == "noise")
+        return Noise{};
+    if (name == "keyboard")
+        return Keyboard{};
+    if (names_a_pass(name))
+        return Unbound{};
+    fs::path file = (folder / name).lexically_normal();
+    switch (media_kind_of(file)) {
+    case MediaKind::music: return Music{std::move(file)};
+    case MediaKind::video: return Video{std::move(file)};
+    case MediaKind::volume: return Volume{std::move(file)};
+    case MediaKind::picture:
+    case MediaKind::cubemap: break;
+    }
+    return picture == PictureAs::cubemap ? ChannelInput(Cubemap{{std::move(file)}})
+                                         : Picture{std::move(file)};
+}
+
+bool find_faces(ChannelInput& input) {
+    return std::visit(Overloaded{[](Cubemap& cubemap) {
+                                     cubemap.files = cubemap_faces(cubemap.files.front());
+                                     return !cubemap.files.empty();
+                                 },
+                                 [](const auto&) { return true; }},
+                      input);
 }
 
 } // namespace tidemark::scene

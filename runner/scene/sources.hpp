@@ -13,15 +13,19 @@ namespace tidemark::scene {
 /// By the extension; what has none that we know is a picture.
 MediaKind media_kind_of(const std::filesystem::path& file);
 
-/// `noise`, `keyboard`, or a file relative to `folder`: picture, sound, video or volume. What names a pass
-/// (`self`, `buffer_a`, a shader's file) is Unbound.
-ChannelInput input_of_name(std::string_view name, const std::filesystem::path& folder);
+/// What a file is that no extension says to be something else.
+enum class PictureAs { flat, cubemap };
+
+/// `noise`, `keyboard`, or a file relative to `folder`: picture or cubemap, sound, video or volume. What
+/// names a pass (`self`, `buffer_a`, a shader's file) is Unbound.
+ChannelInput input_of_name(std::string_view name, const std::filesystem::path& folder,
+                           PictureAs picture = PictureAs::flat);
 
 /// Whether the name is that of a pass: `self`, `Buffer A`, `blur.glsl`.
 bool names_a_pass(std::string_view name);
 
-/// The six faces +x -x +y -y +z -z that fit a name with `*` or `{}` in it, by the first of the extension's
-/// sets of suffixes of which all files are there; the name alone when it has neither. Empty: none fits.
-std::vector<std::filesystem::path> cubemap_faces(const std::filesystem::path& name);
+/// Puts the six faces +x -x +y -y +z -z that fit a cubemap's name with `*` or `{}` in its place, by the first
+/// of the extension's sets of suffixes of which all files are there. False: none fits.
+bool find_faces(ChannelInput& input);
 
 } // namespace tidemark::scene

@@ -316,8 +316,8 @@ bool Viewer::scene_reads_keyboard() const {
         if (planned.keyboard_helpers)
             return true;
         for (const int channel : planned.channels)
-            if (std::holds_alternative<scene::Keyboard>(
-                    stage_->renderer().scene().passes[planned.pass].channels[size_t(channel)].input))
+            if (traits_of(stage_->renderer().scene().passes[planned.pass].channels[size_t(channel)].input)
+                    .changes == scene::Changes::with_keys)
                 return true;
     }
     return false;

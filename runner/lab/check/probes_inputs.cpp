@@ -18,8 +18,7 @@ struct Input {
 };
 
 bool comes_from_outside(const scene::Scene& scene, const scene::ChannelInput& input) {
-    return !std::holds_alternative<scene::PassOutput>(input) &&
-           scene::texture_kind(scene, input) == scene::TextureKind::flat;
+    return !source_pass(input) && scene::texture_kind(scene, input) == scene::TextureKind::flat;
 }
 
 /// Of the passes that are drawn.

@@ -58,9 +58,8 @@ std::optional<ShaderValue> literal(std::string_view digits) {
 /// "iChannel0 (Buffer A)".
 std::string channel_label(const scene::Scene& scene, const scene::Pass& pass, std::string_view sampler) {
     if (sampler.size() == 9 && sampler.starts_with("iChannel") && sampler[8] >= '0' && sampler[8] <= '3')
-        if (const auto* output =
-                std::get_if<scene::PassOutput>(&pass.channels[size_t(sampler[8] - '0')].input))
-            return fmt::format("{} ({})", sampler, scene.passes[output->pass].name);
+        if (const size_t* source = source_pass(pass.channels[size_t(sampler[8] - '0')].input))
+            return fmt::format("{} ({})", sampler, scene.passes[*source].name);
     return std::string(sampler);
 }
 

@@ -28,6 +28,9 @@ TEST(Media, by_hash_by_old_name_and_by_id) {
 }
 
 TEST(Media, stand_ins_have_the_kind_and_size_of_what_is_missing) {
+    const auto stand_in = [](MediaKind kind, const Media* media) {
+        return substitute_for(kind, media).input;
+    };
     EXPECT_EQ(stand_in(MediaKind::picture, find_media("tex14.png")),
               ChannelInput(StandIn{StandIn::Kind::picture, 256, 32, 4}));
     EXPECT_EQ(stand_in(MediaKind::picture, find_media("tex15.png")), ChannelInput(Noise{NoiseKind::bayer_8}));
@@ -38,6 +41,13 @@ TEST(Media, stand_ins_have_the_kind_and_size_of_what_is_missing) {
     // A table of other people's projects says "texture" of anything.
     EXPECT_EQ(stand_in(MediaKind::picture, find_media("cube00_0.jpg")),
               ChannelInput(StandIn{StandIn::Kind::picture, 512, 512, 4}));
+}
+
+TEST(Media, what_is_as_good_as_the_missing_has_no_name_to_warn_with) {
+    EXPECT_EQ(substitute_for(MediaKind::picture, find_media("tex15.png")).name, "");
+    EXPECT_EQ(substitute_for(MediaKind::volume, nullptr).name, "a generated volume of 32x32");
+    EXPECT_EQ(substitute_for(MediaKind::music, nullptr).name, "ShaderToy's signal for silence");
+    EXPECT_EQ(substitute_for_webcam().name, "a generated picture of 640x480");
 }
 
 using MediaFiles = SceneFolder;

@@ -1,0 +1,11 @@
+// One function for each type of a std::variant: std::visit(Overloaded{…}, variant).
+#pragma once
+
+namespace tidemark {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+
+} // namespace tidemark

@@ -1,0 +1,199 @@
+// What `iChannelN` may read: a type for each kind of input, and one table of what the house asks of a kind. A
+// new kind is a type, its place in ChannelInput and its row. Values only; nothing is loaded here.
+#pragma once
+
+#include "scene/sampling.hpp"
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace tidemark::scene {
+
+/// The kind of sampler that GLSL needs for an input.
+enum class TextureKind { flat, cube, volume };
+
+/// Nothing: reads give black. The kind is that of the sampler: a read of a cubemap pass that the project
+/// lacks still is a read of a cube.
+struct Unbound {
+    TextureKind kind = TextureKind::flat;
+    TextureKind texture() const { return kind; }
+    bool operator==(const Unbound&) const = default;
+};
+
+/// Textures of noise that we generate (image/made/noise.hpp): stand-ins for ShaderToy's with the same size,
+/// number of channels and structure.
+enum class NoiseKind {
+    rgba_256,
+    rgba_64,
+    grey_256,
+    grey_64,
+    blue_1024,
+    bayer_8,
+    grey_volume_32,
+    rgba_volume_32
+};
+struct Noise {
+    NoiseKind kind = NoiseKind::rgba_256;
+    TextureKind texture() const {
+        return kind >= NoiseKind::grey_volume_32 ? TextureKind::volume : TextureKind::flat;
+    }
+    bool operator==(const Noise&) const = default;
+};
+
+/// A picture file.
+struct Picture {
+    std::filesystem::path file;
+    bool one_channel = false; ///< one of ShaderToy's media that is red alone there, whatever the file holds
+    bool operator==(const Picture&) const = default;
+};
+
+/// What a pass of the scene drew: a buffer, or the cube of a cubemap pass. Whether that is this frame's or
+/// the last one's follows from the order of the passes (render/frame_plan.hpp).
+struct PassOutput {
+    size_t pass = 0; ///< index into Scene::passes
+    bool operator==(const PassOutput&) const = default;
+};
+
+/// Six square faces (+x -x +y -y +z -z), or one file: a cross or an equirectangular panorama.
+struct Cubemap {
+    std::vector<std::filesystem::path> files;
+    bool operator==(const Cubemap&) const = default;
+};
+
+/// ShaderToy's `.bin` volume.
+struct Volume {
+    std::filesystem::path file;
+    bool operator==(const Volume&) const = default;
+};
+
+/// 256 columns by JavaScript key code: down, pressed in this frame, toggled; and, of the texture that
+/// `#iKeyboard` means, a fourth row: released in this frame.
+struct Keyboard {
+    int rows = 3;
+    bool operator==(const Keyboard&) const = default;
+};
+
+/// Spectrum and wave of a sound file, 512 x 2; without a file the site's own signal for a silent input.
+struct Music {
+    std::filesystem::path file;
+    bool operator==(const Music&) const = default;
+};
+
+/// Frames of a video file.
+struct Video {
+    std::filesystem::path file;
+    bool operator==(const Video&) const = default;
+};
+
+/// A generated picture, cube or volume of the same kind and size in the place of one that is not to be had.
+struct StandIn {
+    enum class Kind { picture, cubemap, volume };
+    Kind kind = Kind::picture;
+    int width = 512;
+    int height = 512;
+    int channels = 4;
+    TextureKind texture() const {
+        return kind == Kind::cubemap  ? TextureKind::cube
+               : kind == Kind::volume ? TextureKind::volume
+                                      : TextureKind::flat;
+    }
+    bool operator==(const StandIn&) const = default;
+};
+
+/// A picture of one value: what a test looks at a scene with.
+struct Constant {
+    enum class Kind { black, white, nan, texel }; ///< texel: a single grey one
+    Kind kind = Kind::black;
+    bool operator==(const Constant&) const = default;
+};
+
+using ChannelInput = std::variant<Unbound, Noise, Picture, PassOutput, Cubemap, Volume, Keyboard, Music,
+                                  Video, StandIn, Constant>;
+
+/// What an input is read from, and the member of its type that names it.
+enum class ReadsFrom {
+    nothing,
+    file,  ///< `file`; it may be empty
+    files, ///< `files`
+    pass,  ///< `pass`
+};
+
+/// What makes an input another picture in another frame.
+enum class Changes { never, with_clock, with_keys, with_passes };
+
+struct InputTraits {
+    size_t kind;                ///< k_kind of its type
+    std::string_view name;      ///< as `inspect` calls one without a file
+    std::string_view site_type; ///< `ctype` in ShaderToy's JSON; empty: it is not exported
+    ReadsFrom from;
+    Changes changes;
+    bool loaded;                        ///< iChN.loaded: there is something to read
+    bool default_input;                 ///< may stand at a channel that nobody named an input for
+    std::optional<TextureKind> texture; ///< nothing: each input says it, `texture()`
+    Sampling sampling;                  ///< where a directive names it
+};
+
+template <class Kind, class... Kinds>
+consteval size_t place_of(std::type_identity<std::variant<Kinds...>>) {
+    size_t place = 0;
+    (void)((std::is_same_v<Kind, Kinds> || (++place, false)) || ...);
+    return place;
+}
+/// The place of a kind among those of ChannelInput.
+template <class Kind>
+inline constexpr size_t k_kind = place_of<Kind>(std::type_identity<ChannelInput>());
+
+// clang-format off
+inline constexpr auto k_input_traits = [] {
+    using enum ReadsFrom;
+    using enum Changes;
+    using enum TextureKind;
+    constexpr std::nullopt_t each = std::nullopt; // says it itself
+    return std::to_array<InputTraits>({
+        // kind             name             site_type   from     changes      loaded  default  texture  sampling
+        {k_kind<Unbound>,    "none",          "",         nothing, never,       false,  true,    each,    {}},
+        {k_kind<Noise>,      "noise",         "texture",  nothing, never,       true,   true,    each,    k_texture_sampling},
+        {k_kind<Picture>,    "picture",       "texture",  file,    never,       true,   false,   flat,    {}},
+        {k_kind<PassOutput>, "pass",          "buffer",   pass,    with_passes, true,   false,   each,    {}},
+        {k_kind<Cubemap>,    "cubemap",       "cubemap",  files,   never,       true,   false,   cube,    k_unflipped},
+        {k_kind<Volume>,     "volume",        "volume",   file,    never,       true,   false,   volume,  k_unflipped},
+        {k_kind<Keyboard>,   "keyboard",      "keyboard", nothing, with_keys,   true,   false,   flat,    k_keyboard_sampling},
+        {k_kind<Music>,      "silent signal", "music",    file,    with_clock,  true,   false,   flat,    {}},
+        {k_kind<Video>,      "video",         "video",    file,    with_clock,  true,   false,   flat,    {}},
+        {k_kind<StandIn>,    "stand-in",      "texture",  nothing, never,       true,   false,   each,    {}},
+        {k_kind<Constant>,   "one value",     "texture",  nothing, never,       true,   false,   flat,    {}},
+    });
+}();
+// clang-format on
+
+static_assert(
+    [] {
+        for (size_t row = 0; row < k_input_traits.size(); ++row)
+            if (k_input_traits[row].kind != row)
+                return false;
+        return k_input_traits.size() == std::variant_size_v<ChannelInput>;
+    }(),
+    "each kind of input has its row, in the order of ChannelInput");
+
+template <class Kind>
+inline constexpr const InputTraits& k_traits = k_input_traits[k_kind<Kind>];
+
+constexpr const InputTraits& traits_of(const ChannelInput& input) {
+    return k_input_traits[input.index()];
+}
+
+/// The files that it is read from.
+std::span<const std::filesystem::path> input_files(const ChannelInput& input);
+
+/// The pass that draws it; null where none does.
+const size_t* source_pass(const ChannelInput& input);
+size_t* source_pass(ChannelInput& input);
+
+} // namespace tidemark::scene
