@@ -73,15 +73,11 @@ Result<bool> Capture::run(Interrupt& interrupt) {
 }
 
 Result<void> Capture::open_output() {
-    if (plan_.output.six_faces() && renderer_.shown_pass().kind != scene::PassKind::cubemap)
-        return fail(ErrorCode::usage,
-                    fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
-                                plan_.output.pattern().string()));
     if (plan_.output.video()) {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
         auto video = image::VideoWriter::create(
             plan_.output.of_frame(0),
-            {cube ? image::k_panorama : renderer_.extent(), plan_.video_fps, sound_});
+            {cube ? image::k_panorama : renderer_.extent(), plan_.pace.fps, sound_});
         if (!video)
             return fail(std::move(video.error()));
         video_.emplace(*std::move(video));
@@ -137,7 +133,7 @@ Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, Fr
     record.milliseconds = milliseconds_since(work->start);
     work.reset();
     record.not_finite = count_not_finite(renderer_, image);
-    if (plan_.hashes) {
+    if (plan_.json) {
         Sha256 hash;
         add_rows(hash, image);
         record.sha256 = hash.digits();
@@ -193,7 +189,7 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
             return fail(std::move(made.error()));
         stream.emplace(*std::move(made));
     }
-    return std::make_unique<BandOutput>(std::move(stream), plan_.hashes);
+    return std::make_unique<BandOutput>(std::move(stream), plan_.json);
 }
 
 /// A cube is saved as the panorama that ShaderToy exports, or as its faces, which are one picture until then.

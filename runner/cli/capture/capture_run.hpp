@@ -2,13 +2,12 @@
 #pragma once
 
 #include "cli/capture/band_output.hpp"
+#include "cli/capture/capture_plan.hpp"
 #include "cli/capture/stepper.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/output_name.hpp"
 #include "cli/picture_facts.hpp"
-#include "cli/requests.hpp"
 #include "gl/capabilities.hpp"
 #include "image/files/video_writer.hpp"
 #include "render/renderer.hpp"
@@ -23,17 +22,6 @@
 #include <vector>
 
 namespace tidemark::cli {
-
-/// What is known before anything is drawn.
-struct CapturePlan {
-    FrameRequest frames;
-    OutputName output;
-    image::SampleDepth depth = image::SampleDepth::u8;
-    std::optional<double> timeout;    ///< seconds for a frame
-    bool hashes = false;              ///< SHA-256 of every frame's pixels
-    std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
-    double video_fps = 60;
-};
 
 /// One frame as `--json` reports it.
 struct FrameRecord : FrameFacts {

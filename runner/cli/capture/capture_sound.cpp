@@ -1,9 +1,6 @@
 #include "cli/capture/capture_sound.hpp"
 
-#include "base/file.hpp"
 #include "cli/console.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "platform/headless_context.hpp"
 #include "render/sound_renderer.hpp"
@@ -14,12 +11,6 @@
 #include <cmath>
 
 namespace tidemark::cli {
-namespace {
-
-/// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
-constexpr double k_longest = 3600;
-
-} // namespace
 
 Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
                                         double duration, const Interrupt& interrupt) {
@@ -43,28 +34,19 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precisi
     return samples;
 }
 
-Result<int> capture_sound(const SceneRequest& scene_request, const SoundRequest& request) {
-    if (!(request.duration > 0) || request.duration > k_longest)
-        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
-                                                  request.duration, k_longest));
+Result<int> capture_sound(const SoundPlan& plan) {
     const Interrupt interrupt;
-    const auto scene = load(scene_request);
-    if (!scene)
-        return fail(scene.error());
-    const OutputPath output = OutputPath::typed(request.output).sparing(files_read(*scene));
-    if (auto writable = check_writable(output); !writable)
-        return fail(std::move(writable.error()));
-    const auto context = platform::HeadlessContext::create(request.device);
+    const auto context = platform::HeadlessContext::create(plan.device);
     if (!context)
         return fail(context.error());
-    const auto samples = draw_sound(*scene, precision_of(scene_request), 0, request.duration, interrupt);
+    const auto samples = draw_sound(plan.scene, plan.precision, 0, plan.duration, interrupt);
     if (!samples)
         return fail(samples.error());
     if (interrupt.requested())
         return Interrupt::k_exit_code;
-    if (auto written = sound::write_wav(output, int(render::k_sample_rate), *samples); !written)
+    if (auto written = sound::write_wav(plan.output, int(render::k_sample_rate), *samples); !written)
         return fail(std::move(written.error()));
-    say(fmt::format("wrote {}", request.output));
+    say(fmt::format("wrote {}", plan.output.string()));
     return 0;
 }
 

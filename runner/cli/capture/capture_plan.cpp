@@ -1,0 +1,203 @@
+#include "cli/capture/capture_plan.hpp"
+
+#include "base/file.hpp"
+#include "cli/not_finite.hpp"
+#include "cli/sequence.hpp"
+#include "image/files/video_writer.hpp"
+#include "render/tile_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace tidemark::cli {
+namespace {
+
+using image::SampleDepth;
+using image::SampleType;
+
+/// A buffer is state: a half would make infinity of 1e6. So a pass that was asked for keeps its floats.
+SampleDepth default_depth(const OutputName& output, const std::string& pass) {
+    const SampleDepth natural = image::natural_depth(output.pattern());
+    const bool shown = pass.empty() || pass == "Image";
+    return natural == SampleDepth::half && !shown ? SampleDepth::f32 : natural;
+}
+
+Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& pass) {
+    constexpr std::pair<std::string_view, SampleDepth> k_depths[] = {{"8", SampleDepth::u8},
+                                                                     {"16", SampleDepth::u16},
+                                                                     {"half", SampleDepth::half},
+                                                                     {"float", SampleDepth::f32}};
+    const bool raw = output.standard_output() || output.video();
+    if (raw && !text.empty())
+        return fail(ErrorCode::usage, "--depth: videos and raw frames on standard output always have 8 bits");
+    if (text.empty())
+        return raw ? SampleDepth::u8 : default_depth(output, pass);
+    for (const auto& [name, depth] : k_depths)
+        if (name == text)
+            return depth;
+    return fail(ErrorCode::usage, fmt::format("--depth {}: give 8, 16, half or float", text));
+}
+
+/// A frame that is named twice (`0-9,5-14`) is one file.
+void drop_repeats(std::vector<int>& frames) {
+    std::unordered_set<int> seen;
+    std::erase_if(frames, [&](int frame) { return !seen.insert(frame).second; });
+}
+
+/// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
+constexpr double k_longest_sound = 3600;
+
+/// What the output can hold.
+Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
+    const OutputName& output = plan.output;
+    const Extent extent = plan.frames.extent;
+    if (output.video() && output.pattern().extension() == ".gif" && plan.pace.fps > image::k_fastest_gif)
+        return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
+                                                  plan.frames.fps, image::k_fastest_gif));
+    if (plan.to_picture_files()) {
+        if (auto known = image::check_picture_format(output.pattern(), plan.depth); !known)
+            return known;
+        if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
+            return fits;
+    }
+    if (options.tile && output.video())
+        return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
+    if (options.timeout && !(*options.timeout > 0))
+        return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
+    if (options.json && output.standard_output())
+        return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
+    if (std::max(extent.width, extent.height) > render::k_largest_tiled_side)
+        return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
+                                                  extent.height, render::k_largest_tiled_side));
+    return {};
+}
+
+/// What the command line says before the scene is known.
+Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
+    CapturePlan plan;
+    auto frames = resolve(options.frames);
+    if (!frames)
+        return fail(std::move(frames.error()));
+    plan.frames = *std::move(frames);
+    std::vector<int>& numbers = plan.frames.frames;
+    const size_t count = std::unordered_set(numbers.begin(), numbers.end()).size();
+    auto output = options.output ? OutputName::parse(*options.output, count)
+                                 : OutputName::of_scene(options.scene.path, count);
+    if (!output)
+        return fail(std::move(output.error()));
+    plan.output = *std::move(output);
+    if (plan.to_picture_files())
+        drop_repeats(numbers);
+    const auto depth = parse_depth(options.depth, plan.output, options.frames.pass);
+    if (!depth)
+        return fail(depth.error());
+    plan.depth = *depth;
+    plan.pace = pace_of(numbers, plan.frames.fps);
+    plan.drawing = {
+        .extent = plan.frames.extent,
+        .samples = plan.depth == SampleDepth::u8 ? SampleType::u8 : SampleType::f32,
+        .pass = options.frames.pass,
+        .precision = precision_of(options.scene),
+        .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
+        .marks_non_finite = true,
+    };
+    plan.tile_side = options.tile;
+    plan.device = options.device;
+    plan.timeout = options.timeout;
+    plan.defines = options.scene.defines;
+    plan.json = options.json;
+    plan.trace_command = [scene = options.scene, typed = options.frames](int frame) {
+        return trace_command(scene, typed, frame);
+    };
+    return check_output(plan, options).map([&] { return std::move(plan); });
+}
+
+/// What is read must not be written, even by a frame late in a sequence: it is refused before the first.
+Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan) {
+    const std::vector<std::filesystem::path> read = files_read(plan.scene, options.frames);
+    if (plan.output.standard_output())
+        return {};
+    plan.output.spare(read);
+    if (auto writable = check_writable(plan.output.of_frame(plan.frames.frames.front())); !writable)
+        return writable;
+    for (const std::filesystem::path& file : read)
+        if (const auto frame = frame_of(file, plan.output);
+            frame && std::ranges::find(plan.frames.frames, *frame) != plan.frames.frames.end())
+            if (auto place = plan.output.of_frame(*frame).place(); !place)
+                return fail(std::move(place.error()));
+    return {};
+}
+
+Result<void> check_faces(const CapturePlan& plan) {
+    const std::string& name = plan.drawing.pass;
+    const auto shown = std::ranges::find(plan.scene.passes, name.empty() ? plan.scene.image().name : name,
+                                         &scene::Pass::name);
+    const bool other = shown != plan.scene.passes.end() && shown->kind != scene::PassKind::cubemap;
+    if (plan.output.six_faces() && other)
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
+                                plan.output.pattern().string()));
+    return {};
+}
+
+/// In fewer frames a trial of another program does not pay.
+constexpr size_t k_frames_worth_a_trial = 64;
+
+/// A trial looks at the first frame that is drawn and at the last, as the sequence sees them but for what
+/// buffers hold: they are empty.
+std::optional<PlannedTrial> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
+    const FrameRequest& request = plan.frames;
+    const bool long_enough = request.frames.size() >= k_frames_worth_a_trial && !options.timeout;
+    if (options.plain || !(options.allowed_difference || long_enough))
+        return std::nullopt;
+    const int first = plan.scene.passes.size() > 1 ? 0 : request.frames.front(); // buffers begin at frame 0
+    const auto inputs_at = [&](int frame) {
+        render::FrameInputs inputs = inputs_of(request, frame);
+        if (request.input)
+            Replay(*request.input, request.camera).fill(inputs, request.extent.height);
+        return inputs;
+    };
+    return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled,
+                        {inputs_at(first), inputs_at(request.frames.back()), request.frames.size(),
+                         options.allowed_difference}};
+}
+
+} // namespace
+
+Result<CapturePlan> plan_capture(const CaptureOptions& options) {
+    auto plan = plan_of_options(options);
+    if (!plan)
+        return plan;
+    auto scene = load(options.scene);
+    if (!scene)
+        return fail(std::move(scene.error()));
+    plan->scene = *std::move(scene);
+    if (auto spared = spare_what_is_read(options, *plan); !spared)
+        return fail(std::move(spared.error()));
+    if (auto faces = check_faces(*plan); !faces)
+        return fail(std::move(faces.error()));
+    plan->trial = plan_trial(options, *plan);
+    return plan;
+}
+
+bool wants_sound(const CaptureOptions& options) {
+    return options.output && std::filesystem::path(*options.output).extension() == ".wav";
+}
+
+Result<SoundPlan> plan_sound(const CaptureOptions& options) {
+    if (!(options.duration > 0) || options.duration > k_longest_sound)
+        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
+                                                  options.duration, k_longest_sound));
+    auto scene = load(options.scene);
+    if (!scene)
+        return fail(std::move(scene.error()));
+    OutputPath output = OutputPath::typed(*options.output).sparing(files_read(*scene));
+    if (auto writable = check_writable(output); !writable)
+        return fail(std::move(writable.error()));
+    return SoundPlan{*std::move(scene), std::move(output), options.device, precision_of(options.scene),
+                     options.duration};
+}
+
+} // namespace tidemark::cli

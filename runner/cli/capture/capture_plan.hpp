@@ -1,0 +1,75 @@
+// What `tidemark capture` was told, and what that comes to: the scene, its frames, how they are drawn and
+// where they go. What is wrong with the command line is said here, but for what only the driver or the
+// compiled scene knows; behind the plan nobody reads the options.
+#pragma once
+
+#include "cli/capture/video_pace.hpp"
+#include "cli/options.hpp"
+#include "cli/output_name.hpp"
+#include "cli/trial.hpp"
+#include "image/files/picture_file.hpp"
+#include "render/renderer.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+struct CaptureOptions {
+    SceneRequest scene;
+    FrameOptions frames;
+    std::optional<std::string> output;
+    std::string depth;
+    std::string device = "auto";
+    std::optional<double> timeout;
+    double duration = 60;
+    bool plain = false;
+    std::optional<double> allowed_difference;
+    std::optional<int> tile;
+    bool json = false;
+};
+
+/// A trial of a program that is specialised further than `CapturePlan::drawing` says.
+struct PlannedTrial {
+    glsl::Specialise as_far_as = glsl::Specialise::settled;
+    TrialPlan frames;
+};
+
+struct CapturePlan {
+    scene::Scene scene;
+    FrameRequest frames;
+    OutputName output;
+    image::SampleDepth depth = image::SampleDepth::u8;
+    VideoPace pace;                ///< of a video
+    render::RenderOptions drawing; ///< frames drawn whole
+    std::optional<int> tile_side;
+    std::optional<PlannedTrial> trial;
+    std::string device;
+    std::optional<double> timeout;    ///< seconds for a frame
+    std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
+    bool json = false;                ///< reports the frames, with the SHA-256 of their pixels
+    /// The command that finds where a pixel of that frame stops being a number.
+    std::function<std::string(int frame)> trace_command;
+
+    bool to_picture_files() const { return !output.standard_output() && !output.video(); }
+};
+
+/// Loads the scene, too, and prints its warnings.
+Result<CapturePlan> plan_capture(const CaptureOptions& options);
+
+/// The sound of a scene instead of its pictures.
+struct SoundPlan {
+    scene::Scene scene;
+    OutputPath output;
+    std::string device;
+    glsl::Precision precision = glsl::Precision::single;
+    double duration = 60; ///< seconds
+};
+
+/// Whether `-o x.wav` asks for that.
+bool wants_sound(const CaptureOptions& options);
+Result<SoundPlan> plan_sound(const CaptureOptions& options);
+
+} // namespace tidemark::cli
