@@ -229,6 +229,16 @@ class Explained(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr),
                          (2, "", "tidemark: error: no topic 'keyz': did you mean 'keys'?\n"))
 
+    def test_every_stage_is_where_the_pipeline_says(self) -> None:
+        table = ROOMS.read_text().partition("\n## Pipeline\n")[2].partition("\n## ")[0]
+        rows = re.findall(r"^\| (`.*?`) \| (`.*?`) \|", table, re.MULTILINE)
+        self.assertGreater(len(rows), 4)
+        for types, files in rows:
+            text = "".join((ROOT / "runner" / file).read_text() for file in re.findall(r"`([^`]+)`", files))
+            for name in re.findall(r"(\w+)`", types):
+                with self.subTest(type=name):
+                    self.assertRegex(text, rf"\b(struct|class|using) {name}\b")
+
     def test_every_room_stands_in_the_table(self) -> None:
         rooms = {path.name for path in (ROOT / "runner").glob("*/") if path.is_dir()}
         rooms |= {path.name for path in (ROOT / "runner").glob("*/*") if path.is_dir() and path.parts[-2] != "cli"}
