@@ -19,13 +19,6 @@ namespace {
 using Kind = ProjectPass::Kind;
 using PassFiles = std::vector<std::pair<PassName, fs::path>>;
 
-PassKind kind_of(Kind kind) {
-    return kind == Kind::buffer    ? PassKind::buffer
-           : kind == Kind::cubemap ? PassKind::cubemap
-           : kind == Kind::sound   ? PassKind::sound
-                                   : PassKind::image;
-}
-
 Scene scene_of(const fs::path& folder) {
     Scene scene;
     scene.file = folder;

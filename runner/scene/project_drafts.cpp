@@ -9,17 +9,6 @@ namespace {
 
 using Kind = ProjectPass::Kind;
 
-PassKind kind_of(Kind kind) {
-    switch (kind) {
-    case Kind::buffer: return PassKind::buffer;
-    case Kind::cubemap: return PassKind::cubemap;
-    case Kind::sound: return PassKind::sound;
-    case Kind::common:
-    case Kind::image: break;
-    }
-    return PassKind::image;
-}
-
 /// Whether a later pass takes this one's place: each but the buffers and Common is there once.
 bool is_replaced(const Project& project, size_t pass) {
     const Kind kind = project.passes[pass].kind;
@@ -33,6 +22,17 @@ std::string_view word_for(Kind kind) {
 }
 
 } // namespace
+
+PassKind kind_of(PassName::Kind kind) {
+    switch (kind) {
+    case Kind::buffer: return PassKind::buffer;
+    case Kind::cubemap: return PassKind::cubemap;
+    case Kind::sound: return PassKind::sound;
+    case Kind::common:
+    case Kind::image: break;
+    }
+    return PassKind::image;
+}
 
 Result<ProjectDrafts> draft_project(Scene& scene, InputReader::Context context) {
     const Project& project = context.project;

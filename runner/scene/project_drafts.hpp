@@ -11,6 +11,9 @@
 
 namespace tidemark::scene {
 
+/// What a tab of that kind becomes: Common is none, and counts as Image.
+PassKind kind_of(PassName::Kind kind);
+
 struct ProjectDrafts {
     std::vector<Draft> drafts;
     std::vector<size_t> order; ///< of drawing
