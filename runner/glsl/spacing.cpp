@@ -27,9 +27,11 @@ public:
                 note(macro);
         if (functions_.empty() && trailing_.empty())
             return {};
-        read_uses();
+        for (size_t i = 1; i < tokens_.size(); ++i)
+            if (tokens_[i].glued && may_meet(i))
+                edits_.push_back({tokens_[i].begin, tokens_[i].begin, " "});
         for (const MacroLine& macro : preprocessed_.macros)
-            if (signed_calls_.contains(macro.name))
+            if (macro.parameters)
                 space_parameters(macro);
         return std::move(edits_);
     }
@@ -37,35 +39,18 @@ public:
 private:
     void note(const MacroLine& macro) {
         if (macro.parameters)
-            functions_[macro.name] =
-                is_sign(tokens_[macro.body]) ? tokens_[macro.body].text : std::string_view{};
+            functions_.insert(macro.name);
         else if (is_sign(tokens_[macro.end - 1]) && macro.end > macro.body + 1)
             trailing_[macro.name] = tokens_[macro.end - 1].text;
     }
 
-    /// One pass over all calls: which meet a sign, and which are given one.
-    void read_uses() {
-        std::vector<std::string_view> calls; // for each open parenthesis, the macro it belongs to
-        for (size_t i = 1; i < tokens_.size(); ++i) {
-            const Token& token = tokens_[i];
-            const Token& before = tokens_[i - 1];
-            if (token.is("(")) {
-                calls.push_back(functions_.contains(before.text) ? before.text : std::string_view{});
-            } else if (token.is(")")) {
-                if (!calls.empty())
-                    calls.pop_back();
-            } else if (is_sign(token)) {
-                if (!calls.empty() && !calls.back().empty() && (before.is("(") || before.is(",")))
-                    signed_calls_.insert(calls.back());
-                const auto ending = trailing_.find(before.text);
-                if (ending != trailing_.end() && ending->second == token.text && token.glued)
-                    edits_.push_back({token.begin, token.begin, " "});
-            } else if (token.kind == TokenKind::identifier && token.glued && is_sign(before)) {
-                const auto called = functions_.find(token.text);
-                if (called != functions_.end() && called->second == before.text)
-                    edits_.push_back({token.begin, token.begin, " "});
-            }
-        }
+    /// What a macro with parameters stands for may begin with a sign, its own or an argument's.
+    bool may_meet(size_t i) const {
+        const Token& before = tokens_[i - 1];
+        if (is_sign(before))
+            return functions_.contains(tokens_[i].text);
+        const auto ending = is_sign(tokens_[i]) ? trailing_.find(before.text) : trailing_.end();
+        return ending != trailing_.end() && ending->second == tokens_[i].text;
     }
 
     void space_parameters(const MacroLine& macro) {
@@ -79,9 +64,8 @@ private:
 
     const std::vector<Token>& tokens_;
     const Preprocessed& preprocessed_;
-    std::unordered_map<std::string_view, std::string_view> functions_; ///< with the sign they begin with
-    std::unordered_map<std::string_view, std::string_view> trailing_;  ///< with the sign they end in
-    std::unordered_set<std::string_view> signed_calls_; ///< called with an argument that begins with a sign
+    std::unordered_set<std::string_view> functions_;                  ///< macros with parameters
+    std::unordered_map<std::string_view, std::string_view> trailing_; ///< with the sign they end in
     std::vector<Edit> edits_;
 };
 
