@@ -1,7 +1,5 @@
 #include "cli/controls.hpp"
 
-#include <glm/matrix.hpp>
-
 namespace tidemark::cli {
 
 using platform::Button;
@@ -69,12 +67,12 @@ bool Controls::take(const CameraReset&) {
     return true;
 }
 
-void Controls::fill(render::FrameInputs& inputs) const {
-    inputs.mouse = mouse_.uniform();
-    inputs.keyboard = keyboard_.texels();
-    inputs.mouse_button = {turning_ ? 1 : 0, right_down_ ? 1 : 0};
-    inputs.camera = camera_.matrix();
-    inputs.view = inverse(initial_camera_.matrix()) * inputs.camera;
+void Controls::fill(render::FrameState& state) const {
+    state.mouse = mouse_;
+    state.right_button = right_down_;
+    state.keys = keyboard_.texels();
+    state.camera = camera_;
+    state.initial_camera = initial_camera_;
 }
 
 void Controls::frame_drawn() {

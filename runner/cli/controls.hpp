@@ -3,10 +3,7 @@
 #pragma once
 
 #include "platform/input.hpp"
-#include "render/frame_inputs.hpp"
-#include "render/keyboard.hpp"
-#include "render/mouse.hpp"
-#include "render/orbit_camera.hpp"
+#include "render/frame_state.hpp"
 
 #include <variant>
 
@@ -29,9 +26,8 @@ public:
     /// `height` in pixels of what is drawn. True when a uniform may have changed.
     bool handle(const ControlEvent& event, double height);
 
-    /// Sets iMouse, iMouseButton, the keyboard, iCamera and iViewMatrix.
-    void fill(render::FrameInputs& inputs) const;
-    const render::OrbitCamera& camera() const { return camera_; }
+    /// Sets the mouse, the keys and the camera.
+    void fill(render::FrameState& state) const;
     /// To be called when a frame has been drawn: what was new in it is then no longer new.
     void frame_drawn();
 

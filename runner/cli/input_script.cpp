@@ -216,22 +216,22 @@ void Replay::note(int frame, const ControlEvent& event) {
     script_.push_back({frame, event});
 }
 
-void Replay::fill(render::FrameInputs& inputs, double height) {
-    if (inputs.frame < frame_) {
+void Replay::fill(render::FrameState& state) {
+    if (state.frame < frame_) {
         controls_ = Controls(camera_);
         next_ = 0;
         frame_ = 0;
     }
-    for (; next_ < script_.size() && script_[next_].frame <= inputs.frame; ++next_) {
+    for (; next_ < script_.size() && script_[next_].frame <= state.frame; ++next_) {
         if (script_[next_].frame > frame_)
             controls_.frame_drawn();
         frame_ = script_[next_].frame;
-        controls_.handle(script_[next_].event, height);
+        controls_.handle(script_[next_].event, state.extent.height);
     }
-    if (inputs.frame > frame_)
+    if (state.frame > frame_)
         controls_.frame_drawn();
-    frame_ = inputs.frame;
-    controls_.fill(inputs);
+    frame_ = state.frame;
+    controls_.fill(state);
 }
 
 } // namespace tidemark::cli

@@ -42,17 +42,14 @@ public:
     Replay(InputScript script, const render::OrbitCamera& camera)
         : script_(std::move(script)), camera_(camera), controls_(camera) {}
 
-    /// Sets what the events up to inputs.frame make of the mouse, the keyboard and the camera. `height` in
-    /// pixels of what is drawn.
-    void fill(render::FrameInputs& inputs, double height);
+    /// Sets what the events up to the state's frame make of the mouse, the keyboard and the camera.
+    void fill(render::FrameState& state);
 
     /// Adds what happens before `frame`, after `go_back` to it.
     void note(int frame, const ControlEvent& event);
     /// Forgets what comes after `frame`, which is the next to be filled.
     void go_back(int frame);
     const InputScript& script() const { return script_; }
-    /// As it was filled in last.
-    const render::OrbitCamera& camera() const { return controls_.camera(); }
 
 private:
     InputScript script_;

@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-
 namespace tidemark::cli {
 
 size_t count_not_finite(const render::Renderer& renderer, image::Image& picture) {
@@ -26,29 +23,18 @@ std::string pixels_are(size_t count, const std::string& when) {
     return fmt::format("{} pixel{} {} {}", count, count > 1 ? "s" : "", when, count > 1 ? "are" : "is");
 }
 
-std::string trace_command(const SceneRequest& scene, const FrameOptions& frames, int frame) {
+std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
+                          const render::FrameState& state) {
+    render::FrameState typed = state;
+    std::vector<std::string> recording;
+    if (sequence.input) {
+        typed.mouse = sequence.state.mouse;
+        typed.camera = sequence.state.camera;
+        recording = {"--input", sequence.input_file};
+    }
     std::vector<std::string> words{"tidemark", "check", "--trace", file_word(scene.path)};
-    const auto add = [&](const char* option, const std::string& value) {
-        words.insert(words.end(), {option, value});
-    };
-    const auto add_given = [&](const char* option, const std::optional<std::string>& value) {
-        if (value)
-            add(option, *value);
-    };
-    if (frames.time)
-        add("--time", fmt::format("{}", *frames.time));
-    else
-        add("--frame", fmt::format("{}", frame));
-    add("--size", frames.size);
-    if (frames.fps != FrameOptions{}.fps)
-        add("--fps", fmt::format("{}", frames.fps));
-    add_given("--mouse", frames.mouse);
-    add_given("--date", frames.date);
-    add_given("--camera", frames.camera);
-    add_given("--input", frames.input);
-    if (!frames.pass.empty())
-        add("--pass", frames.pass);
-    std::ranges::copy(option_words(scene), std::back_inserter(words));
+    for (const auto& more : {option_words(typed), recording, option_words(scene)})
+        words.insert(words.end(), more.begin(), more.end());
     return shell_words(words);
 }
 

@@ -100,45 +100,49 @@ std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const F
     return files;
 }
 
-Result<FrameRequest> resolve(const FrameOptions& options) {
-    FrameRequest request;
+Result<FrameSequence> resolve(const FrameOptions& options) {
+    FrameSequence sequence;
+    render::FrameState& state = sequence.state;
     const auto keep = [](auto&& parsed, auto& place) -> Result<void> {
         if (!parsed)
             return fail(parsed.error());
         place = *parsed;
         return {};
     };
-    if (auto size = keep(parse_size(options.size), request.extent); !size)
+    if (auto size = keep(parse_size(options.size), state.extent); !size)
         return fail(size.error());
     if (!(options.fps > 0) || !std::isfinite(options.fps))
         return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", options.fps));
-    request.fps = options.fps;
+    state.fps = options.fps;
     if (options.frame && (*options.frame < 0 || *options.frame > render::k_last_frame))
         return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0 to {}", *options.frame,
                                                   render::k_last_frame));
     if (options.frame)
-        request.frames = {*options.frame};
+        sequence.frames = {*options.frame};
     if (options.time && !std::isfinite(*options.time))
         return fail(ErrorCode::usage, "--time: give a finite number of seconds");
-    request.time = options.time;
-    if (options.time)
-        request.frames = {render::frame_at(*options.time, options.fps)};
+    if (options.time) {
+        state = render::at_time(*options.time, state);
+        sequence.frames = {state.frame};
+    }
     if (options.frames)
-        if (auto frames = keep(parse_frames(*options.frames), request.frames); !frames)
+        if (auto frames = keep(parse_frames(*options.frames), sequence.frames); !frames)
             return fail(frames.error());
     if (options.mouse)
-        if (auto mouse = keep(parse_mouse(*options.mouse), request.mouse); !mouse)
+        if (auto mouse = keep(parse_mouse(*options.mouse), state.mouse); !mouse)
             return fail(mouse.error());
     if (options.date)
-        if (auto date = keep(render::parse_date(*options.date), request.date); !date)
+        if (auto date = keep(render::parse_date(*options.date), state.date); !date)
             return fail(date.error());
     if (options.camera)
-        if (auto camera = keep(render::parse_camera(*options.camera), request.camera); !camera)
+        if (auto camera = keep(render::parse_camera(*options.camera), state.camera); !camera)
             return fail(camera.error());
+    state.pass = options.pass;
+    sequence.input_file = options.input.value_or("");
     if (options.input)
-        if (auto input = keep(load_input_script(*options.input), request.input); !input)
+        if (auto input = keep(load_input_script(*options.input), sequence.input); !input)
             return fail(input.error());
-    return request;
+    return sequence;
 }
 
 } // namespace tidemark::cli

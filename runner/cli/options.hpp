@@ -47,6 +47,6 @@ void add_time_options(CLI::App& command, FrameOptions& options);
 std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options = {});
 
 /// Checks them all. An error names the option and what to give.
-Result<FrameRequest> resolve(const FrameOptions& options);
+Result<FrameSequence> resolve(const FrameOptions& options);
 
 } // namespace tidemark::cli

@@ -6,21 +6,21 @@
 
 namespace tidemark::cli {
 
-std::string to_string(const render::OrbitCamera& camera) {
+std::string camera_fact(const render::OrbitCamera& camera) {
     const glm::dvec3& target = camera.target;
-    return fmt::format("{},{},{}", camera.azimuth, camera.elevation, camera.distance) +
+    return to_string(camera) +
            (target == glm::dvec3(0) ? "" : fmt::format(" around {},{},{}", target.x, target.y, target.z));
 }
 
 std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene,
-                                                             const FrameFacts& facts) {
-    const glm::vec4& mouse = facts.mouse;
+                                                             const render::FrameState& state) {
+    const glm::vec4 mouse = state.mouse.uniform();
     std::vector<std::pair<std::string, std::string>> metadata{
         {"Scene", scene.file.string()},
-        {"Frame", fmt::format("{}", facts.frame)},
-        {"iTime", fmt::format("{}", facts.time)},
+        {"Frame", fmt::format("{}", state.frame)},
+        {"iTime", fmt::format("{}", state.seconds())},
         {"iMouse", fmt::format("{},{},{},{}", mouse.x, mouse.y, mouse.z, mouse.w)},
-        {"Camera", to_string(facts.camera)},
+        {"Camera", camera_fact(state.camera)},
         {"Software", fmt::format("tidemark {}", k_version)}};
     std::string knobs;
     for (const scene::Knob& knob : scene.knobs)

@@ -9,20 +9,12 @@
 
 namespace tidemark::cli {
 
-/// Of one frame.
-struct FrameFacts {
-    int frame = 0;
-    double time = 0; ///< iTime
-    glm::vec4 mouse{0};
-    render::OrbitCamera camera{};
-};
-
 /// Names and values of a picture's metadata (image::PictureFormat): the scene with its knobs, the frame with
 /// its mouse and camera as the options have them, the program.
 std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene,
-                                                             const FrameFacts& facts);
+                                                             const render::FrameState& state);
 
 /// `AZ,EL,DIST`, and what it looks at where that is not the origin.
-std::string to_string(const render::OrbitCamera& camera);
+std::string camera_fact(const render::OrbitCamera& camera);
 
 } // namespace tidemark::cli

@@ -2,7 +2,7 @@
 
 #include "cli/console.hpp"
 #include "glsl/overrides.hpp"
-#include "render/mouse.hpp"
+#include "render/frame_fields.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/overrides.hpp"
 
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 
 namespace tidemark::cli {
 namespace {
@@ -65,6 +66,35 @@ bool take_range(std::string_view& text, std::vector<int>& frames) {
     return true;
 }
 
+/// A value as its option takes it.
+struct Typed {
+    std::string operator()(double number) const { return fmt::format("{}", number); }
+    std::string operator()(const std::optional<double>& number) const { return fmt::format("{}", *number); }
+    std::string operator()(const Extent& size) const { return fmt::format("{}x{}", size.width, size.height); }
+    std::string operator()(const render::Mouse& mouse) const {
+        const glm::vec2 at = mouse.position, from = mouse.pressed_at;
+        const bool dragged = at != from || (mouse.down && !mouse.is_new);
+        return fmt::format("{},{}{}{}", at.x, at.y, dragged ? fmt::format(",{},{}", from.x, from.y) : "",
+                           mouse.down ? k_down : "");
+    }
+    std::string operator()(const render::Date& date) const {
+        const int minutes = int(date.seconds / 60);
+        return fmt::format("{}-{:02}-{:02}T{:02}:{:02}:{}", date.year, date.month + 1, date.day, minutes / 60,
+                           minutes % 60, date.seconds - 60 * minutes);
+    }
+    std::string operator()(const render::OrbitCamera& camera) const { return to_string(camera); }
+    std::string operator()(const scene::Setting& setting) const { return setting.name + "=" + setting.value; }
+    std::string operator()(const std::string& text) const { return text; }
+};
+
+/// Whether a state's words are wrong, or another state's, without the field.
+template <class T>
+bool must_be_said(const render::FrameState& state, const render::FrameField<T>& field) {
+    if (field.option == "--frame")
+        return !state.time;
+    return field.option == "--size" || state.*field.member != render::FrameState().*field.member;
+}
+
 void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Diagnostic>& said) {
     for (const Diagnostic& warning : warnings)
         if (std::ranges::find(said, warning) == said.end())
@@ -87,6 +117,26 @@ std::vector<std::string> option_words(const SceneRequest& request) {
     if (request.files.allow_outside)
         words.emplace_back("--allow-outside");
     return words;
+}
+
+std::vector<std::string> option_words(const render::FrameState& state) {
+    std::vector<std::string> words;
+    const auto add = [&words]<class T>(std::string_view option, const T& value) {
+        if constexpr (std::invocable<Typed, T>)
+            words.insert(words.end(), {std::string(option), Typed{}(value)});
+        else if constexpr (requires { Typed{}(value.front()); })
+            for (const auto& each : value)
+                words.insert(words.end(), {std::string(option), Typed{}(each)});
+    };
+    render::for_each_field([&](const auto& field) {
+        if (!field.option.empty() && must_be_said(state, field))
+            add(field.option, state.*field.member);
+    });
+    return words;
+}
+
+std::string to_string(const render::OrbitCamera& camera) {
+    return fmt::format("{},{},{}", camera.azimuth, camera.elevation, camera.distance);
 }
 
 Result<scene::Scene> load_as_written(const SceneRequest& request) {
@@ -143,15 +193,16 @@ glsl::Precision precision_of(const SceneRequest& request) {
                                    : glsl::Precision::promoted;
 }
 
-render::FrameInputs inputs_of(const FrameRequest& request, int frame) {
-    render::FrameInputs inputs = render::inputs_of_frame(frame, request.fps);
-    if (request.time) // the frames that lead to it go before it
-        inputs.time = *request.time - (render::frame_at(*request.time, request.fps) - frame) / request.fps;
-    inputs.mouse = request.mouse;
-    inputs.mouse_button.x = request.mouse.z > 0 || request.mouse.w > 0 ? 1 : 0;
-    inputs.date = render::later(request.date, inputs.time);
-    inputs.camera = request.camera.matrix();
-    return inputs;
+render::FrameStates states_of(const FrameSequence& sequence) {
+    std::optional<Replay> replay;
+    if (sequence.input)
+        replay.emplace(*sequence.input, sequence.state.camera);
+    return [state = sequence.state, replay = std::move(replay)](int frame) mutable {
+        render::FrameState seen = state.at_frame(frame);
+        if (replay)
+            replay->fill(seen);
+        return seen;
+    };
 }
 
 Result<Extent> parse_size(std::string_view text) {
@@ -178,7 +229,7 @@ Result<std::vector<int>> parse_frames(std::string_view text) {
     return frames;
 }
 
-Result<glm::vec4> parse_mouse(std::string_view text) {
+Result<render::Mouse> parse_mouse(std::string_view text) {
     glm::dvec2 at{0};
     std::string_view rest = text;
     bool good = take(rest, at);
@@ -194,7 +245,7 @@ Result<glm::vec4> parse_mouse(std::string_view text) {
                         "before its end, in pixels from the bottom left",
                         text));
     const bool down = !rest.empty();
-    return from ? render::Mouse::dragged(*from, at, down) : render::Mouse::clicked(at.x, at.y, down);
+    return from ? render::Mouse::dragged(*from, at, down) : render::Mouse::clicked(at, down);
 }
 
 } // namespace tidemark::cli

@@ -6,12 +6,9 @@
 #include "base/result.hpp"
 #include "cli/input_script.hpp"
 #include "glsl/dialect.hpp"
-#include "render/frame_inputs.hpp"
-#include "render/orbit_camera.hpp"
+#include "render/frame_state.hpp"
 #include "scene/load_options.hpp"
 #include "scene/scene.hpp"
-
-#include <glm/vec4.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -54,20 +51,19 @@ Result<scene::Scene> load_as_written(const SceneRequest& request);
 Result<void> apply_options(const SceneRequest& request, scene::Scene& scene);
 
 /// Which frames, and what they see.
-struct FrameRequest {
-    Extent extent{640, 360};
-    double fps = 60;
+struct FrameSequence {
+    render::FrameState state{}; ///< of all of them, but for their number and time
     std::vector<int> frames{0};
-    std::optional<double> time; ///< --time: what the frame it falls in has instead of frame / fps
-    glm::vec4 mouse{0};
-    render::Date date{}; ///< at iTime 0
-    render::OrbitCamera camera{};
-    std::optional<InputScript> input{}; ///< instead of a person, or of `mouse` and `camera` that stand still
+    std::optional<InputScript> input{}; ///< instead of a person, or of a mouse and a camera that stand still
+    std::string input_file{};           ///< that it was read from
 };
 
-/// The inputs of one of the request's frames; depends on nothing else, so that a frame asked for alone
-/// equals the same frame of a sequence.
-render::FrameInputs inputs_of(const FrameRequest& request, int frame);
+/// What each frame of the sequence's run sees. Depends on nothing but its number, so that a frame asked for
+/// alone equals the same frame of a sequence.
+render::FrameStates states_of(const FrameSequence& sequence);
+
+/// The words that bring a state back, as they are typed behind the scene.
+std::vector<std::string> option_words(const render::FrameState& state);
 
 /// `640x360`.
 Result<Extent> parse_size(std::string_view text);
@@ -75,8 +71,11 @@ Result<Extent> parse_size(std::string_view text);
 /// OpenImageIO's frame ranges: `7`, `1-10`, `1-10x3`, `10-1`, several with commas; inclusive; from 0.
 Result<std::vector<int>> parse_frames(std::string_view text);
 
-/// `x,y` or `x,y,down`: iMouse after a click at that pixel, or in the very frame of the press;
+/// `x,y` or `x,y,down`: after a click at that pixel, or in the very frame of the press;
 /// `x,y,from_x,from_y` or `x,y,from_x,from_y,down`: after a drag to that pixel, or before its end.
-Result<glm::vec4> parse_mouse(std::string_view text);
+Result<render::Mouse> parse_mouse(std::string_view text);
+
+/// `AZIMUTH,ELEVATION,DISTANCE`.
+std::string to_string(const render::OrbitCamera& camera);
 
 } // namespace tidemark::cli

@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 #include "scene/scene.hpp"
+#include "scene/setting.hpp"
 
 #include <string>
 #include <string_view>
@@ -11,13 +12,7 @@
 
 namespace tidemark::lab {
 
-/// One knob and what it is set to, as a person writes it.
-struct Setting {
-    std::string name;
-    std::string value;
-
-    bool operator==(const Setting&) const = default;
-};
+using scene::Setting;
 
 /// One knob and all values that a study gives it, from the coarsest to the strictest.
 struct Axis {

@@ -39,19 +39,17 @@ double LiveClock::time_at(double now) const {
     return paused_ ? time_ : time_ + (now - resumed_at_);
 }
 
-FrameInputs LiveClock::next_frame(double now) {
-    FrameInputs inputs;
-    inputs.frame = next_frame_;
-    inputs.time = time_at(now);
-    inputs.time_delta = fresh_ || paused_ ? k_usual_delta : now - drawn_at_;
+FrameState LiveClock::next_frame(double now) {
     measure_rate(now);
-    inputs.frame_rate = frame_rate_;
-    if (frames_per_second_)
-        inputs = inputs_of_frame(next_frame_, *frames_per_second_);
+    FrameState state{.frame = next_frame_, .fps = frames_per_second_.value_or(frame_rate_)};
+    if (!frames_per_second_) {
+        state.time = time_at(now);
+        state.time_delta = fresh_ || paused_ ? k_usual_delta : now - drawn_at_;
+    }
     ++next_frame_;
     drawn_at_ = now;
     fresh_ = false;
-    return inputs;
+    return state;
 }
 
 void LiveClock::measure_rate(double now) {

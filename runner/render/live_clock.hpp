@@ -2,7 +2,7 @@
 // with pause, step and restart. Told what time it is by its caller, so that it can be tested without waiting.
 #pragma once
 
-#include "render/frame_inputs.hpp"
+#include "render/frame_state.hpp"
 
 #include <optional>
 
@@ -28,7 +28,7 @@ public:
     void rest() { fresh_ = true; }
 
     /// The frame to draw now. Counts it.
-    FrameInputs next_frame(double now);
+    FrameState next_frame(double now);
     /// iTime at that moment.
     double time(double now) const { return time_at(now); }
     int next_frame_number() const { return next_frame_; }

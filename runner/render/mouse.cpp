@@ -5,41 +5,41 @@
 namespace tidemark::render {
 
 void Mouse::press(double x, double y) {
-    down_ = true;
-    clicked_ = true;
+    down = true;
+    is_new = true;
     move(x, y);
-    pressed_at_ = position_;
+    pressed_at = position;
 }
 
 void Mouse::move(double x, double y) {
-    if (down_)
-        position_ = {float(std::floor(x)) + 0.0f, float(std::floor(y)) + 0.0f}; // -0 + 0 is 0
+    if (down)
+        position = {float(std::floor(x)) + 0.0f, float(std::floor(y)) + 0.0f}; // -0 + 0 is 0
 }
 
 glm::vec4 Mouse::uniform() const {
     // 0 - x rather than -x: a press at pixel 0 must not give a negative zero.
-    return {position_.x, position_.y, down_ ? pressed_at_.x : 0 - pressed_at_.x,
-            clicked_ ? pressed_at_.y : 0 - pressed_at_.y};
+    return {position.x, position.y, down ? pressed_at.x : 0 - pressed_at.x,
+            is_new ? pressed_at.y : 0 - pressed_at.y};
 }
 
-glm::vec4 Mouse::clicked(double x, double y, bool now) {
+Mouse Mouse::clicked(glm::dvec2 at, bool now) {
     Mouse mouse;
-    mouse.press(x, y);
+    mouse.press(at.x, at.y);
     if (!now) {
         mouse.frame_drawn();
         mouse.release();
     }
-    return mouse.uniform();
+    return mouse;
 }
 
-glm::vec4 Mouse::dragged(glm::dvec2 from, glm::dvec2 to, bool held) {
+Mouse Mouse::dragged(glm::dvec2 from, glm::dvec2 to, bool held) {
     Mouse mouse;
     mouse.press(from.x, from.y);
     mouse.frame_drawn();
     mouse.move(to.x, to.y);
     if (!held)
         mouse.release();
-    return mouse.uniform();
+    return mouse;
 }
 
 } // namespace tidemark::render

@@ -18,6 +18,8 @@ struct OrbitCamera {
     double distance = 10;  ///< positive
     glm::dvec3 target{0};
 
+    bool operator==(const OrbitCamera&) const = default;
+
     /// A drag by so many pixels in a window `height` pixels high: once across turns by half a circle.
     void turn(double dx, double dy, double height);
     /// A wheel by so many notches, towards the target when positive.

@@ -13,20 +13,20 @@ protected:
         EXPECT_TRUE(answer) << to_string(answer.error());
         return *answer;
     }
-    Result<image::Image> drawn(const Situation& situation) const {
-        return ProbeBench(scene_of(k_scene), {}).picture(situation);
+    Result<image::Image> drawn(const FrameState& state) const {
+        return ProbeBench(scene_of(k_scene), {}).picture(state);
     }
     static constexpr const char* k_scene =
         "void mainImage(out vec4 c, in vec2 p) { c = vec4(sin(p.x) / p.y, 0.0, iTime, 1.0); }";
 };
 
 TEST_F(Threads, TheSameBytesPass) {
-    const Answer answer = ask([this](const Situation& where) { return drawn(where); });
+    const Answer answer = ask([this](const FrameState& where) { return drawn(where); });
     EXPECT_EQ(answer.verdict, Verdict::pass) << answer.sentence;
 }
 
 TEST_F(Threads, OnePixelThatIsAnotherFails) {
-    const Answer answer = ask([this](const Situation& where) {
+    const Answer answer = ask([this](const FrameState& where) {
         auto picture = drawn(where);
         picture->bytes[3 * 4 * 4321] ^= std::byte{1};
         return picture;
@@ -39,7 +39,7 @@ TEST_F(Threads, OnePixelThatIsAnotherFails) {
 TEST_F(Threads, WithoutAWayToDrawSoThereIsNoAnswer) {
     EXPECT_EQ(ask({}).verdict, Verdict::not_applicable);
     const Answer answer =
-        ask([](const Situation&) -> Result<image::Image> { return fail(ErrorCode::timed_out, "too slow"); });
+        ask([](const FrameState&) -> Result<image::Image> { return fail(ErrorCode::timed_out, "too slow"); });
     EXPECT_EQ(answer.verdict, Verdict::not_applicable);
     EXPECT_EQ(answer.sentence, "not to be had: too slow");
 }

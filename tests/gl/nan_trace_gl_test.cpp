@@ -63,7 +63,7 @@ Result<std::optional<NanTrace>> trace(const fs::path& file, bool hidden, int fra
     if (!renderer)
         return fail(std::move(renderer.error()));
     TraceRequest request;
-    request.inputs = [](int at) { return render::inputs_of_frame(at, 60); };
+    request.states = [](int at) { return render::FrameState{.frame = at}; };
     request.hidden = hidden;
     request.frame = frame;
     return trace_nan(*renderer, request);

@@ -70,9 +70,9 @@ Result<render::Renderer> compile(const CapturePlan& plan, Interrupt& interrupt) 
 
 void say_what_was_written(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
     if (plan.output.video())
-        say(fmt::format("wrote {}: {} frames{}", records.front().file, records.size(),
-                        plan.pace.fps == plan.frames.fps ? ""
-                                                         : fmt::format(", {:.4g} a second", plan.pace.fps)));
+        say(fmt::format(
+            "wrote {}: {} frames{}", records.front().file, records.size(),
+            plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
     else if (records.size() == 1)
         say(fmt::format("wrote {}", records.front().file));
     else if (!records.empty())
@@ -88,10 +88,10 @@ void say_what_is_not_finite(const std::vector<FrameRecord>& records, const Captu
         return;
     const auto others = std::ranges::count_if(first + 1, records.end(), bad);
     say(fmt::format("warning: {} not finite{}; where from: {}",
-                    pixels_are(first->not_finite, fmt::format("of frame {}", first->frame)),
+                    pixels_are(first->not_finite, fmt::format("of frame {}", first->state.frame)),
                     others > 0 ? fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")
                                : "",
-                    plan.trace_command(first->frame)));
+                    plan.trace_command(first->state)));
 }
 
 /// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong
@@ -107,7 +107,7 @@ std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Int
                         pace.fps, heard ? "; it is silent" : ""));
     if (!heard || !pace.not_in_time.empty())
         return std::nullopt;
-    const auto first = inputs_of(plan.frames, frames.front()).time;
+    const double first = plan.frames.state.at_frame(frames.front()).seconds();
     auto samples = draw_sound(plan.scene, plan.drawing.precision, std::max(0.0, first),
                               double(frames.size()) / pace.fps, interrupt);
     auto file = StagedFile::create(plan.output.of_frame(0), ".wav");

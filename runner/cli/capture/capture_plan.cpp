@@ -52,10 +52,10 @@ constexpr double k_longest_sound = 3600;
 /// What the output can hold.
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
-    const Extent extent = plan.frames.extent;
+    const Extent extent = plan.frames.state.extent;
     if (output.video() && output.pattern().extension() == ".gif" && plan.pace.fps > image::k_fastest_gif)
         return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
-                                                  plan.frames.fps, image::k_fastest_gif));
+                                                  plan.frames.state.fps, image::k_fastest_gif));
     if (plan.to_picture_files()) {
         if (auto known = image::check_picture_format(output.pattern(), plan.depth); !known)
             return known;
@@ -90,15 +90,15 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.output = *std::move(output);
     if (plan.to_picture_files())
         drop_repeats(numbers);
-    const auto depth = parse_depth(options.depth, plan.output, options.frames.pass);
+    const auto depth = parse_depth(options.depth, plan.output, plan.frames.state.pass);
     if (!depth)
         return fail(depth.error());
     plan.depth = *depth;
-    plan.pace = pace_of(numbers, plan.frames.fps);
+    plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.drawing = {
-        .extent = plan.frames.extent,
+        .extent = plan.frames.state.extent,
         .samples = plan.depth == SampleDepth::u8 ? SampleType::u8 : SampleType::f32,
-        .pass = options.frames.pass,
+        .pass = plan.frames.state.pass,
         .precision = precision_of(options.scene),
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
         .marks_non_finite = true,
@@ -108,8 +108,8 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.timeout = options.timeout;
     plan.defines = options.scene.defines;
     plan.json = options.json;
-    plan.trace_command = [scene = options.scene, typed = options.frames](int frame) {
-        return trace_command(scene, typed, frame);
+    plan.trace_command = [scene = options.scene, frames = plan.frames](const render::FrameState& state) {
+        return trace_command(scene, frames, state);
     };
     return check_output(plan, options).map([&] { return std::move(plan); });
 }
@@ -148,19 +148,14 @@ constexpr size_t k_frames_worth_a_trial = 64;
 /// A trial looks at the first frame that is drawn and at the last, as the sequence sees them but for what
 /// buffers hold: they are empty.
 std::optional<PlannedTrial> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
-    const FrameRequest& request = plan.frames;
-    const bool long_enough = request.frames.size() >= k_frames_worth_a_trial && !options.timeout;
+    const std::vector<int>& frames = plan.frames.frames;
+    const bool long_enough = frames.size() >= k_frames_worth_a_trial && !options.timeout;
     if (options.plain || !(options.allowed_difference || long_enough))
         return std::nullopt;
-    const int first = plan.scene.passes.size() > 1 ? 0 : request.frames.front(); // buffers begin at frame 0
-    const auto inputs_at = [&](int frame) {
-        render::FrameInputs inputs = inputs_of(request, frame);
-        if (request.input)
-            Replay(*request.input, request.camera).fill(inputs, request.extent.height);
-        return inputs;
-    };
+    const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
+    const render::FrameStates states = states_of(plan.frames);
     return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled,
-                        {inputs_at(first), inputs_at(request.frames.back()), request.frames.size(),
+                        {inputs_of(states(first)), inputs_of(states(frames.back())), frames.size(),
                          options.allowed_difference}};
 }
 

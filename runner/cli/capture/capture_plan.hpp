@@ -39,7 +39,7 @@ struct PlannedTrial {
 
 struct CapturePlan {
     scene::Scene scene;
-    FrameRequest frames;
+    FrameSequence frames;
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
     VideoPace pace;                ///< of a video
@@ -51,7 +51,7 @@ struct CapturePlan {
     std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
     bool json = false;                ///< reports the frames, with the SHA-256 of their pixels
     /// The command that finds where a pixel of that frame stops being a number.
-    std::function<std::string(int frame)> trace_command;
+    std::function<std::string(const render::FrameState&)> trace_command;
 
     bool to_picture_files() const { return !output.standard_output() && !output.video(); }
 };

@@ -31,20 +31,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 } // namespace
 
 Capture::Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound)
-    : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()),
-      stepper_(renderer, [this](int frame) { return inputs_at(frame); }), sound_(std::move(sound)),
-      watchdog_([this] { rescue_output(); }) {
-    if (plan.frames.input)
-        replay_.emplace(*plan.frames.input, plan.frames.camera);
-}
-
-render::FrameInputs Capture::inputs_at(int frame) {
-    render::FrameInputs inputs = inputs_of(plan_.frames, frame);
-    if (replay_)
-        replay_->fill(inputs, renderer_.extent().height);
-    seen_ = {frame, inputs.time, inputs.mouse, replay_ ? replay_->camera() : plan_.frames.camera};
-    return inputs;
-}
+    : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()), states_(states_of(plan.frames)),
+      stepper_(renderer, states_), sound_(std::move(sound)), watchdog_([this] { rescue_output(); }) {}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
@@ -99,7 +87,7 @@ void Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     const Watchdog::Watch watch(watchdog_, "preparing the first frame", plan_.timeout);
     const auto start = Clock::now();
-    renderer_.warm_up(inputs_at(plan_.frames.frames.front()));
+    renderer_.warm_up(inputs_of(states_(plan_.frames.frames.front())));
     prepare_milliseconds_ = milliseconds_since(start);
 }
 
@@ -107,9 +95,9 @@ void Capture::prepare(Interrupt& interrupt) {
 bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
     record.file = plan_.output.of_frame(frame).string();
-    const size_t drawn_before = renderer_.passes_drawn();
+    record.state = states_(frame);
     const auto begun = Clock::now(); // the limit is on the frame and on all that lead to it
-    const bool drawn = stepper_.draw(frame, [&](int step, int last) {
+    const auto steps_drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
         if (step < last && !steps)
@@ -120,9 +108,8 @@ bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout, begun);
         return true;
     });
-    record.passes_drawn = renderer_.passes_drawn() - drawn_before;
-    static_cast<FrameFacts&>(record) = seen_;
-    return drawn;
+    record.passes_drawn = steps_drawn.passes;
+    return steps_drawn.complete;
 }
 
 Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
@@ -161,7 +148,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
         return !interrupt.requested();
     };
-    auto drawn = render::draw_bands(renderer_, inputs_at(frame), before_tile,
+    auto drawn = render::draw_bands(renderer_, inputs_of(record.state), before_tile,
                                     [&](image::Image band) { return bands.take(std::move(band)); });
     if (drawn && *drawn) {
         progress.advance();
@@ -183,8 +170,8 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     if (!plan_.output.standard_output()) {
         // Image's alpha is 1.
         const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
-        auto made = image::PictureStream::create(plan_.output.of_frame(record.frame), renderer_.extent(),
-                                                 alpha, format_of(record));
+        auto made = image::PictureStream::create(plan_.output.of_frame(record.state.frame),
+                                                 renderer_.extent(), alpha, format_of(record));
         if (!made)
             return fail(std::move(made.error()));
         stream.emplace(*std::move(made));
@@ -215,18 +202,18 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     if (!writer_)
         return put_raw(image).map([] { return true; });
     if (!plan_.output.six_faces())
-        return writer_->push(
-            {record.frame, plan_.output.of_frame(record.frame), std::move(image), format_of(record)});
+        return writer_->push({record.state.frame, plan_.output.of_frame(record.state.frame), std::move(image),
+                              format_of(record)});
     const auto faces = image::cube_of_picture(image);
     bool wanted = faces.has_value();
     for (size_t i = 0; wanted && i < faces->size(); ++i)
-        wanted = writer_->push({record.frame, plan_.output.of_face(record.frame, i),
+        wanted = writer_->push({record.state.frame, plan_.output.of_face(record.state.frame, i),
                                 image::flipped((*faces)[i]), format_of(record)});
     return wanted;
 }
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
-    image::PictureFormat format{plan_.depth, metadata_of(renderer_.scene(), record)};
+    image::PictureFormat format{plan_.depth, metadata_of(renderer_.scene(), record.state)};
     const Extent extent = renderer_.extent();
     format.metadata.insert(format.metadata.end(),
                            {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
@@ -256,17 +243,18 @@ nlohmann::ordered_json Capture::report() const {
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
     report["frames"] = nlohmann::ordered_json::array();
-    for (const FrameRecord& record : records_)
-        report["frames"].push_back(
-            {{"frame", record.frame},
-             {"iTime", record.time},
-             {"iMouse", {record.mouse.x, record.mouse.y, record.mouse.z, record.mouse.w}},
-             {"camera", to_string(record.camera)},
-             {"file", record.file},
-             {"sha256", record.sha256},
-             {"not_finite", record.not_finite},
-             {"passes_drawn", record.passes_drawn},
-             {"milliseconds", record.milliseconds}});
+    for (const FrameRecord& record : records_) {
+        const glm::vec4 mouse = record.state.mouse.uniform();
+        report["frames"].push_back({{"frame", record.state.frame},
+                                    {"iTime", record.state.seconds()},
+                                    {"iMouse", {mouse.x, mouse.y, mouse.z, mouse.w}},
+                                    {"camera", camera_fact(record.state.camera)},
+                                    {"file", record.file},
+                                    {"sha256", record.sha256},
+                                    {"not_finite", record.not_finite},
+                                    {"passes_drawn", record.passes_drawn},
+                                    {"milliseconds", record.milliseconds}});
+    }
     return report;
 }
 

@@ -3,14 +3,13 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
-#include "cli/capture/stepper.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/picture_facts.hpp"
 #include "gl/capabilities.hpp"
 #include "image/files/video_writer.hpp"
-#include "render/renderer.hpp"
+#include "render/frame_stepper.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -24,7 +23,8 @@
 namespace tidemark::cli {
 
 /// One frame as `--json` reports it.
-struct FrameRecord : FrameFacts {
+struct FrameRecord {
+    render::FrameState state;
     std::string file;
     std::string sha256;
     double milliseconds = 0;
@@ -58,7 +58,6 @@ private:
     Result<Outcome> make(int frame, const Interrupt& interrupt, FrameRecord& record);
     Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record);
     Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
-    render::FrameInputs inputs_at(int frame);
     image::Image read_back() const;
     Result<bool> deliver(const FrameRecord& record, image::Image image);
     image::PictureFormat format_of(const FrameRecord& record) const;
@@ -69,9 +68,8 @@ private:
     const CapturePlan& plan_;
     render::Renderer& renderer_;
     gl::Capabilities driver_;
-    std::optional<Replay> replay_;
-    FrameFacts seen_; ///< of the inputs that were made last
-    Stepper stepper_;
+    render::FrameStates states_;
+    render::FrameStepper stepper_;
     double prepare_milliseconds_ = 0;
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_;     ///< of pictures

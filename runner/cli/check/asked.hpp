@@ -20,9 +20,6 @@ struct Asked {
     Json trace_json{};
 };
 
-Json told(const lab::Situation& situation);
-lab::Situation told_situation(const Json& json);
-
 Json told(const Asked& asked);
 Asked told_answer(const Json& line);
 

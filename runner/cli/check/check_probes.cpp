@@ -112,8 +112,8 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
         return fail(context.error());
     lab::DrawElsewhere with_one_thread;
     if (counts_threads())
-        with_one_thread = [&](const lab::Situation& situation) {
-            return drawn_by(*painter, situation, request.budget - seconds_since(start));
+        with_one_thread = [&](const render::FrameState& state) {
+            return drawn_by(*painter, state, request.budget - seconds_since(start));
         };
     lab::ProbeBench bench(scene, promises, with_one_thread);
     for (const lab::Probe* probe : probes) {
@@ -188,13 +188,12 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
 
 /// What gave birth to what a probe found not finite.
 void trace(const ProbesRequest& request, const scene::Scene& scene, Asked& asked, double seconds) {
-    const lab::Situation& where = *asked.answer.where;
-    const auto set = lab::in_situation(scene, where);
-    const int frame = lab::inputs_of(where).frame;
-    TraceJob job{request.device, where.extent, where.pass, {}};
-    job.request.frame = frame;
-    job.request.start = frame - lab::run_up_of(where);
-    job.request.inputs = [&](int at) { return lab::inputs_of(where, frame - at); };
+    const render::FrameState& where = *asked.answer.where;
+    const auto set = lab::in_state(scene, where);
+    TraceJob job{request.device, {}};
+    job.request.states = [&](int frame) { return where.at_frame(frame); };
+    job.request.frame = where.frame;
+    job.request.start = lab::first_frame_of(where);
     const auto found = set.and_then([&](const scene::Scene& same) -> Result<TraceFound> {
         if (seconds > 0)
             return trace_apart(same, job, seconds);

@@ -52,15 +52,15 @@ Result<int> check_trace(const TraceOptions& options) {
         return fail(ErrorCode::usage, "--trace looks at one frame: give --frame N or --time T");
     if (!(options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
-    const auto pixel = parse_pixel(options.pixel, frames->extent);
+    const auto pixel = parse_pixel(options.pixel, frames->state.extent);
     if (!pixel)
         return fail(pixel.error());
     const auto scene = load(options.scene);
     if (!scene)
         return fail(scene.error());
-    TraceJob job{options.device, frames->extent, options.frames.pass, {}};
+    TraceJob job{options.device, {}};
     job.request.frame = frames->frames.front();
-    job.request.inputs = [&](int frame) { return inputs_of(*frames, frame); };
+    job.request.states = states_of(*frames);
     job.request.pixel = *pixel;
     job.request.hidden = options.hidden;
     const auto run = trace_apart(*scene, job, options.timeout);

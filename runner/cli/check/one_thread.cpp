@@ -1,6 +1,7 @@
 #include "cli/check/one_thread.hpp"
 
-#include "cli/check/asked.hpp"
+#include "cli/check/state_json.hpp"
+#include "cli/check/told.hpp"
 #include "cli/supervisor.hpp"
 #include "gl/capabilities.hpp"
 #include "platform/headless_context.hpp"
@@ -15,11 +16,11 @@ namespace tidemark::cli {
 namespace {
 
 Result<image::Image> picture(const scene::Scene& scene, const std::string& device,
-                             const lab::Situation& situation) {
+                             const render::FrameState& state) {
     const auto context = platform::HeadlessContext::create(device);
     if (!context)
         return fail(context.error());
-    return lab::ProbeBench(scene, {}).picture(situation);
+    return lab::ProbeBench(scene, {}).picture(state);
 }
 
 /// By their bits: JSON knows no NaN.
@@ -35,7 +36,7 @@ Json told(const image::Image& picture) {
 Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const std::string& device) {
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
         ::setenv("LP_NUM_THREADS", "0", 1); // none beside the one that asks
-        const auto drawn = picture(scene, device, told_situation(Json::parse(question)));
+        const auto drawn = picture(scene, device, frame_state_of(Json::parse(question)));
         tell(dump(drawn ? told(*drawn) : told(drawn.error())));
     });
 }
@@ -44,8 +45,8 @@ bool counts_threads() {
     return gl::query_capabilities().renderer.starts_with("llvmpipe");
 }
 
-Result<image::Image> drawn_by(ForkedHelper& painter, const lab::Situation& situation, double seconds) {
-    const auto run = painter.ask(dump(told(situation)), seconds);
+Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds) {
+    const auto run = painter.ask(dump(to_json(state)), seconds);
     if (!run)
         return fail(run.error());
     if (run->timed_out)
@@ -55,7 +56,7 @@ Result<image::Image> drawn_by(ForkedHelper& painter, const lab::Situation& situa
     const Json bits = Json::parse(run->output);
     if (auto error = told_error(bits))
         return fail(*std::move(error));
-    image::Image picture(situation.extent, 3, image::SampleType::f32);
+    image::Image picture(state.extent, 3, image::SampleType::f32);
     std::ranges::transform(bits, picture.f32().begin(),
                            [](const Json& sample) { return std::bit_cast<float>(sample.get<uint32_t>()); });
     return picture;

@@ -15,6 +15,6 @@ Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const std::st
 bool counts_threads();
 
 /// Once: RGB of Image as ProbeBench::picture has it.
-Result<image::Image> drawn_by(ForkedHelper& painter, const lab::Situation& situation, double seconds);
+Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds);
 
 } // namespace tidemark::cli

@@ -24,7 +24,8 @@ Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const Trac
     const auto context = platform::HeadlessContext::create(job.device);
     if (!context)
         return fail(context.error());
-    auto renderer = render::Renderer::create(scene, {job.extent, image::SampleType::f32, job.pass});
+    const render::FrameState state = job.request.states(job.request.frame);
+    auto renderer = render::Renderer::create(scene, {state.extent, image::SampleType::f32, state.pass});
     if (!renderer)
         return fail(std::move(renderer.error()));
     lab::TraceRequest request = job.request;

@@ -13,8 +13,6 @@ namespace tidemark::cli {
 /// What to trace, and where to draw.
 struct TraceJob {
     std::string device = "auto";
-    Extent extent;
-    std::string pass{}; ///< that is shown; empty: Image
     lab::TraceRequest request;
 };
 

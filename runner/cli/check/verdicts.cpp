@@ -27,12 +27,13 @@ size_t count(std::span<const Asked> all, Verdict verdict) {
     return size_t(std::ranges::count(all, verdict, [](const Asked& asked) { return asked.answer.verdict; }));
 }
 
-std::string reproduction(const ProbesRequest& request, const lab::Situation& situation) {
+std::string reproduction(const ProbesRequest& request, const render::FrameState& state) {
     const std::filesystem::path& scene = request.scene.path;
     std::vector<std::string> words{"tidemark", "capture", file_word(scene)};
     std::ranges::copy(option_words(request.scene), std::back_inserter(words));
-    return fmt::format("{} {} -o {}", shell_words(words), lab::capture_options(situation),
-                       shell_word(file_word(name_after_scene(scene, ".exr"))));
+    std::ranges::copy(option_words(state), std::back_inserter(words));
+    words.insert(words.end(), {"-o", file_word(name_after_scene(scene, ".exr"))});
+    return shell_words(words);
 }
 
 std::string line(Verdict verdict, const std::string& probes, const std::string& sentence) {

@@ -57,7 +57,7 @@ Result<int> view(const ViewOptions& options) {
     auto frames = resolve(options.frames);
     if (!frames)
         return fail(std::move(frames.error()));
-    if (const Extent size = frames->extent; std::max(size.width, size.height) > k_largest_window)
+    if (const Extent size = frames->state.extent; std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
                                                   size.width, size.height, k_largest_window));
     const auto limits = resolve(options.limits);
@@ -65,13 +65,11 @@ Result<int> view(const ViewOptions& options) {
         return fail(limits.error());
     Viewer::Settings settings{options.scene, *std::move(frames)};
     settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits->memory);
-    settings.pass = options.frames.pass;
     settings.record = OutputPath::typed(options.record);
     settings.plain = options.plain;
-    settings.typed = options.frames;
     // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
     if (options.frames.date || options.frames.input || !options.record.empty())
-        settings.date = settings.frames.date;
+        settings.date = settings.frames.state.date;
     if (!settings.record.empty())
         if (auto writable = check_writable(settings.record); !writable)
             return fail(std::move(writable.error()));

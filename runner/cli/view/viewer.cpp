@@ -50,8 +50,8 @@ std::string headline(const Error& error) {
 }
 
 render::RenderOptions options_for(const platform::Window& window, const Viewer::Settings& settings) {
-    render::RenderOptions options{window.framebuffer_extent(), image::SampleType::u8, settings.pass,
-                                  precision_of(settings.scene)};
+    render::RenderOptions options{window.framebuffer_extent(), image::SampleType::u8,
+                                  settings.frames.state.pass, precision_of(settings.scene)};
     options.marks_non_finite = true;
     return options;
 }
@@ -61,16 +61,16 @@ render::RenderOptions options_for(const platform::Window& window, const Viewer::
 Viewer::Viewer(Settings settings, platform::Window window, LiveScene scene)
     : settings_(std::move(settings)), window_(std::move(window)), scene_(std::move(scene)),
       sound_(std::make_unique<SoundPlayer>()), clock_(clock_from(now_seconds())),
-      controls_(settings_.frames.camera) {
+      controls_(settings_.frames.state.camera) {
     // Somebody who records sees the recording: there is nothing that it could show otherwise.
     if (settings_.frames.input || recording())
-        replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.camera);
+        replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.state.camera);
 }
 
 /// Of frames where they are recorded or replayed: a wall clock never shows the same twice.
 render::LiveClock Viewer::clock_from(double now) const {
     const bool by_frames = settings_.frames.input || recording();
-    return render::LiveClock(now, by_frames ? std::optional(settings_.frames.fps) : std::nullopt);
+    return render::LiveClock(now, by_frames ? std::optional(settings_.frames.state.fps) : std::nullopt);
 }
 
 Result<Viewer> Viewer::open(Settings settings) {
@@ -84,7 +84,7 @@ Result<Viewer> Viewer::open(Settings settings) {
         if (auto place = settings.record.place(); !place)
             return fail(std::move(place.error()));
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
-    auto window = platform::Window::create(settings.frames.extent, name + " - tidemark");
+    auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark");
     if (!window) // nothing can be waited for
         return fail(std::move(first.scene ? window.error() : first.scene.error()));
     auto live = LiveScene::create(settings.scene, std::move(first), *window,
@@ -190,16 +190,17 @@ void Viewer::draw(double now) {
     if (given_up_)
         return show_again();
     render::Renderer& renderer = stage_->renderer();
-    next_draw_ = std::max(next_draw_ + 1 / settings_.frames.fps, now);
+    next_draw_ = std::max(next_draw_ + 1 / settings_.frames.state.fps, now);
     shown_ = clock_.next_frame(now);
-    shown_.date = settings_.date ? render::later(*settings_.date, shown_.time) : render::local_date();
+    shown_.date = settings_.date ? *settings_.date : render::later(render::local_date(), -shown_.seconds());
+    shown_.extent = renderer.extent();
     if (replay_)
-        replay_->fill(shown_, renderer.extent().height);
+        replay_->fill(shown_);
     else
         controls_.fill(shown_);
     const size_t drawn_before = renderer.passes_drawn();
     drew_ = true;
-    renderer.draw(shown_);
+    renderer.draw(inputs_of(shown_));
     const bool drawn = renderer.passes_drawn() != drawn_before;
     if (drawn || stale)
         show_again();
@@ -226,27 +227,17 @@ void Viewer::look_for_numbers(double now) {
         return;
     if (const size_t count = finite_.look(stage_->renderer(), now); count > 0)
         say(fmt::format("warning: {} not finite; where from: {}",
-                        pixels_are(count, fmt::format("at {:.3f} s", shown_.time)), trace_command()));
+                        pixels_are(count, fmt::format("at {:.3f} s", shown_.seconds())), trace_command()));
 }
 
 /// Of the frame on show, as far as options can say what people did.
 std::string Viewer::trace_command() const {
-    FrameOptions options = settings_.typed;
-    const Extent extent = stage_->renderer().extent();
-    options.size = fmt::format("{}x{}", extent.width, extent.height);
-    if (!replay_)
-        options.time = shown_.time;
-    const glm::vec4 mouse = shown_.mouse;
-    if (!settings_.frames.input && mouse != glm::vec4(0))
-        options.mouse = fmt::format("{},{},{},{}{}", mouse.x, mouse.y, std::abs(mouse.z), std::abs(mouse.w),
-                                    mouse.z > 0 ? ",down" : "");
-    const render::OrbitCamera camera = replay_ ? replay_->camera() : controls_.camera();
-    const render::OrbitCamera& initial = settings_.frames.camera;
-    if (camera.azimuth != initial.azimuth || camera.elevation != initial.elevation ||
-        camera.distance != initial.distance)
-        options.camera =
-            fmt::format("{:.6g},{:.6g},{:.6g}", camera.azimuth, camera.elevation, camera.distance);
-    return cli::trace_command(settings_.scene, options, shown_.frame);
+    render::FrameState state = shown_;
+    state.extent = stage_->renderer().extent();
+    state.fps = settings_.frames.state.fps;
+    state.date = settings_.frames.state.date;
+    state.pass = settings_.frames.state.pass;
+    return cli::trace_command(settings_.scene, settings_.frames, state);
 }
 
 bool Viewer::compiles_for_long(double now) const {
@@ -258,7 +249,7 @@ bool Viewer::compiles_for_long(double now) const {
 /// second at most.
 void Viewer::show_title(double now) {
     std::string state = given_up_         ? "given up, space goes on"
-                        : clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.time)
+                        : clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.seconds())
                         : at_rest_        ? "still"
                                           : fmt::format("{:.0f} fps", clock_.frame_rate());
     if (finite_.found() > 0)
@@ -331,10 +322,10 @@ void Viewer::obey(Key key, double now) {
     }
     switch (key) {
     case Key::left:
-        clock_.step(-1, settings_.frames.fps, now);
+        clock_.step(-1, settings_.frames.state.fps, now);
         forget_what_follows();
         break;
-    case Key::right: clock_.step(1, settings_.frames.fps, now); break;
+    case Key::right: clock_.step(1, settings_.frames.state.fps, now); break;
     case Key::space: clock_.toggle_pause(now); break;
     case Key::home:
         if (stage_)
@@ -393,9 +384,8 @@ void Viewer::save_picture() {
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
     const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", shown_.frame));
-    const FrameFacts facts{shown_.frame, shown_.time, shown_.mouse,
-                           replay_ ? replay_->camera() : controls_.camera()};
-    const image::PictureFormat format{image::SampleDepth::u8, metadata_of(stage_->renderer().scene(), facts)};
+    const image::PictureFormat format{image::SampleDepth::u8,
+                                      metadata_of(stage_->renderer().scene(), shown_)};
     image::Image picture = stage_->renderer().read_back();
     count_not_finite(stage_->renderer(), picture); // its marks are no alpha
     if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),
@@ -406,7 +396,7 @@ void Viewer::save_picture() {
 }
 
 LiveScene::View Viewer::view() const {
-    return {options_for(window_, settings_), shown_, settings_.rehearsal};
+    return {options_for(window_, settings_), inputs_of(shown_), settings_.rehearsal};
 }
 
 Result<void> Viewer::follow_scene(double now) {

@@ -27,12 +27,10 @@ class Viewer {
 public:
     struct Settings {
         SceneRequest scene;
-        FrameRequest frames;                   ///< extent, fps, camera
-        std::string pass = {};                 ///< the pass to show; empty: Image
+        FrameSequence frames;                  ///< size, fps, camera, pass
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
-        OutputPath record = {};  ///< where what people do is written; empty: nowhere. Excludes frames.input
-        bool plain = false;      ///< never settles
-        FrameOptions typed = {}; ///< what `frames` was made of, for commands that are printed
+        OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
+        bool plain = false;     ///< never settles
         std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
 
@@ -102,7 +100,7 @@ private:
     FiniteWatch finite_;
     std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
     std::string title_;
-    render::FrameInputs shown_; ///< inputs of the frame on show
+    render::FrameState shown_; ///< the frame on show
     double next_draw_ = 0;
     double listened_at_ = 0;   ///< to what people do, last
     double held_seconds_ = 0;  ///< so long nobody listened before that

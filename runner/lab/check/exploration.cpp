@@ -83,7 +83,7 @@ private:
     };
 
     Result<void> prepare() {
-        const auto renderer = bench_.poised({});
+        const auto renderer = bench_.poised(plain_state());
         if (!renderer)
             return fail(renderer.error());
         SearchInputs inputs;
@@ -96,25 +96,25 @@ private:
         auto texts = read_texts(bench_, false);
         if (!texts) {
             result_.left_out = to_string(texts.error());
-            extent_ = Situation().extent;
+            extent_ = k_probe_extent;
             return {};
         }
         // Where other passes are drawn before, each look costs a picture of theirs.
         texts_ = *std::move(texts);
-        extent_ = texts_.size() > 1 || (*renderer)->plan().feedback ? Situation().extent : k_asked;
+        extent_ = texts_.size() > 1 || (*renderer)->plan().feedback ? k_probe_extent : k_asked;
         for (const PassText& text : texts_)
             if (auto watched = watch(**renderer, text); !watched) {
                 result_.left_out = to_string(watched.error());
                 passes_.clear();
                 reached_.clear();
-                extent_ = Situation().extent;
+                extent_ = k_probe_extent;
                 return {};
             }
         return {};
     }
 
     Result<void> watch(const render::Renderer& renderer, const PassText& text) {
-        const render::FrameInputs inputs = inputs_of({});
+        const render::FrameInputs inputs = inputs_of(plain_state());
         auto watched = WatchedDomains::link({renderer, text.pass, inputs}, text, k_part);
         if (!watched)
             return fail(std::move(watched.error()));
@@ -138,7 +138,7 @@ private:
 
     /// Draws all passes in that situation and notes what is new; `last_` is what was seen.
     Result<void> look(const SearchPoint& point, const PixelGrid& grid) {
-        const Situation at = space_->situation(point, extent_);
+        const FrameState at = space_->state(point, extent_);
         last_ = {point, {}};
         if (passes_.empty()) {
             looks_.push_back(last_);
@@ -161,7 +161,7 @@ private:
         return confirm(at);
     }
 
-    void note(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const Situation& at) {
+    void note(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const FrameState& at) {
         const glsl::DomainWatch& watch = pass.watched.watch();
         const std::vector<uint32_t> words = pass.watched.draw(moment, grid);
         const bool finite = pass.watched.finite();
@@ -185,7 +185,7 @@ private:
     void reach(size_t objective, bool reached) { reached_[objective] = reached_[objective] || reached; }
 
     /// What is new, with its operand in the first pixel that showed it.
-    void tell(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const Situation& at,
+    void tell(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const FrameState& at,
               size_t site, glsl::DomainReading reading) {
         const glsl::DomainWatch& watch = pass.watched.watch();
         const std::string place = place_of_site(*pass.text.text, watch.sites[site]);
@@ -203,11 +203,11 @@ private:
             reading = alone;
         told.sentence = fmt::format("{}: {}, at pixel {},{} at {:.6g} s", place,
                                     domain_sentence(*pass.text.text, watch.sites[site], reading), pixel.x,
-                                    pixel.y, at.time);
+                                    pixel.y, at.seconds());
     }
 
     /// The text itself, without what watches it, and without the pixels left out.
-    Result<void> confirm(const Situation& at) {
+    Result<void> confirm(const FrameState& at) {
         if (!result_.not_finite.empty())
             return {};
         const auto passes = bench_.passes(at);
@@ -404,7 +404,7 @@ private:
                 (pictures_ > 0 && (is_over(k_pictures_end) || !reads_time())) ||
                 whole_picture() > k_longest_picture)
                 return {};
-            const Situation at{.extent = k_asked, .time = time};
+            const FrameState at = state_at(time, k_asked);
             const auto passes = bench_.passes(at);
             if (!passes)
                 return fail(passes.error());

@@ -1,7 +1,7 @@
 // What a search through a scene's moments, knobs and mouse has seen (lab/check/exploration.hpp).
 #pragma once
 
-#include "lab/check/situation.hpp"
+#include "lab/check/probe_state.hpp"
 
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ PixelGrid finer(const PixelGrid& grid, Extent part, uint32_t pixel, Extent whole
 
 /// A value that left its domain, where it first did.
 struct Outside {
-    Situation where;
+    FrameState where;
     PixelGrid grid;       ///< of the pixels that showed it
     bool bound = false;   ///< of an index, a shift, a divisor, a texel or a conversion
     std::string sentence; ///< of a bound: place, operand, pixel and moment
@@ -29,7 +29,7 @@ struct Outside {
 
 struct Explored {
     /// In which a pass was not finite, the first one first; drawn once more as it is, and still so.
-    std::vector<Situation> not_finite;
+    std::vector<FrameState> not_finite;
     std::vector<Outside> outside; ///< one for each site
     /// "sampled: 240 situations, …": what was looked at, and how.
     std::string sentence;

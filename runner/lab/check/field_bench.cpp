@@ -31,12 +31,12 @@ Result<FieldBench> FieldBench::create(const scene::Scene& scene, const FieldQues
     return FieldBench(*std::move(made), std::move(knobs), first);
 }
 
-image::Image FieldBench::ask(std::initializer_list<scene::KnobValue> values, const Situation& situation) {
+image::Image FieldBench::ask(std::initializer_list<scene::KnobValue> values, const FrameState& state) {
     size_t knob = first_;
     for (const scene::KnobValue& value : values)
         knobs_[knob++].value = value;
     renderer_.turn(knobs_);
-    renderer_.draw(inputs_of(situation));
+    renderer_.draw(inputs_of(state));
     return renderer_.read_back();
 }
 

@@ -26,7 +26,7 @@ public:
                                      glsl::Precision precision);
 
     /// The answers, RGBA in floats; `values` of the question's knobs, in their order.
-    image::Image ask(std::initializer_list<scene::KnobValue> values, const Situation& situation);
+    image::Image ask(std::initializer_list<scene::KnobValue> values, const FrameState& state);
 
 private:
     FieldBench(render::Renderer renderer, std::vector<scene::Knob> knobs, size_t first)

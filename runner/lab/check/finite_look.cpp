@@ -41,17 +41,17 @@ std::string kinds(const image::FiniteCensus& census) {
 
 /// Nothing when the scene as it stands is finite; otherwise what `times` has said already.
 Result<std::optional<Answer>> known_before(ProbeBench& bench) {
-    const auto passes = bench.passes({});
+    const auto passes = bench.passes(plain_state());
     if (!passes)
         return fail(passes.error());
-    if (not_finite(bench, {}, *passes))
+    if (not_finite(bench, plain_state(), *passes))
         return Answer{Verdict::not_applicable, "not finite as the scene stands: see times"};
     return std::optional<Answer>{};
 }
 
 } // namespace
 
-std::optional<Answer> not_finite(const ProbeBench& bench, const Situation& situation,
+std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
                                  const std::vector<PassPicture>& passes) {
     for (const PassPicture& pass : passes) {
         const image::FiniteCensus census = image::census(pass.picture);
@@ -62,18 +62,18 @@ std::optional<Answer> not_finite(const ProbeBench& bench, const Situation& situa
                       fmt::format("{} of {} pixels of {} ({}), first at pixel {},{}", shown.bad,
                                   pass.picture.extent.pixels(), pass.pass, kinds(census),
                                   census.first_non_finite->x, census.first_non_finite->y),
-                      situation, std::move(shown.map), true};
+                      state, std::move(shown.map), true};
         answer.where->pass = pass.pass == bench.scene().image().name ? "" : pass.pass;
         return answer;
     }
     return std::nullopt;
 }
 
-Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations) {
+Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states) {
     Answer answer;
     size_t bad = 0, subnormal = 0, beyond_half = 0;
-    for (const Situation& situation : situations) {
-        const auto passes = bench.passes(situation);
+    for (const FrameState& state : states) {
+        const auto passes = bench.passes(state);
         if (!passes)
             return fail(passes.error());
         for (const PassPicture& pass : *passes) {
@@ -81,13 +81,13 @@ Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations)
             subnormal += census.subnormal > 0;
             beyond_half += census.beyond_half > 0;
         }
-        auto fault = not_finite(bench, situation, *passes);
+        auto fault = not_finite(bench, state, *passes);
         bad += fault.has_value();
         if (fault && !answer.where)
             answer = *std::move(fault);
     }
-    answer.sentence += bad > 0 ? fmt::format("; in {} of {} situations", bad, situations.size())
-                               : fmt::format("all numbers finite in {} situations", situations.size());
+    answer.sentence += bad > 0 ? fmt::format("; in {} of {} situations", bad, states.size())
+                               : fmt::format("all numbers finite in {} situations", states.size());
     if (subnormal > 0)
         answer.sentence += fmt::format("; subnormal ones in {}", subnormal);
     if (beyond_half > 0)
@@ -95,11 +95,11 @@ Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations)
     return answer;
 }
 
-Result<Answer> look_anew(ProbeBench& bench, const std::vector<Situation>& situations) {
+Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& states) {
     auto known = known_before(bench);
     if (!known)
         return fail(std::move(known.error()));
-    return *known ? **std::move(known) : look(bench, situations);
+    return *known ? **std::move(known) : look(bench, states);
 }
 
 } // namespace tidemark::lab

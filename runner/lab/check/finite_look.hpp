@@ -10,13 +10,13 @@ namespace tidemark::lab {
 
 /// The fault that the passes of a frame show: the first pass with a NaN or an infinity, its pixels counted
 /// and marked.
-std::optional<Answer> not_finite(const ProbeBench& bench, const Situation& situation,
+std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
                                  const std::vector<PassPicture>& passes);
 
 /// Asks the same of every situation; the first bad one is told.
-Result<Answer> look(ProbeBench& bench, const std::vector<Situation>& situations);
+Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states);
 
 /// As `look`, of situations that are new only where the plain one is clean.
-Result<Answer> look_anew(ProbeBench& bench, const std::vector<Situation>& situations);
+Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& states);
 
 } // namespace tidemark::lab

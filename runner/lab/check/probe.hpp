@@ -20,7 +20,7 @@ struct Answer {
     Verdict verdict = Verdict::pass;
     std::string sentence; ///< what was found; why the probe does not apply
     /// Where it shows first, and what it looks like there, with the pixels or rays in question in magenta.
-    std::optional<Situation> where{};
+    std::optional<FrameState> where{};
     std::optional<image::Image> picture{};
     bool non_finite = false; ///< a NaN or an infinity is there, which can be traced to its birth
 };

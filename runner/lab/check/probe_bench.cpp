@@ -14,21 +14,21 @@ ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises, DrawElsewhe
       with_one_thread_(std::move(with_one_thread)) {}
 
 /// What stands in the text is compiled; knobs are turned.
-Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry entry,
+Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry entry,
                                                glsl::Precision precision) {
     std::string key = fmt::format("{} {}", int(entry), int(precision));
-    for (const std::string& channel : situation.channels)
+    for (const std::string& channel : state.channels)
         key += " " + channel;
-    for (const Setting& setting : situation.definitions)
+    for (const Setting& setting : state.definitions)
         key += fmt::format(" {}={}", setting.name, setting.value);
-    auto set = in_situation(entry == Entry::hit ? *hit_scene_ : scene_, situation);
+    auto set = in_state(entry == Entry::hit ? *hit_scene_ : scene_, state);
     if (!set)
         return fail(std::move(set.error()));
     std::vector<scene::Knob> knobs = set->knobs;
     auto found = renderers_.find(key);
     if (found == renderers_.end()) {
         auto made = render::Renderer::create(
-            *std::move(set), {.extent = situation.extent,
+            *std::move(set), {.extent = state.extent,
                               .samples = image::SampleType::f32,
                               .precision = precision,
                               .specialise = glsl::Specialise::unreachable,
@@ -39,51 +39,46 @@ Result<render::Renderer*> ProbeBench::renderer(const Situation& situation, Entry
     }
     render::Renderer& renderer = found->second;
     renderer.turn(std::move(knobs));
-    if (renderer.extent() != situation.extent)
-        if (auto resized = renderer.resize(situation.extent); !resized)
+    if (renderer.extent() != state.extent)
+        if (auto resized = renderer.resize(state.extent); !resized)
             return fail(std::move(resized.error()));
     return &renderer;
 }
 
-Result<render::Renderer*> ProbeBench::poised(const Situation& situation, Entry entry,
+Result<render::Renderer*> ProbeBench::poised(const FrameState& state, Entry entry,
                                              glsl::Precision precision) {
-    auto made = renderer(situation, entry, precision);
+    auto made = renderer(state, entry, precision);
     if (!made)
         return made;
-    if ((*made)->plan().feedback) {
-        (*made)->reset();
-        for (int before = run_up_of(situation); before > 0; --before)
-            (*made)->draw(inputs_of(situation, before));
-    }
+    render::FrameStepper(**made, state, first_frame_of(state)).lead_to(state.frame);
     return made;
 }
 
-Result<render::Renderer*> ProbeBench::poised(const Situation& situation) {
-    return poised(situation, Entry::picture, glsl::Precision::single);
+Result<render::Renderer*> ProbeBench::poised(const FrameState& state) {
+    return poised(state, Entry::picture, glsl::Precision::single);
 }
 
-Result<render::Renderer*> ProbeBench::drawn(const Situation& situation, Entry entry,
-                                            glsl::Precision precision) {
-    auto made = poised(situation, entry, precision);
+Result<render::Renderer*> ProbeBench::drawn(const FrameState& state, Entry entry, glsl::Precision precision) {
+    auto made = renderer(state, entry, precision);
     if (made)
-        (*made)->draw(inputs_of(situation));
+        render::FrameStepper(**made, state, first_frame_of(state)).draw(state.frame);
     return made;
 }
 
-Result<image::Image> ProbeBench::picture(const Situation& situation, glsl::Precision precision) {
-    auto renderer = drawn(situation, Entry::picture, precision);
+Result<image::Image> ProbeBench::picture(const FrameState& state, glsl::Precision precision) {
+    auto renderer = drawn(state, Entry::picture, precision);
     if (!renderer)
         return fail(std::move(renderer.error()));
     return image::without_alpha((*renderer)->read_back());
 }
 
-Result<image::Image> ProbeBench::fresh_picture(const Situation& situation) {
+Result<image::Image> ProbeBench::fresh_picture(const FrameState& state) {
     renderers_.clear();
-    return picture(situation);
+    return picture(state);
 }
 
-Result<std::vector<PassPicture>> ProbeBench::passes(const Situation& situation) {
-    auto renderer = drawn(situation, Entry::picture, glsl::Precision::single);
+Result<std::vector<PassPicture>> ProbeBench::passes(const FrameState& state) {
+    auto renderer = drawn(state, Entry::picture, glsl::Precision::single);
     if (!renderer)
         return fail(std::move(renderer.error()));
     return read_back(**renderer);
@@ -100,19 +95,19 @@ std::vector<PassPicture> ProbeBench::read_back(render::Renderer& renderer) const
 }
 
 Result<bool> ProbeBench::has_feedback() {
-    const auto made = renderer({}, Entry::picture, glsl::Precision::single);
+    const auto made = renderer(plain_state(), Entry::picture, glsl::Precision::single);
     if (!made)
         return fail(made.error());
     return (*made)->plan().feedback;
 }
 
 Result<void> ProbeBench::step(const See& see) {
-    const auto made = renderer({}, Entry::picture, glsl::Precision::single);
+    const auto made = renderer(plain_state(), Entry::picture, glsl::Precision::single);
     if (!made)
         return fail(made.error());
-    (*made)->reset();
-    for (Situation at{.stepped = 0};; ++*at.stepped) {
-        (*made)->draw(inputs_of(at));
+    FrameState at{.extent = k_probe_extent};
+    for (render::FrameStepper stepper(**made, at);; ++at.frame) {
+        stepper.draw(at.frame);
         if (!see(at, read_back(**made)))
             return {};
     }
@@ -120,7 +115,7 @@ Result<void> ProbeBench::step(const See& see) {
 
 bool ProbeBench::has_hits() {
     if (hit_scene_ && !std::exchange(hits_tried_, true))
-        if (auto made = renderer({}, Entry::hit, glsl::Precision::single); !made) {
+        if (auto made = renderer(plain_state(), Entry::hit, glsl::Precision::single); !made) {
             if (!made.error().diagnostics.empty()) { // of which the first says it
                 made.error().message.clear();
                 made.error().diagnostics.resize(1);
@@ -139,15 +134,15 @@ std::string ProbeBench::see_bounds() const {
     return {};
 }
 
-Result<Hits> ProbeBench::hits(const Situation& situation, glsl::Precision precision) {
-    auto renderer = drawn(situation, Entry::hit, precision);
+Result<Hits> ProbeBench::hits(const FrameState& state, glsl::Precision precision) {
+    auto renderer = drawn(state, Entry::hit, precision);
     if (!renderer)
         return fail(std::move(renderer.error()));
     return hits_of((*renderer)->read_back());
 }
 
 Result<std::vector<glsl::KeptHash>> ProbeBench::hashes() {
-    auto made = renderer({}, Entry::picture, glsl::Precision::promoted);
+    auto made = renderer(plain_state(), Entry::picture, glsl::Precision::promoted);
     if (!made)
         return fail(std::move(made.error()));
     std::vector<glsl::KeptHash> all;

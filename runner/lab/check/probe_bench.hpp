@@ -3,10 +3,10 @@
 #pragma once
 
 #include "lab/check/explored.hpp"
+#include "lab/check/probe_state.hpp"
 #include "lab/check/promises.hpp"
-#include "lab/check/situation.hpp"
 #include "lab/hits.hpp"
-#include "render/renderer.hpp"
+#include "render/frame_stepper.hpp"
 #include "scene/scene.hpp"
 
 #include <functional>
@@ -22,7 +22,7 @@ struct PassPicture {
 };
 
 /// RGB of Image as `picture` has it, drawn elsewhere.
-using DrawElsewhere = std::function<Result<image::Image>(const Situation&)>;
+using DrawElsewhere = std::function<Result<image::Image>(const FrameState&)>;
 
 class ProbeBench {
 public:
@@ -32,12 +32,11 @@ public:
     const scene::Scene& scene() const { return scene_; }
     const Promises& promises() const { return promises_; }
 
-    /// RGB of Image, floats. A scene with feedback is drawn from its start, run_up_of frames before that
-    /// moment.
-    Result<image::Image> picture(const Situation& situation,
+    /// RGB of Image, floats. A scene with feedback is drawn from its start, first_frame_of that state.
+    Result<image::Image> picture(const FrameState& state,
                                  glsl::Precision precision = glsl::Precision::single);
     /// All passes that are drawn, but cubemaps.
-    Result<std::vector<PassPicture>> passes(const Situation& situation);
+    Result<std::vector<PassPicture>> passes(const FrameState& state);
 
     const DrawElsewhere& with_one_thread() const { return with_one_thread_; }
 
@@ -45,20 +44,20 @@ public:
     Result<bool> has_feedback();
     /// Draws frame after frame from 0 on and shows each, with all its passes but cubemaps, until `see` says
     /// false.
-    using See = std::function<bool(const Situation&, const std::vector<PassPicture>&)>;
+    using See = std::function<bool(const FrameState&, const std::vector<PassPicture>&)>;
     Result<void> step(const See& see);
 
     /// Whether there is a mainHit that compiles.
     bool has_hits();
     /// Why one that the text has does not; empty for one that has none.
     const std::string& hit_problem() const { return hit_problem_; }
-    Result<Hits> hits(const Situation& situation, glsl::Precision precision = glsl::Precision::single);
+    Result<Hits> hits(const FrameState& state, glsl::Precision precision = glsl::Precision::single);
 
     /// A renderer in that situation, for what is drawn in the place of a pass: all frames before are drawn.
-    Result<render::Renderer*> poised(const Situation& situation);
+    Result<render::Renderer*> poised(const FrameState& state);
 
     /// Compiles anew, where `picture` takes what it has.
-    Result<image::Image> fresh_picture(const Situation& situation);
+    Result<image::Image> fresh_picture(const FrameState& state);
 
     /// The promoted scene's hashes; the error of a scene that cannot be promoted.
     Result<std::vector<glsl::KeptHash>> hashes();
@@ -70,10 +69,10 @@ public:
 
 private:
     enum class Entry { picture, hit };
-    Result<render::Renderer*> poised(const Situation& situation, Entry entry, glsl::Precision precision);
-    Result<render::Renderer*> drawn(const Situation& situation, Entry entry, glsl::Precision precision);
+    Result<render::Renderer*> poised(const FrameState& state, Entry entry, glsl::Precision precision);
+    Result<render::Renderer*> drawn(const FrameState& state, Entry entry, glsl::Precision precision);
     std::vector<PassPicture> read_back(render::Renderer& renderer) const;
-    Result<render::Renderer*> renderer(const Situation& situation, Entry entry, glsl::Precision precision);
+    Result<render::Renderer*> renderer(const FrameState& state, Entry entry, glsl::Precision precision);
 
     scene::Scene scene_;
     std::optional<scene::Scene> hit_scene_;

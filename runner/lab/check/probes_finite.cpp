@@ -25,11 +25,11 @@ std::string middle_of(const scene::Knob& knob) {
 } // namespace
 
 Result<Answer> ask_times(ProbeBench& bench) {
-    std::vector<Situation> situations;
+    std::vector<FrameState> states;
     for (const double time :
          {0.0, 1e-6, 1.0, 60.0, 62.83 - 1 / 60.0, 62.83 + 1 / 60.0, 1e3, 1e4, 1e5, 1e6, 16777216.0, -5.0})
-        situations.push_back({.time = time});
-    return look(bench, situations);
+        states.push_back(state_at(time));
+    return look(bench, states);
 }
 
 Result<Answer> ask_frames(ProbeBench& bench) {
@@ -43,7 +43,7 @@ Result<Answer> ask_frames(ProbeBench& bench) {
     std::optional<Answer> fault;
     int seen = 0;
     const auto start = std::chrono::steady_clock::now();
-    const auto done = bench.step([&](const Situation& at, const std::vector<PassPicture>& passes) {
+    const auto done = bench.step([&](const FrameState& at, const std::vector<PassPicture>& passes) {
         fault = not_finite(bench, at, passes);
         return !fault && ++seen < k_frames && std::chrono::steady_clock::now() - start < k_patience;
     });
@@ -57,41 +57,43 @@ Result<Answer> ask_frames(ProbeBench& bench) {
 }
 
 Result<Answer> ask_mouse(ProbeBench& bench) {
-    const Extent size = Situation().extent;
+    const Extent size = k_probe_extent;
     const int w = size.width, h = size.height;
-    std::vector<Situation> situations;
+    std::vector<FrameState> states;
     for (const glm::ivec2 pixel :
          {glm::ivec2(1, 1), glm::ivec2(w - 1, 1), glm::ivec2(1, h - 1), glm::ivec2(w - 1, h - 1),
           glm::ivec2(w / 2, 0), glm::ivec2(0, h / 2), glm::ivec2(w / 2, h - 1), glm::ivec2(w - 1, h / 2),
           glm::ivec2(w / 2, h / 2), glm::ivec2(-w, -h), glm::ivec2(2 * w, 2 * h)})
         for (const bool down : {false, true})
-            situations.push_back({.mouse = pixel, .down = down});
+            states.push_back(with_mouse(render::Mouse::clicked(pixel, down)));
     const glm::ivec2 low(1, 1), high(w - 1, h - 1), outside(2 * w, -h);
     for (const auto& [from, to] :
          {std::pair(low, high), std::pair(high, low), std::pair(low, outside), std::pair(low, low)})
         for (const bool down : {false, true})
-            situations.push_back({.mouse = to, .dragged_from = from, .down = down});
-    return look_anew(bench, situations);
+            states.push_back(with_mouse(render::Mouse::dragged(from, to, down)));
+    return look_anew(bench, states);
 }
 
 Result<Answer> ask_sizes(ProbeBench& bench) {
-    std::vector<Situation> situations;
+    std::vector<FrameState> states;
     for (const Extent size : {Extent{1, 1}, Extent{1, 64}, Extent{64, 1}, Extent{63, 37},
                               Extent{gl::query_capabilities().largest_target, 1}})
-        situations.push_back({.extent = size});
-    return look_anew(bench, situations);
+        states.push_back(plain_state(size));
+    return look_anew(bench, states);
 }
 
 Result<Answer> ask_knobs(ProbeBench& bench) {
-    std::vector<Situation> situations;
+    std::vector<FrameState> states;
     for (const scene::Knob& knob : bench.scene().knobs)
         if (knob.range)
             for (const std::string& value : {scene::to_string(knob, knob.range->low), middle_of(knob),
-                                             scene::to_string(knob, knob.range->high)})
-                situations.push_back({.settings = {{knob.name, value}}});
-    if (situations.empty())
+                                             scene::to_string(knob, knob.range->high)}) {
+                states.push_back(plain_state());
+                states.back().knobs = {{knob.name, value}};
+            }
+    if (states.empty())
         return Answer{Verdict::not_applicable, "the scene has no knob with a range"};
-    return look_anew(bench, situations);
+    return look_anew(bench, states);
 }
 
 Result<Answer> ask_search(ProbeBench& bench) {
@@ -105,7 +107,7 @@ Result<Answer> ask_search(ProbeBench& bench) {
         (*explored)->left_out.empty() ? "" : "; not guided by the text: " + (*explored)->left_out;
     if ((*explored)->not_finite.empty())
         return Answer{Verdict::pass, "all numbers finite; " + (*explored)->sentence + unread};
-    const Situation& where = (*explored)->not_finite.front();
+    const FrameState& where = (*explored)->not_finite.front();
     const auto passes = bench.passes(where);
     if (!passes)
         return fail(passes.error());

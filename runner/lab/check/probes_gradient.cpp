@@ -40,7 +40,7 @@ struct Steep {
     double slope = -1;
     double distance = 0;
     glm::dvec2 pixel{0};
-    Situation view{};
+    FrameState view{};
 };
 
 bool steeper(const Steep& one, const Steep& other) {
@@ -75,10 +75,10 @@ public:
     }
 
     /// Climbs from the best of all samples of several views.
-    Steep steepest(const std::vector<Situation>& views) {
+    Steep steepest(const std::vector<FrameState>& views) {
         constexpr size_t k_climbs = 3;
         std::vector<Steep> starts;
-        for (const Situation& view : views)
+        for (const FrameState& view : views)
             starts.push_back(steepest_in(whole_, view));
         std::ranges::sort(starts, steeper);
         starts.resize(std::min(starts.size(), k_climbs));
@@ -99,7 +99,7 @@ public:
 private:
     SlopeSearch(FieldBench field, double furthest) : field_(std::move(field)) { whole_.far = furthest; }
 
-    Steep steepest_in(const Window& window, const Situation& view) {
+    Steep steepest_in(const Window& window, const FrameState& view) {
         const double step = 2e-5 * whole_.far;
         const image::Image image = field_.ask(
             {{window.low.x, window.low.y, window.high.x, window.high.y}, {window.near, window.far}, {step}},
@@ -117,20 +117,20 @@ private:
     Window whole_;
 };
 
-std::vector<Situation> views_over_time() {
-    std::vector<Situation> views;
+std::vector<FrameState> views_over_time() {
+    std::vector<FrameState> views;
     for (const double time : {1.0, 10.0, 100.0})
-        for (Situation view : usual_views()) {
-            view.time = time;
+        for (FrameState view : usual_views()) {
+            view = render::at_time(time, view);
             views.push_back(view);
         }
     return views;
 }
 
 /// The distance of the furthest that a ray meets; 0: none meets anything.
-Result<double> furthest_of(ProbeBench& bench, const std::vector<Situation>& views) {
+Result<double> furthest_of(ProbeBench& bench, const std::vector<FrameState>& views) {
     double furthest = 0;
-    for (const Situation& view : views) {
+    for (const FrameState& view : views) {
         const auto hits = bench.hits(view);
         if (!hits)
             return fail(hits.error());
@@ -156,7 +156,7 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
         return without_hits(bench);
     if (!has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take slopes of"};
-    const std::vector<Situation> views = views_over_time();
+    const std::vector<FrameState> views = views_over_time();
     const auto furthest = furthest_of(bench, views);
     if (!furthest)
         return fail(furthest.error());
@@ -177,7 +177,7 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
     Answer answer{Verdict::pass, fmt::format("the field's slope along a ray reaches {:.3g}", found.slope)};
     answer.sentence += std::isinf(stated) ? std::string("; the scene states no bound, largest_slope,")
                                           : fmt::format(" of the {:g} that the scene states,", stated);
-    answer.sentence += fmt::format(" at {:g} s, pixel {:.2f},{:.2f}, distance {:.4g}", found.view.time,
+    answer.sentence += fmt::format(" at {:g} s, pixel {:.2f},{:.2f}, distance {:.4g}", found.view.seconds(),
                                    found.pixel.x, found.pixel.y, found.distance);
     if (found.slope > stated * slack) {
         answer.verdict = Verdict::fail;

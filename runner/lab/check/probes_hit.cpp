@@ -17,9 +17,9 @@ Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promis
     if (!bench.has_hits())
         return without_hits(bench);
     double most = -1;
-    Situation where;
+    FrameState where;
     image::Image map;
-    for (const Situation& view : usual_views()) {
+    for (const FrameState& view : usual_views()) {
         const auto hits = bench.hits(view);
         if (!hits)
             return fail(hits.error());
@@ -93,18 +93,18 @@ std::vector<Setting> multiples_of_definitions(const ProbeBench& bench) {
     return settings;
 }
 
-std::vector<Situation> stiff_situations(const ProbeBench& bench) {
-    std::vector<Situation> situations;
+std::vector<FrameState> stiff_states(const ProbeBench& bench) {
+    std::vector<FrameState> states;
     for (const scene::Knob& knob : bench.scene().knobs)
         for (const Setting& setting : ends_and_multiples(knob, bench.promises())) {
-            situations.push_back(typical_view());
-            situations.back().settings = {setting};
+            states.push_back(typical_view());
+            states.back().knobs = {setting};
         }
     for (const Setting& setting : multiples_of_definitions(bench)) {
-        situations.push_back(typical_view());
-        situations.back().definitions = {setting};
+        states.push_back(typical_view());
+        states.back().definitions = {setting};
     }
-    return situations;
+    return states;
 }
 
 } // namespace
@@ -126,16 +126,14 @@ Result<Answer> ask_stiffness(ProbeBench& bench) {
         return without_hits(bench);
     Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
     double most = -1;
-    for (const Situation& situation : stiff_situations(bench)) {
-        const std::string set =
-            to_string(merged(situation.settings.empty() ? situation.definitions : situation.settings));
-        const auto hits = bench.hits(situation);
+    for (const FrameState& state : stiff_states(bench)) {
+        const std::string set = to_string(merged(state.knobs.empty() ? state.definitions : state.knobs));
+        const auto hits = bench.hits(state);
         if (!hits)
             return fail(hits.error());
         if (const double nothing = unanswered(*hits); nothing > 0)
             return Answer{Verdict::fail,
-                          fmt::format("{}: {:.3g} % of the distances are no number", set, nothing),
-                          situation};
+                          fmt::format("{}: {:.3g} % of the distances are no number", set, nothing), state};
         const double witnesses = flagged(*hits, glsl::k_hit_negative);
         if (witnesses <= most)
             continue;
@@ -147,7 +145,7 @@ Result<Answer> ask_stiffness(ProbeBench& bench) {
                   {},
                   {}};
         if (answer.verdict == Verdict::warn)
-            answer.where = situation;
+            answer.where = state;
     }
     return answer;
 }

@@ -23,7 +23,7 @@ bool comes_from_outside(const scene::Scene& scene, const scene::ChannelInput& in
 
 /// Of the passes that are drawn.
 Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
-    const auto renderer = bench.poised({});
+    const auto renderer = bench.poised(plain_state());
     if (!renderer)
         return fail(renderer.error());
     const scene::Scene& scene = bench.scene();
@@ -45,7 +45,9 @@ Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
 
 /// A NaN that comes in may go out: no fault, but good to know. Of the pixels, in percent.
 Result<double> spread_of_nan(ProbeBench& bench, const Input& input) {
-    const auto picture = bench.picture({.channels = {input.setting + "=nan"}});
+    FrameState state = plain_state();
+    state.channels = {input.setting + "=nan"};
+    const auto picture = bench.picture(state);
     if (!picture)
         return fail(picture.error());
     const auto samples = picture->f32();
@@ -63,11 +65,13 @@ Result<Answer> ask_inputs(ProbeBench& bench) {
         return fail(inputs.error());
     if (inputs->empty())
         return Answer{Verdict::not_applicable, "no pass reads a picture"};
-    std::vector<Situation> situations;
+    std::vector<FrameState> states;
     for (const Input& input : *inputs)
-        for (const char* what : {"none", "noise", "black", "white", "texel"})
-            situations.push_back({.channels = {fmt::format("{}={}", input.setting, what)}});
-    auto answer = look_anew(bench, situations);
+        for (const char* what : {"none", "noise", "black", "white", "texel"}) {
+            states.push_back(plain_state());
+            states.back().channels = {fmt::format("{}={}", input.setting, what)};
+        }
+    auto answer = look_anew(bench, states);
     if (!answer || answer->verdict != Verdict::pass)
         return answer;
     for (const Input& input : *inputs) {

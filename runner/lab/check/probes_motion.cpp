@@ -24,23 +24,23 @@ constexpr double k_alike = 60; // dB
 } // namespace
 
 Result<Answer> ask_repeats(ProbeBench& bench) {
-    const Situation situation{.time = 2};
-    const auto first = bench.picture(situation);
+    const FrameState state = state_at(2);
+    const auto first = bench.picture(state);
     if (!first)
         return fail(first.error());
     const auto same = [&](const Result<image::Image>& other) {
         return other && other->bytes == first->bytes;
     };
     const auto say_no = [&](const char* when) {
-        return Answer{Verdict::fail, fmt::format("another picture {}{}", when, bench.see_bounds()), situation,
+        return Answer{Verdict::fail, fmt::format("another picture {}{}", when, bench.see_bounds()), state,
                       *first};
     };
-    if (!same(bench.picture(situation)))
+    if (!same(bench.picture(state)))
         return say_no("at once again");
-    (void)bench.picture({.time = 7});
-    if (!same(bench.picture(situation)))
+    (void)bench.picture(state_at(7));
+    if (!same(bench.picture(state)))
         return say_no("after another frame");
-    if (!same(bench.fresh_picture(situation)))
+    if (!same(bench.fresh_picture(state)))
         return say_no("after compiling anew");
     return Answer{Verdict::pass, "the same bytes again, after another frame and compiled anew"};
 }
@@ -49,18 +49,18 @@ Result<Answer> ask_threads(ProbeBench& bench) {
     if (!bench.with_one_thread())
         return Answer{Verdict::not_applicable, "this driver cannot be told how many threads to draw with"};
     // Drivers deal out squares of 64 pixels.
-    const Situation situation{.extent = {200, 136}, .time = 2};
-    const auto alone = bench.with_one_thread()(situation);
+    const FrameState state = state_at(2, {200, 136});
+    const auto alone = bench.with_one_thread()(state);
     if (!alone)
         return Answer{Verdict::not_applicable, "not to be had: " + alone.error().message};
-    auto together = bench.picture(situation);
+    auto together = bench.picture(state);
     if (!together)
         return fail(std::move(together.error()));
     if (const size_t different = different_pixels(*alone, *together))
         return Answer{Verdict::fail,
                       fmt::format("{} of {} pixels are others when one thread draws them all{}", different,
-                                  situation.extent.pixels(), bench.see_bounds()),
-                      situation, *std::move(together)};
+                                  state.extent.pixels(), bench.see_bounds()),
+                      state, *std::move(together)};
     return Answer{Verdict::pass, "the same bytes whether many threads draw or one"};
 }
 
@@ -71,7 +71,11 @@ struct Sweep {
     const char* axis;
     Extent extent;
     int length;
-    std::function<glm::ivec2(int)> at;
+    std::function<glm::ivec2(int)> pixel;
+
+    FrameState at(int step) const {
+        return with_mouse(render::Mouse::clicked(pixel(step), false), plain_state(extent));
+    }
 };
 
 /// The step that changes the picture most beside its neighbours, and the first picture with no numbers in it.
@@ -88,7 +92,7 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
     std::vector<double> steps;
     std::optional<image::Image> last;
     for (int pixel = 1; pixel < sweep.length; ++pixel) {
-        auto picture = bench.picture({.extent = sweep.extent, .mouse = sweep.at(pixel)});
+        auto picture = bench.picture(sweep.at(pixel));
         if (!picture)
             return fail(std::move(picture.error()));
         if (!found.not_finite && image::census(*picture).non_finite() > 0)
@@ -110,14 +114,14 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
 /// The answer, where there is a fault.
 Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const Swept& found) {
     const auto show = [&](int pixel, std::string sentence) -> Result<std::optional<Answer>> {
-        const Situation where{.extent = sweep.extent, .mouse = sweep.at(pixel)};
+        const FrameState where = sweep.at(pixel);
         auto picture = bench.picture(where);
         if (!picture)
             return fail(std::move(picture.error()));
         return Answer{Verdict::fail, std::move(sentence), where, *std::move(picture)};
     };
     if (found.not_finite) {
-        const auto untouched = bench.picture({.extent = sweep.extent});
+        const auto untouched = bench.picture(plain_state(sweep.extent));
         if (!untouched)
             return fail(untouched.error());
         if (image::census(*untouched).non_finite() > 0)
@@ -167,14 +171,15 @@ Result<Answer> ask_camera(ProbeBench& bench) {
 }
 
 Result<Answer> ask_clicks(ProbeBench& bench) {
-    const Extent size = Situation().extent;
+    const Extent size = k_probe_extent;
     const std::pair<const char*, glm::ivec2> edges[] = {{"column", {0, size.height / 2}},
                                                         {"row", {size.width / 2, 0}}};
+    const auto clicked = [](glm::ivec2 pixel) { return with_mouse(render::Mouse::clicked(pixel, false)); };
     for (const auto& [name, first] : edges) {
         const glm::ivec2 inwards = first.x == 0 ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
         std::vector<image::Image> pictures;
         for (int pixel = 0; pixel < 3; ++pixel) {
-            auto picture = bench.picture({.mouse = first + pixel * inwards});
+            auto picture = bench.picture(clicked(first + pixel * inwards));
             if (!picture)
                 return fail(std::move(picture.error()));
             pictures.push_back(*std::move(picture));
@@ -187,10 +192,10 @@ Result<Answer> ask_clicks(ProbeBench& bench) {
                 fmt::format("a click in {0} 0 shows another view than in {0} 1: {1:.1f} dB, and {2:.1f} "
                             "from there to the next",
                             name, edge, next),
-                Situation{.mouse = first}, pictures[0]};
+                clicked(first), pictures[0]};
     }
-    const auto untouched = bench.picture({});
-    const auto corner = bench.picture({.mouse = glm::ivec2(1, 1)});
+    const auto untouched = bench.picture(plain_state());
+    const auto corner = bench.picture(clicked({1, 1}));
     if (!untouched || !corner)
         return fail(!untouched ? untouched.error() : corner.error());
     if (image::compare(*untouched, *corner)->equal())

@@ -23,76 +23,76 @@ bool has_orbit_camera(const scene::Scene& scene) {
     return scene.image().text.text().find("iCamera") != std::string::npos;
 }
 
-Situation moved(const scene::Knob& position, const glm::dvec3& by) {
+FrameState moved(const scene::Knob& position, const glm::dvec3& by) {
     scene::KnobValue value = position.value;
     for (int i = 0; i < 3; ++i)
         value[size_t(i)] += by[i];
-    Situation situation = typical_view();
-    situation.settings = {{position.name, scene::to_string(position, value)}};
-    return situation;
+    FrameState state = typical_view();
+    state.knobs = {{position.name, scene::to_string(position, value)}};
+    return state;
 }
 
 /// `distance` units from where the camera stands; none: the scene has no camera that can be moved.
-std::optional<Situation> away(const ProbeBench& bench, double distance) {
+std::optional<FrameState> away(const ProbeBench& bench, double distance) {
     if (const scene::Knob* position = knob_of(bench.scene(), "camera_position"))
         return moved(*position, {distance, 0, distance});
     if (!has_orbit_camera(bench.scene()))
         return std::nullopt;
-    Situation situation = typical_view();
-    situation.camera = render::OrbitCamera{.distance = 10 + distance};
-    return situation;
+    FrameState state = typical_view();
+    state.camera = render::OrbitCamera{.distance = 10 + distance};
+    return state;
 }
 
-std::vector<Situation> below_and_above(const ProbeBench& bench) {
-    std::vector<Situation> situations;
+std::vector<FrameState> below_and_above(const ProbeBench& bench) {
+    std::vector<FrameState> states;
     if (const scene::Knob* position = knob_of(bench.scene(), "camera_position")) {
         for (const double height : {-3.0, -30.0, 1e3, 1e5})
-            situations.push_back(moved(*position, {0, height, 0}));
-        return situations;
+            states.push_back(moved(*position, {0, height, 0}));
+        return states;
     }
     for (const double distance : {0.01, 1.0}) {
-        situations.push_back(typical_view());
-        situations.back().camera = render::OrbitCamera{.distance = distance};
+        states.push_back(typical_view());
+        states.back().camera = render::OrbitCamera{.distance = distance};
     }
     for (const double elevation : {-20.0, -89.9, 89.9}) {
-        situations.push_back(typical_view());
-        situations.back().camera = render::OrbitCamera{.elevation = elevation};
+        states.push_back(typical_view());
+        states.back().camera = render::OrbitCamera{.elevation = elevation};
     }
-    return situations;
+    return states;
 }
 
 /// What is wrong there with the picture or with the rays, as a sentence; empty: nothing is.
-Result<std::string> broken(ProbeBench& bench, const Situation& situation) {
-    const auto passes = bench.passes(situation);
+Result<std::string> broken(ProbeBench& bench, const FrameState& state) {
+    const auto passes = bench.passes(state);
     if (!passes)
         return fail(passes.error());
     for (const PassPicture& pass : *passes)
         if (const size_t count = image::census(pass.picture).non_finite(); count > 0)
             return fmt::format("{} samples of {} are no number", count, pass.pass);
-    const auto hits = bench.hits(situation);
+    const auto hits = bench.hits(state);
     if (!hits)
         return fail(hits.error());
     const double lost = unanswered(*hits);
     return lost > 0 ? fmt::format("{:.3g} % of the distances are no number", lost) : std::string();
 }
 
-std::string place_of(const Situation& situation) {
-    return situation.camera ? fmt::format("--camera {},{},{}", situation.camera->azimuth,
-                                          situation.camera->elevation, situation.camera->distance)
-                            : to_string(situation.settings);
+std::string place_of(const FrameState& state) {
+    return state.knobs.empty() ? fmt::format("--camera {},{},{}", state.camera.azimuth,
+                                             state.camera.elevation, state.camera.distance)
+                               : to_string(state.knobs);
 }
 
 /// How far out rays meet the same in float and double.
 Result<Answer> how_far(ProbeBench& bench) {
     double good = 0;
     for (const double distance : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        const Situation situation = *away(bench, distance);
-        const auto wrong = broken(bench, situation);
+        const FrameState state = *away(bench, distance);
+        const auto wrong = broken(bench, state);
         if (!wrong)
             return fail(wrong.error());
         if (!wrong->empty())
-            return Answer{Verdict::fail, place_of(situation) + ": " + *wrong, situation};
-        const auto both = parting(bench, situation);
+            return Answer{Verdict::fail, place_of(state) + ": " + *wrong, state};
+        const auto both = parting(bench, state);
         if (!both)
             return Answer{Verdict::pass,
                           "finite below, above and to 1e6 units away; not to be had in double"};
@@ -106,26 +106,26 @@ Result<Answer> how_far(ProbeBench& bench) {
             fmt::format("good to {:g} units away; at {:g} {:.3g} % of the rays meet something else than "
                         "in double",
                         good, distance, both->parted),
-            situation, both->map};
+            state, both->map};
     }
     return Answer{Verdict::pass,
                   "float and double meet the same to 1e6 units away; finite below and high above"};
 }
 
 /// Mouse heights at which part of the rays meet something and part nothing: the horizon is in sight.
-Result<std::vector<Situation>> views_of_the_horizon(ProbeBench& bench) {
-    std::vector<Situation> views;
-    std::vector<Situation> candidates;
+Result<std::vector<FrameState>> views_of_the_horizon(ProbeBench& bench) {
+    std::vector<FrameState> views;
+    std::vector<FrameState> candidates;
     if (has_orbit_camera(bench.scene()))
         for (const double elevation : {0.0, 0.1, 1.0, 3.0}) {
-            candidates.push_back({.extent = k_ray_extent, .time = 10});
+            candidates.push_back(state_at(10, k_ray_extent));
             candidates.back().camera = render::OrbitCamera{.elevation = elevation};
         }
     else
         for (int y = 1; y < k_ray_extent.height; y += 3)
-            candidates.push_back(
-                {.extent = k_ray_extent, .time = 10, .mouse = glm::ivec2(k_ray_extent.width / 2, y)});
-    for (const Situation& candidate : candidates) {
+            candidates.push_back(with_mouse(render::Mouse::clicked({k_ray_extent.width / 2, y}, false),
+                                            state_at(10, k_ray_extent)));
+    for (const FrameState& candidate : candidates) {
         const auto hits = bench.hits(candidate);
         if (!hits)
             return fail(hits.error());
@@ -137,17 +137,17 @@ Result<std::vector<Situation>> views_of_the_horizon(ProbeBench& bench) {
 }
 
 /// A picture of an odd height whose middle row looks exactly level, where the camera can be told to.
-std::optional<Situation> level_view(const scene::Scene& scene) {
-    Situation situation{.extent = {k_ray_extent.width, k_ray_extent.height + 1}, .time = 10};
+std::optional<FrameState> level_view(const scene::Scene& scene) {
+    FrameState state = state_at(10, {k_ray_extent.width, k_ray_extent.height + 1});
     if (has_orbit_camera(scene)) {
-        situation.camera = render::OrbitCamera{.elevation = 0};
-        return situation;
+        state.camera = render::OrbitCamera{.elevation = 0};
+        return state;
     }
     const scene::Knob* turn = knob_of(scene, "default_turn");
     if (!turn)
         return std::nullopt;
-    situation.settings = {{turn->name, scene::to_string(*turn, {turn->value[0], 0.5, 0, 0})}};
-    return situation;
+    state.knobs = {{turn->name, scene::to_string(*turn, {turn->value[0], 0.5, 0, 0})}};
+    return state;
 }
 
 } // namespace
@@ -157,12 +157,12 @@ Result<Answer> ask_places(ProbeBench& bench) {
         return without_hits(bench);
     if (!away(bench, 0))
         return Answer{Verdict::not_applicable, "no iCamera and no knob camera_position to move"};
-    for (const Situation& situation : below_and_above(bench)) {
-        const auto wrong = broken(bench, situation);
+    for (const FrameState& state : below_and_above(bench)) {
+        const auto wrong = broken(bench, state);
         if (!wrong)
             return fail(wrong.error());
         if (!wrong->empty())
-            return Answer{Verdict::fail, place_of(situation) + ": " + *wrong, situation};
+            return Answer{Verdict::fail, place_of(state) + ": " + *wrong, state};
     }
     return how_far(bench);
 }
@@ -180,7 +180,7 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, "the mouse never turns the horizon into sight"};
     Answer answer;
     double most = -1;
-    for (const Situation& view : *views) {
+    for (const FrameState& view : *views) {
         const auto hits = bench.hits(view);
         if (!hits)
             return fail(hits.error());
@@ -219,10 +219,10 @@ Result<Answer> ask_far(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, "no knob far_distance to move"};
     double most = -1, beyond = 0;
     Answer answer;
-    for (Situation view : usual_views()) {
+    for (FrameState view : usual_views()) {
         const auto before = bench.hits(view);
         const double moved_to = 1.001 * far->value[0];
-        view.settings = {{far->name, scene::to_string(*far, {moved_to, 0, 0, 0})}};
+        view.knobs = {{far->name, scene::to_string(*far, {moved_to, 0, 0, 0})}};
         const auto after = bench.hits(view);
         if (!before || !after)
             return fail(!before ? before.error() : after.error());

@@ -17,7 +17,7 @@ namespace tidemark::lab {
 namespace {
 
 /// Late enough for arguments of sines to have grown as they do while people look.
-const Situation k_situation{.time = 10};
+const FrameState k_state = state_at(10);
 
 struct Mode {
     int number;
@@ -57,18 +57,17 @@ public:
             (seen.gap > k_visible_gap ? visible : hardly).push_back(seen.sentence);
         if (visible.empty())
             return {Verdict::pass, sound + ": " + (hardly.empty() ? "the same picture" : listed(hardly))};
-        Answer answer{Verdict::warn, "another picture with " + listed(visible), k_situation,
-                      std::move(picture_)};
+        Answer answer{Verdict::warn, "another picture with " + listed(visible), k_state, std::move(picture_)};
         answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
         return answer;
     }
 
 private:
     Result<void> compare(size_t pass, const glsl::Variation& varied, std::span<const Mode> modes) {
-        const auto renderer = bench_.poised(k_situation);
+        const auto renderer = bench_.poised(k_state);
         if (!renderer)
             return fail(renderer.error());
-        const render::FrameInputs inputs = inputs_of(k_situation);
+        const render::FrameInputs inputs = inputs_of(k_state);
         (*renderer)->advance_to(pass, inputs);
         const Moment moment{**renderer, pass, inputs};
         auto stand_in = StandIn::link(moment, varied.text, "a variation of the text");

@@ -23,9 +23,9 @@ Result<Answer> ask_rays(ProbeBench& bench) {
         return without_hits(bench);
     double good = 0;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        Situation situation = typical_view();
-        situation.time = time + 1.0 / 3; // a moment like most, which is no float
-        const auto both = parting(bench, situation);
+        const FrameState state =
+            render::at_time(time + 1.0 / 3, typical_view()); // a moment like most, which is no float
+        const auto both = parting(bench, state);
         if (!both)
             return without_doubles(both.error());
         if (both->parted <= k_same) {
@@ -40,7 +40,7 @@ Result<Answer> ask_rays(ProbeBench& bench) {
                                   "more than a pixel's width",
                                   good == 0 ? std::string("never good") : fmt::format("good to {:g} s", good),
                                   time, both->parted),
-                      situation, both->map};
+                      state, both->map};
     }
     return Answer{Verdict::pass, "float and double meet the same up to 1e6 s, to a pixel's width"};
 }
@@ -52,7 +52,7 @@ Result<Answer> ask_epsilon(ProbeBench& bench) {
         return without_hits(bench);
     Answer answer;
     double most = -1;
-    for (const Situation& view : usual_views()) {
+    for (const FrameState& view : usual_views()) {
         const auto both = parting(bench, view);
         if (!both)
             return without_doubles(both.error());
@@ -116,17 +116,17 @@ Extremes extremes_of(const ProbeBench& bench, const Count& count) {
     return {1, std::ceil(1.5 * count.value), false};
 }
 
-Situation with_octaves(const Count& count, double octaves) {
-    Situation situation = typical_view();
-    (count.knob ? situation.settings : situation.definitions) = {{count.name, fmt::format("{:g}", octaves)}};
-    return situation;
+FrameState with_octaves(const Count& count, double octaves) {
+    FrameState state = typical_view();
+    (count.knob ? state.knobs : state.definitions) = {{count.name, fmt::format("{:g}", octaves)}};
+    return state;
 }
 
 Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
     const Extremes extremes = extremes_of(bench, count);
     for (const double octaves : {extremes.least, extremes.most}) {
-        const Situation situation = with_octaves(count, octaves);
-        const auto hits = bench.hits(situation);
+        const FrameState state = with_octaves(count, octaves);
+        const auto hits = bench.hits(state);
         if (!hits)
             return Answer{Verdict::warn,
                           fmt::format("{} = {:g}: {}", count.name, octaves, to_string(hits.error()))};
@@ -134,10 +134,10 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
             return Answer{
                 Verdict::fail,
                 fmt::format("{} = {:g}: {:.3g} % of the distances are no number", count.name, octaves, lost),
-                situation};
+                state};
     }
-    const Situation situation = with_octaves(count, extremes.most);
-    const auto both = parting(bench, situation);
+    const FrameState state = with_octaves(count, extremes.most);
+    const auto both = parting(bench, state);
     if (!both)
         return without_doubles(both.error());
     Answer answer{Verdict::pass,
@@ -146,7 +146,7 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
     if (both->parted > k_same) {
         answer.verdict = extremes.stated ? Verdict::fail : Verdict::warn;
         answer.sentence += ": floats do not hold the coordinates of so fine a lattice";
-        answer.where = situation;
+        answer.where = state;
         answer.picture = both->map;
     }
     return answer;
@@ -189,15 +189,15 @@ Result<Answer> ask_folds(ProbeBench& bench) {
     bool moves = false;
     double calm = 0;
     for (const double steepness : {0.75, 0.99, 1.0, 1.5}) {
-        Situation situation = typical_view();
+        FrameState state = typical_view();
         scene::KnobValue value = knob->value;
         bool inside = true;
         for (size_t i = 0; i < value.size(); ++i) {
             value[i] *= steepness / sum;
             inside &= !knob->range || value[i] <= knob->range->high[i];
         }
-        situation.settings = {{knob->name, scene::to_string(*knob, value)}};
-        const auto both = parting(bench, situation);
+        state.knobs = {{knob->name, scene::to_string(*knob, value)}};
+        const auto both = parting(bench, state);
         if (!both)
             return without_doubles(both.error());
         moves |= both->in_float.distance != as_is->distance;
@@ -211,7 +211,7 @@ Result<Answer> ask_folds(ProbeBench& bench) {
             fmt::format("steepness that adds up to {:g}: crests fold over{}: {:.3g} % of the rays meet "
                         "something else than in double, {:.3g} % of the distances are no number",
                         steepness, inside ? "" : ", beyond the knob's range", both->parted, lost),
-            situation, both->map};
+            state, both->map};
     }
     if (!moves)
         return Answer{Verdict::not_applicable, fmt::format("{} moves no ray", knob->name)};

@@ -26,8 +26,8 @@ constexpr std::string_view k_slope_hit = R"(void mainHit(out vec4 hit, in vec2 f
 )";
 
 /// Of each pixel; NaN where the ray meets nothing.
-std::vector<double> slopes(FieldBench& bench, double step, const Situation& situation) {
-    const image::Image image = bench.ask({scene::KnobValue{step}}, situation);
+std::vector<double> slopes(FieldBench& bench, double step, const FrameState& state) {
+    const image::Image image = bench.ask({scene::KnobValue{step}}, state);
     std::vector<double> slopes;
     for (size_t i = 0; i < image.extent.pixels(); ++i) {
         const auto hit = image.f32().subspan(4 * i, 4);
@@ -80,7 +80,7 @@ Result<Answer> ask_normals(ProbeBench& bench) {
     if (!in_double)
         return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(in_double.error())};
 
-    const Situation view = typical_view();
+    const FrameState view = typical_view();
     const std::vector<double> truth = slopes(*in_double, 1e-6, view);
     // A picture's filter has steps, and a noise of floats: then there is no slope to be right about.
     if (const auto own = median_angle(slopes(*in_double, 1e-5, view), truth); own && *own > 0.1)

@@ -15,8 +15,8 @@ constexpr Extent k_tile{16, 8};
 } // namespace
 
 Result<Answer> ask_tiles(ProbeBench& bench) {
-    const Situation situation{.extent = k_odd, .time = 0}; // no frame goes before
-    const render::FrameInputs inputs = inputs_of(situation);
+    const FrameState state = state_at(0, k_odd); // no frame goes before
+    const render::FrameInputs inputs = inputs_of(state);
     const auto drawn = [&](std::optional<Extent> tile) {
         auto renderer = render::Renderer::create(
             bench.scene(), {.extent = k_odd, .samples = image::SampleType::f32, .tile = tile});
@@ -37,7 +37,7 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
         return Answer{Verdict::fail,
                       fmt::format("{} of {} pixels differ when drawn in {}x{} tiles{}", different,
                                   tiled.extent.pixels(), k_tile.width, k_tile.height, bench.see_bounds()),
-                      situation, image::without_alpha(tiled)};
+                      state, image::without_alpha(tiled)};
     return Answer{Verdict::pass, fmt::format("the same bytes in {} tiles", cut->tiles()->count())};
 }
 

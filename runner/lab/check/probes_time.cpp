@@ -51,7 +51,7 @@ Result<Jump> jump_at(ProbeBench& bench, double moment) {
     std::vector<image::Image> frames;
     const double step = instant(moment);
     for (const double offset : {-1.5, -0.5, 0.5, 1.5}) {
-        auto frame = bench.picture({.time = moment + offset * step});
+        auto frame = bench.picture(state_at(moment + offset * step));
         if (!frame)
             return fail(std::move(frame.error()));
         frames.push_back(*std::move(frame));
@@ -62,7 +62,7 @@ Result<Jump> jump_at(ProbeBench& bench, double moment) {
     Jump jump{frames[2], psnr(frames[1], frames[2]),
               std::min(psnr(frames[0], frames[1]), psnr(frames[2], frames[3]))};
     if (jump.psnr <= k_close_psnr && std::isfinite(jump.elsewhere)) {
-        const auto start = bench.picture({.time = 0.5 * step});
+        const auto start = bench.picture(state_at(0.5 * step));
         if (!start)
             return fail(start.error());
         jump.wraps = psnr(frames[2], *start) > k_close_psnr;
@@ -78,11 +78,11 @@ constexpr double k_third = 1.0 / 3;
 Result<Answer> ask_horizon(ProbeBench& bench) {
     double good = 0;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        const Situation situation{.time = time + k_third};
-        const auto as_is = bench.picture(situation);
+        const FrameState state = state_at(time + k_third);
+        const auto as_is = bench.picture(state);
         if (!as_is)
             return fail(as_is.error());
-        auto truth = bench.picture(situation, glsl::Precision::promoted);
+        auto truth = bench.picture(state, glsl::Precision::promoted);
         if (!truth)
             return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(truth.error())};
         const double difference = p99_difference(*as_is, *truth);
@@ -101,10 +101,7 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                               "the pixels are off by {:.3g} or more",
                               good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
                               difference);
-        return Answer{kept        ? Verdict::pass
-                      : good == 0 ? Verdict::warn
-                                  : Verdict::fail,
-                      found, situation, *as_is};
+        return Answer{kept ? Verdict::pass : good == 0 ? Verdict::warn : Verdict::fail, found, state, *as_is};
     }
     return Answer{Verdict::pass, "float and double show the same up to 1e6 s"};
 }
@@ -123,7 +120,7 @@ Answer told(const Jump& jump, double moment, bool promised) {
             fmt::format("the picture jumps at {:g} s (PSNR {:.1f} dB between neighbouring instants, {} "
                         "elsewhere){}",
                         moment, jump.psnr, elsewhere, consequence),
-            Situation{.time = moment + instant(moment) / 2}, jump.after};
+            state_at(moment + instant(moment) / 2), jump.after};
 }
 
 } // namespace

@@ -28,15 +28,17 @@ constexpr size_t k_most_explored = 6;
 
 /// A moment, and the pixels that are drawn of it.
 struct View {
-    Situation situation;
+    FrameState state;
     PixelGrid grid{};
 };
 
 /// Everyday, and those in which a search saw values leave their domain.
 Result<std::vector<View>> views(ProbeBench& bench) {
-    const Extent size = Situation().extent;
+    const Extent size = k_probe_extent;
     std::vector<View> all{
-        {{.time = 1}}, {{.time = 0}}, {{.time = 10, .mouse = glm::ivec2(size.width / 3, size.height / 4)}}};
+        {plain_state()},
+        {state_at(0)},
+        {with_mouse(render::Mouse::clicked({size.width / 3, size.height / 4}, false), state_at(10))}};
     const auto explored = explore(bench);
     if (!explored)
         return fail(explored.error());
@@ -60,7 +62,7 @@ Result<std::vector<View>> views(ProbeBench& bench) {
 struct Undefined {
     std::string sentence;
     double percent = 0; ///< of the pixels
-    Situation where;
+    FrameState where;
     image::Image picture;
 };
 
@@ -71,14 +73,14 @@ public:
     Result<std::vector<Undefined>> run(const std::vector<View>& views) {
         std::vector<Undefined> found;
         for (const View& view : views) {
-            const auto renderer = bench_.poised(view.situation);
+            const auto renderer = bench_.poised(view.state);
             if (!renderer)
                 return fail(renderer.error());
-            const render::FrameInputs inputs = inputs_of(view.situation);
+            const render::FrameInputs inputs = inputs_of(view.state);
             (*renderer)->advance_to(pass_.pass, inputs);
             const Moment moment{**renderer, pass_.pass, inputs};
             if (!watched_) {
-                auto linked = WatchedDomains::link(moment, pass_, Situation().extent);
+                auto linked = WatchedDomains::link(moment, pass_, k_probe_extent);
                 if (!linked)
                     return fail(std::move(linked.error()));
                 watched_ = *std::move(linked);
@@ -103,7 +105,7 @@ private:
             Undefined& each = found.emplace_back(
                 fmt::format("{}, first at pixel {},{}) at {}",
                             domain_sentence(*pass_.text, watch.sites[i], reading), pixel.x, pixel.y, place),
-                0, view.situation, image::Image());
+                0, view.state, image::Image());
             if (pass_.pass != bench_.scene().image_index())
                 each.where.pass = bench_.scene().passes[pass_.pass].name;
             if (!zero)
@@ -163,7 +165,7 @@ Result<Answer> ask_bounds(ProbeBench& bench) {
     if (!(*explored)->left_out.empty())
         return Answer{Verdict::not_applicable, "not to be followed: " + (*explored)->left_out};
     std::vector<std::string> told;
-    std::optional<Situation> where;
+    std::optional<FrameState> where;
     for (const Outside& outside : (*explored)->outside)
         if (outside.bound) {
             told.push_back(outside.sentence);

@@ -17,16 +17,17 @@ bool parts(double here, double there, Extent extent) {
 
 } // namespace
 
-std::vector<Situation> usual_views() {
-    std::vector<Situation> views{{.extent = k_ray_extent, .time = 10}};
+std::vector<FrameState> usual_views() {
+    const FrameState untouched = state_at(10, k_ray_extent);
+    std::vector<FrameState> views{untouched};
     for (const glm::dvec2 at : {glm::dvec2(0.5, 0.5), glm::dvec2(0.75, 0.4), glm::dvec2(0.3, 0.47)})
-        views.push_back({.extent = k_ray_extent,
-                         .time = 10,
-                         .mouse = glm::ivec2(at * glm::dvec2(k_ray_extent.width, k_ray_extent.height))});
+        views.push_back(with_mouse(
+            render::Mouse::clicked(at * glm::dvec2(k_ray_extent.width, k_ray_extent.height), false),
+            untouched));
     return views;
 }
 
-Situation typical_view() {
+FrameState typical_view() {
     return usual_views()[2];
 }
 
@@ -73,19 +74,19 @@ Answer without_hits(const ProbeBench& bench, bool warns) {
                  : Answer{Verdict::not_applicable, "mainHit cannot be asked: see witnesses"};
 }
 
-Result<Parting> parting(ProbeBench& bench, const Situation& situation) {
-    auto in_float = bench.hits(situation);
+Result<Parting> parting(ProbeBench& bench, const FrameState& state) {
+    auto in_float = bench.hits(state);
     if (!in_float)
         return fail(std::move(in_float.error()));
-    auto in_double = bench.hits(situation, glsl::Precision::promoted);
+    auto in_double = bench.hits(state, glsl::Precision::promoted);
     if (!in_double)
         return fail(std::move(in_double.error()));
     Parting both{*std::move(in_float), *std::move(in_double), {}, 0, {}};
     for (size_t i = 0; i < both.in_float.size(); ++i)
-        both.parts.push_back(parts(both.in_float.distance[i], both.in_double.distance[i], situation.extent));
+        both.parts.push_back(parts(both.in_float.distance[i], both.in_double.distance[i], state.extent));
     const auto marks = [&](size_t i) { return both.parts[i]; };
     both.parted = percent(both.in_float, marks);
-    both.map = ray_map(both.in_float, situation.extent, marks);
+    both.map = ray_map(both.in_float, state.extent, marks);
     return both;
 }
 

@@ -14,9 +14,9 @@ namespace tidemark::lab {
 inline constexpr Extent k_ray_extent{96, 54};
 
 /// Straight, to the horizon, down and grazing, for scenes that turn with the mouse.
-std::vector<Situation> usual_views();
+std::vector<FrameState> usual_views();
 /// The one of them that sees most of the surface.
-Situation typical_view();
+FrameState typical_view();
 
 double percent(const Hits& hits, const std::function<bool(size_t)>& counts);
 double flagged(const Hits& hits, glsl::HitFlag flag);
@@ -41,7 +41,7 @@ struct Parting {
     image::Image map;  ///< of them
 };
 /// The error of a scene that cannot be promoted.
-Result<Parting> parting(ProbeBench& bench, const Situation& situation);
+Result<Parting> parting(ProbeBench& bench, const FrameState& state);
 
 /// Of the rays, that may part where float and double show the same: silhouettes hang on the last bit.
 inline constexpr double k_same = 1; // percent

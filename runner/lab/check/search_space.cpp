@@ -153,21 +153,20 @@ std::vector<SearchPoint> SearchSpace::survey() const {
     return points;
 }
 
-Situation SearchSpace::situation(const SearchPoint& point, Extent extent) const {
-    Situation situation{.extent = extent, .time = point.time};
+FrameState SearchSpace::state(const SearchPoint& point, Extent extent) const {
+    FrameState state = state_at(point.time, extent);
     for (size_t i = 0; i < scene_.knobs.size(); ++i) {
         const scene::Knob& knob = scene_.knobs[i];
         scene::KnobValue value = point.knobs[i];
         if (scene::info(knob.type).whole)
             std::ranges::transform(value, value.begin(), [](double part) { return std::floor(part); });
         if (knob.value != value)
-            situation.settings.push_back({knob.name, scene::to_string(knob, value)});
+            state.knobs.push_back({knob.name, scene::to_string(knob, value)});
     }
-    if (point.mouse) {
-        situation.mouse = glm::ivec2(int(point.mouse->x * extent.width), int(point.mouse->y * extent.height));
-        situation.down = point.down;
-    }
-    return situation;
+    if (point.mouse)
+        state.mouse =
+            render::Mouse::clicked(*point.mouse * glm::dvec2(extent.width, extent.height), point.down);
+    return state;
 }
 
 double SearchSpace::value(const SearchPoint& point, const SearchAxis& axis) {

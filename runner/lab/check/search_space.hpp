@@ -1,8 +1,8 @@
 // The moments, knobs and places of the mouse in which a scene can be: what a search moves in. Values only.
 #pragma once
 
+#include "lab/check/probe_state.hpp"
 #include "lab/check/promises.hpp"
-#include "lab/check/situation.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/vec2.hpp>
@@ -44,7 +44,7 @@ public:
     /// which any beginning of the list is spread so, too.
     std::vector<SearchPoint> survey() const;
 
-    Situation situation(const SearchPoint& point, Extent extent) const;
+    FrameState state(const SearchPoint& point, Extent extent) const;
 
     static double value(const SearchPoint& point, const SearchAxis& axis);
     static void set(SearchPoint& point, const SearchAxis& axis, double value);

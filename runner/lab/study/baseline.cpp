@@ -49,11 +49,13 @@ void compare_times(const Json& before, const WorkPrecision& now, Comparison& fou
 
 bool same_view(const Json& old, const View& view) {
     const auto same = [&](const char* pointer, double value) { return number_at(old, pointer) == value; };
-    return same("/time", view.time) && same("/mouse/0", view.mouse.x) && same("/mouse/1", view.mouse.y) &&
-           old.contains("camera") == view.camera.has_value() &&
-           (!view.camera ||
-            (same("/camera/0", view.camera->azimuth) && same("/camera/1", view.camera->elevation) &&
-             same("/camera/2", view.camera->distance)));
+    const render::OrbitCamera& camera = view.state.camera;
+    const bool same_camera = old.contains("camera")
+                                 ? same("/camera/0", camera.azimuth) && same("/camera/1", camera.elevation) &&
+                                       same("/camera/2", camera.distance)
+                                 : camera == render::OrbitCamera{};
+    return same("/time", view.state.seconds()) && same("/mouse/0", view.mouse.x) &&
+           same("/mouse/1", view.mouse.y) && same_camera;
 }
 
 bool same_views(const Json& old, const Study& study) {

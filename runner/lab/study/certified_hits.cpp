@@ -113,7 +113,7 @@ std::vector<double> footprints(const Reference& reference, Extent extent) {
 
 Result<Reference> reference_of(const FoundReference& found, const scene::Scene& scene, const View& view,
                                Extent extent, const Lattice3& lattice) {
-    const render::FrameInputs inputs = inputs_of(view, extent);
+    const render::FrameInputs inputs = inputs_of(state_of(view, extent));
     ReferenceInputs wanted;
     wanted.knobs = scene.knobs;
     wanted.time = inputs.time;

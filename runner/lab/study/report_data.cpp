@@ -195,9 +195,10 @@ Json point_json(const WorkPrecisionSet& set, const WorkPrecision& point) {
 Json views_json(const Study& study) {
     Json views = Json::array();
     for (const View& view : study.views) {
-        views.push_back({{"name", view.name}, {"time", view.time}, {"mouse", {view.mouse.x, view.mouse.y}}});
-        if (const auto& camera = view.camera)
-            views.back()["camera"] = {camera->azimuth, camera->elevation, camera->distance};
+        views.push_back(
+            {{"name", view.name}, {"time", view.state.seconds()}, {"mouse", {view.mouse.x, view.mouse.y}}});
+        if (const auto& camera = view.state.camera; camera != render::OrbitCamera{})
+            views.back()["camera"] = {camera.azimuth, camera.elevation, camera.distance};
     }
     return views;
 }

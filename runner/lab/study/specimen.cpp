@@ -13,17 +13,8 @@ namespace {
 
 /// Leaves the frame of the view in the renderer's target.
 void draw(render::Renderer& renderer, const View& view) {
-    const render::FrameInputs inputs = inputs_of(view, renderer.extent());
-    if (renderer.plan().feedback) {
-        renderer.reset();
-        for (int frame = 0; frame < inputs.frame; ++frame) {
-            render::FrameInputs before = render::inputs_of_frame(frame, inputs.frame_rate);
-            before.mouse = inputs.mouse;
-            before.camera = inputs.camera;
-            renderer.draw(before);
-        }
-    }
-    renderer.draw(inputs);
+    const render::FrameState state = state_of(view, renderer.extent());
+    render::FrameStepper(renderer, state).draw(state.frame);
 }
 
 } // namespace
@@ -81,7 +72,7 @@ std::vector<std::string> Specimen::kept_hashes() const {
 }
 
 Cost Specimen::time(const View& view, bool ask_gpu) {
-    const render::FrameInputs inputs = inputs_of(view, extent_);
+    const render::FrameInputs inputs = inputs_of(state_of(view, extent_));
     glFinish();
     const Stopwatch watch;
     std::optional<gl::ElapsedTime> gpu;

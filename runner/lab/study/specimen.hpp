@@ -7,7 +7,7 @@
 #include "lab/setting.hpp"
 #include "lab/study/timing.hpp"
 #include "lab/study/view.hpp"
-#include "render/renderer.hpp"
+#include "render/frame_stepper.hpp"
 
 #include <optional>
 

@@ -165,7 +165,7 @@ private:
         View found;
         found.name = required(json, "name", at);
         if (json.is_object() && json.contains("time"))
-            found.time = number_of(json["time"], at + "/time");
+            found.state = render::at_time(number_of(json["time"], at + "/time"));
         if (json.is_object() && json.contains("mouse")) {
             const Json& mouse = json["mouse"];
             if (mouse.is_array() && mouse.size() == 2 && mouse[0].is_number() && mouse[1].is_number())
@@ -176,7 +176,7 @@ private:
         if (json.is_object() && json.contains("camera")) {
             const auto camera = render::parse_camera(string_of(json["camera"], at + "/camera"));
             if (camera)
-                found.camera = *camera;
+                found.state.camera = *camera;
             else
                 wrong(at + "/camera", camera.error().message);
         }

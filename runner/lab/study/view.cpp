@@ -1,7 +1,5 @@
 #include "lab/study/view.hpp"
 
-#include "render/mouse.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,23 +26,20 @@ bool take(std::string_view& text, char wanted) {
 
 } // namespace
 
-render::FrameInputs inputs_of(const View& view, Extent extent) {
-    render::FrameInputs inputs;
-    inputs.time = view.time;
-    inputs.frame = render::frame_at(view.time, inputs.frame_rate);
-    inputs.date = render::later(inputs.date, view.time);
+render::FrameState state_of(const View& view, Extent extent) {
+    render::FrameState state = view.state;
+    state.extent = extent;
     if (view.mouse != glm::dvec2(0)) // a click that is over
-        inputs.mouse =
-            render::Mouse::clicked(view.mouse.x * extent.width, view.mouse.y * extent.height, false);
-    inputs.camera = view.camera.value_or(render::OrbitCamera{}).matrix();
-    return inputs;
+        state.mouse = render::Mouse::clicked(view.mouse * glm::dvec2(extent.width, extent.height), false);
+    return state;
 }
 
 Result<void> check(const View& view) {
-    if (!(view.time >= 0 && view.time <= k_last_time))
+    const double time = view.state.seconds();
+    if (!(time >= 0 && time <= k_last_time))
         return fail(ErrorCode::usage,
                     fmt::format("view '{}': the time {} is out of range; give 0 to {:g} seconds", view.name,
-                                view.time, k_last_time));
+                                time, k_last_time));
     for (const double part : {view.mouse.x, view.mouse.y})
         if (!(part >= 0 && part <= 1))
             return fail(
@@ -61,7 +56,9 @@ Result<std::vector<View>> parse_views(std::string_view text) {
     do {
         const std::string_view begin = rest;
         View view;
-        bool good = take(rest, view.time);
+        double time = 0;
+        bool good = take(rest, time);
+        view.state = render::at_time(time);
         if (good && take(rest, '@'))
             good = take(rest, view.mouse.x) && take(rest, ',') && take(rest, view.mouse.y);
         view.name = fmt::format("t={}", begin.substr(0, begin.size() - rest.size()));
@@ -82,7 +79,7 @@ Result<std::vector<View>> parse_views(std::string_view text) {
 }
 
 std::vector<View> default_views() {
-    return {{"t=1", 1, {}, {}}, {"t=10", 10, {}, {}}};
+    return {{"t=1", render::at_time(1)}, {"t=10", render::at_time(10)}};
 }
 
 } // namespace tidemark::lab

@@ -1,14 +1,11 @@
-// What a study looks at: a moment and a camera, whatever the size of the picture.
+// What a study looks at: a named state, whatever the size of the picture.
 #pragma once
 
-#include "base/extent.hpp"
 #include "base/result.hpp"
-#include "render/frame_inputs.hpp"
-#include "render/orbit_camera.hpp"
+#include "render/frame_state.hpp"
 
 #include <glm/vec2.hpp>
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,13 +14,12 @@ namespace tidemark::lab {
 
 struct View {
     std::string name;
-    double time = 0;                           ///< iTime, seconds
-    glm::dvec2 mouse{0};                       ///< where it was clicked, as a part of width and height
-    std::optional<render::OrbitCamera> camera; ///< of scenes that declare iCamera; none: the host's own
+    render::FrameState state = render::at_time(0); ///< but for the size, and the mouse, which goes by it
+    glm::dvec2 mouse{0};                           ///< where it was clicked, as a part of width and height
 };
 
-/// The inputs of that view in a picture of that size; iFrame is the one at 60 frames a second.
-render::FrameInputs inputs_of(const View& view, Extent extent);
+/// The view in a picture of that size.
+render::FrameState state_of(const View& view, Extent extent);
 
 /// `0;10;10@.75,.4`: times in seconds, each with a place of the mouse as a part of the picture, if any. The
 /// error (ErrorCode::usage) says what is out of range.

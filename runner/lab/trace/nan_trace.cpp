@@ -202,7 +202,7 @@ std::optional<PixelPlace> first_bad(const render::Renderer& renderer, size_t pas
 class Tracer {
 public:
     Tracer(render::Renderer& renderer, const TraceRequest& request)
-        : renderer_(renderer), request_(request) {}
+        : renderer_(renderer), request_(request), stepper_(renderer, request.states, request.start) {}
 
     Result<std::optional<NanTrace>> run() {
         if (request_.pixel)
@@ -215,15 +215,20 @@ public:
     }
 
 private:
-    int first_frame() const { return renderer_.plan().feedback ? request_.start : request_.frame; }
+    render::FrameInputs inputs_at(int frame) const { return inputs_of(request_.states(frame)); }
+
+    render::FrameStepper::MayDraw tell_of_steps() const {
+        return [this](int frame, int) {
+            if (request_.stepping)
+                request_.stepping(frame);
+            return true;
+        };
+    }
 
     /// The earliest frame and pass with a bad pixel: later ones may only have inherited it.
     std::optional<BadPixel> scan() {
-        renderer_.reset();
-        for (int frame = first_frame();; ++frame) {
-            if (request_.stepping)
-                request_.stepping(frame);
-            renderer_.draw(request_.inputs(frame));
+        for (int frame = renderer_.plan().feedback ? request_.start : request_.frame;; ++frame) {
+            stepper_.draw(frame, tell_of_steps());
             for (const render::PlannedPass& planned : renderer_.plan().passes)
                 if (const auto pixel = first_bad(renderer_, planned.pass))
                     return BadPixel{planned.pass, frame, *pixel};
@@ -232,40 +237,23 @@ private:
         }
     }
 
-    /// Everything as it is before `frame`.
-    void rewind(int frame) {
-        renderer_.reset();
-        for (int before = first_frame(); before < frame; ++before) {
-            if (request_.stepping)
-                request_.stepping(before);
-            renderer_.draw(request_.inputs(before));
-        }
-    }
-
-    /// Everything as it was when `pass` was about to be drawn in `frame`.
-    void rewind(size_t pass, int frame) {
-        rewind(frame);
-        renderer_.advance_to(pass, request_.inputs(frame));
-    }
-
     Result<std::optional<NanTrace>> trace(const BadPixel& bad, bool nan_only) {
         NanTrace trace;
         trace.pass = renderer_.scene().passes[bad.pass].name;
         trace.frame = bad.frame;
         trace.pixel = bad.pixel;
-        rewind(bad.frame);
-        renderer_.draw(request_.inputs(bad.frame));
+        stepper_.draw(bad.frame, tell_of_steps());
         trace.colour = bits_at(renderer_.read_floats(bad.pass, bad.pixel.face), bad.pixel);
         trace.washed = is_finite(trace.colour);
         if (request_.progress && !trace.washed)
             request_.progress(trace);
-        rewind(bad.pass, bad.frame);
+        stepper_.advance_to(bad.frame, bad.pass, tell_of_steps());
         auto text = read_text(renderer_, bad.pass);
         if (!text)
             return fail(std::move(text.error()));
         const glsl::TreeFacts facts = glsl::find_facts(**text);
         const WatchedText watched{**text, facts};
-        const render::FrameInputs inputs = request_.inputs(bad.frame);
+        const render::FrameInputs inputs = inputs_at(bad.frame);
         const Moment moment{renderer_, bad.pass, inputs};
         if (auto done = PixelTracer(moment, watched, trace, request_).run(nan_only); !done)
             trace.notes.push_back(to_string(done.error()));
@@ -279,11 +267,11 @@ private:
         for (const render::PlannedPass& planned : renderer_.plan().passes) {
             if (renderer_.scene().passes[planned.pass].kind == scene::PassKind::cubemap)
                 continue;
-            rewind(planned.pass, request_.frame);
+            stepper_.advance_to(request_.frame, planned.pass, tell_of_steps());
             auto text = read_text(renderer_, planned.pass);
             if (!text)
                 return fail(std::move(text.error()));
-            const render::FrameInputs inputs = request_.inputs(request_.frame);
+            const render::FrameInputs inputs = inputs_at(request_.frame);
             const Moment moment{renderer_, planned.pass, inputs};
             WatchRequest watch_request;
             watch_request.reach = Reach::everything;
@@ -305,6 +293,7 @@ private:
 
     render::Renderer& renderer_;
     const TraceRequest& request_;
+    render::FrameStepper stepper_;
 };
 
 } // namespace

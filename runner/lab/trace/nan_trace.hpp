@@ -5,7 +5,7 @@
 #include "base/result.hpp"
 #include "lab/trace/operation.hpp"
 #include "lab/trace/watched_run.hpp"
-#include "render/renderer.hpp"
+#include "render/frame_stepper.hpp"
 
 #include <functional>
 #include <optional>
@@ -58,9 +58,9 @@ struct NanTrace {
 };
 
 struct TraceRequest {
+    render::FrameStates states;
     int frame = 0;
-    int start = 0; ///< the frame from which a scene with feedback is drawn
-    std::function<render::FrameInputs(int frame)> inputs;
+    int start = 0;                     ///< the frame from which a scene with feedback is drawn
     std::optional<PixelPlace> pixel{}; ///< of the shown pass; nothing: the first bad one of any pass
     bool hidden = false; ///< where all pixels are finite: look for a NaN that something swallowed
     /// Called with each frame that is drawn on the way.

@@ -63,10 +63,9 @@ TEST(InputScript, says_what_is_wrong_and_where) {
 }
 
 render::FrameInputs at(Replay& replay, int frame) {
-    render::FrameInputs inputs;
-    inputs.frame = frame;
-    replay.fill(inputs, 100);
-    return inputs;
+    render::FrameState state{.frame = frame, .extent = {100, 100}};
+    replay.fill(state);
+    return inputs_of(state);
 }
 
 TEST(Replay, shows_each_frame_what_a_person_would_have_done) {

@@ -72,20 +72,25 @@ TEST(ParseFrames, what_is_no_range) {
     }
 }
 
+std::optional<glm::vec4> i_mouse(std::string_view text) {
+    const auto mouse = parse_mouse(text);
+    return mouse ? std::optional(mouse->uniform()) : std::nullopt;
+}
+
 TEST(ParseMouse, after_a_click) {
-    EXPECT_EQ(parse_mouse("30,40"), glm::vec4(30, 40, -30, -40));
-    EXPECT_EQ(parse_mouse("30.9,40.1"), glm::vec4(30, 40, -30, -40));
-    EXPECT_EQ(parse_mouse("0,0"), glm::vec4(0));
-    EXPECT_EQ(parse_mouse("-5,1e3"), glm::vec4(-5, 1000, 5, -1000));
+    EXPECT_EQ(i_mouse("30,40"), glm::vec4(30, 40, -30, -40));
+    EXPECT_EQ(i_mouse("30.9,40.1"), glm::vec4(30, 40, -30, -40));
+    EXPECT_EQ(i_mouse("0,0"), glm::vec4(0));
+    EXPECT_EQ(i_mouse("-5,1e3"), glm::vec4(-5, 1000, 5, -1000));
 }
 
 TEST(ParseMouse, in_the_frame_of_the_press) {
-    EXPECT_EQ(parse_mouse("30,40,down"), glm::vec4(30, 40, 30, 40));
+    EXPECT_EQ(i_mouse("30,40,down"), glm::vec4(30, 40, 30, 40));
 }
 
 TEST(ParseMouse, after_a_drag_and_before_its_end) {
-    EXPECT_EQ(parse_mouse("30,40,5,6"), glm::vec4(30, 40, -5, -6));
-    EXPECT_EQ(parse_mouse("30.9,-40,5.9,6,down"), glm::vec4(30, -40, 5, -6));
+    EXPECT_EQ(i_mouse("30,40,5,6"), glm::vec4(30, 40, -5, -6));
+    EXPECT_EQ(i_mouse("30.9,-40,5.9,6,down"), glm::vec4(30, -40, 5, -6));
 }
 
 TEST(ParseMouse, what_is_no_mouse) {
@@ -103,28 +108,38 @@ TEST(ParseMouse, what_is_no_mouse) {
     }
 }
 
-TEST(InputsOf, a_frame_sees_what_was_asked_for) {
-    FrameRequest request;
-    request.fps = 24;
-    request.mouse = glm::vec4(1, 2, -3, -4);
-    request.date = {2020, 5, 6, 7};
-    request.camera.azimuth = 90;
-    const render::FrameInputs inputs = inputs_of(request, 12);
+TEST(StatesOf, a_frame_sees_what_was_asked_for) {
+    FrameSequence sequence;
+    sequence.state.fps = 24;
+    sequence.state.mouse = render::Mouse::clicked({1, 2}, false);
+    sequence.state.date = {2020, 5, 6, 7};
+    sequence.state.camera.azimuth = 90;
+    const render::FrameInputs inputs = inputs_of(states_of(sequence)(12));
     EXPECT_EQ(inputs.frame, 12);
     EXPECT_EQ(inputs.time, 0.5);
     EXPECT_EQ(inputs.time_delta, 1 / 24.0);
-    EXPECT_EQ(inputs.mouse, request.mouse);
+    EXPECT_EQ(inputs.mouse, glm::vec4(1, 2, -1, -2));
     EXPECT_EQ(inputs.date, (render::Date{2020, 5, 6, 7.5})) << "iDate goes on with iTime";
-    EXPECT_EQ(inputs.camera, request.camera.matrix());
+    EXPECT_EQ(inputs.camera, sequence.state.camera.matrix());
+    EXPECT_EQ(inputs.view, glm::mat4(1));
 }
 
-TEST(InputsOf, a_time_falls_in_a_frame_and_the_frames_before_lead_to_it) {
-    FrameRequest request;
-    request.time = 1.999;
-    EXPECT_EQ(inputs_of(request, 119).time, 1.999);
-    EXPECT_EQ(inputs_of(request, 119).frame, 119);
-    EXPECT_EQ(inputs_of(request, 118).frame, 118);
-    EXPECT_EQ(inputs_of(request, 59).time, 1.999 - 1);
+TEST(StatesOf, a_time_falls_in_a_frame_and_the_frames_before_lead_to_it) {
+    FrameSequence sequence{render::at_time(1.999)};
+    EXPECT_EQ(sequence.state.frame, 119);
+    const render::FrameStates states = states_of(sequence);
+    EXPECT_EQ(states(119).seconds(), 1.999);
+    EXPECT_EQ(states(118).frame, 118);
+    EXPECT_EQ(states(59).seconds(), 1.999 - 1);
+}
+
+TEST(StatesOf, a_recording_moves_the_mouse) {
+    FrameSequence sequence;
+    sequence.input = {{3, platform::ButtonPressed{platform::Button::left, {10, 20}}}};
+    const render::FrameStates states = states_of(sequence);
+    EXPECT_EQ(states(3).mouse.uniform(), glm::vec4(10, 20, 10, 20));
+    EXPECT_EQ(states(2).mouse, render::Mouse());
+    EXPECT_EQ(states(4).mouse.uniform(), glm::vec4(10, 20, 10, -20));
 }
 
 TEST(FrameAt, is_the_frame_that_a_time_falls_in) {

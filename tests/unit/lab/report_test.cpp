@@ -35,7 +35,7 @@ WorkPrecision point(size_t series, const std::string& label, double rmse, double
 
 WorkPrecisionSet set_of(std::vector<WorkPrecision> points) {
     WorkPrecisionSet set;
-    set.study.views = {{"first", 1, {}, {}}};
+    set.study.views = {{"first", render::at_time(1)}};
     set.study.series = {{"N <of it>", Trust::heuristic, {}, {{"N", {}}}}};
     set.picture_standard = {"itself", 1e-5, "compared"};
     set.circumstances.renderer = "some GPU";
@@ -205,12 +205,12 @@ TEST(Baseline, an_error_that_is_no_number_any_more_is_worse_and_one_that_was_non
 TEST(Baseline, another_camera_is_another_view) {
     WorkPrecisionSet seen = usual();
     const std::string plain = to_json(seen);
-    seen.study.views[0].camera = render::OrbitCamera{30, 20, 10, {}};
+    seen.study.views[0].state.camera.elevation = 5;
     const std::string through = to_json(seen);
     EXPECT_TRUE(compare_with(through, "old.json", seen));
     EXPECT_FALSE(compare_with(plain, "old.json", seen));
     EXPECT_FALSE(compare_with(through, "old.json", usual()));
-    seen.study.views[0].camera->elevation = 21;
+    seen.study.views[0].state.camera.elevation = 21;
     EXPECT_FALSE(compare_with(through, "old.json", seen));
 }
 
@@ -222,7 +222,7 @@ TEST(Baseline, of_another_machine_or_another_study_is_told) {
     EXPECT_THAT(found->worse, ElementsAre());
     EXPECT_THAT(found->notes, ElementsAre("times are not compared: the baseline is of another machine"));
     WorkPrecisionSet other = usual();
-    other.study.views[0].time = 2;
+    other.study.views[0].state = render::at_time(2);
     EXPECT_EQ(compare_with(old, "old.json", other).error().message,
               "--baseline 'old.json': that study has other views or another size");
     for (const char* bad : {"{}", "[]", "3", "{\"schema\": \"tidemark study 1\"}"})

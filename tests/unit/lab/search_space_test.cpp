@@ -38,7 +38,7 @@ TEST(SearchSpace, KnobsStayWithinTheirRange) {
     for (const SearchPoint& point : space.survey()) {
         low = std::min(low, point.knobs[0][0]);
         high = std::max(high, point.knobs[0][0]);
-        for (const Setting& setting : space.situation(point, {64, 36}).settings)
+        for (const Setting& setting : space.state(point, {64, 36}).knobs)
             if (setting.name == "count") {
                 EXPECT_EQ(setting.value.find('.'), std::string::npos) << setting.value;
             }

@@ -77,13 +77,13 @@ TEST(Views, are_times_and_places_of_the_mouse) {
     const auto views = parse_views("0;2.5@0.75,.4");
     ASSERT_TRUE(views);
     ASSERT_EQ(views->size(), 2u);
-    EXPECT_EQ((*views)[1].time, 2.5);
+    EXPECT_EQ((*views)[1].state.seconds(), 2.5);
     EXPECT_EQ((*views)[1].name, "t=2.5@0.75,.4");
-    const render::FrameInputs inputs = inputs_of((*views)[1], {320, 180});
+    const render::FrameInputs inputs = inputs_of(state_of((*views)[1], {320, 180}));
     EXPECT_EQ(inputs.mouse.x, 240);
     EXPECT_EQ(inputs.mouse.y, 72);
     EXPECT_EQ(inputs.frame, 150);
-    EXPECT_EQ(inputs_of((*views)[0], {320, 180}).mouse, glm::vec4(0));
+    EXPECT_EQ(state_of((*views)[0], {320, 180}).mouse, render::Mouse());
     for (const char* bad : {"", "x", "1;", "1@", "1@2", "1@0.5,0.5,", "1 2"})
         EXPECT_FALSE(parse_views(bad)) << bad;
 }

@@ -9,7 +9,7 @@ constexpr double k_delta = 1 / 60.0;
 
 TEST(LiveClock, starts_at_frame_0_and_time_0_whatever_the_clock_says) {
     LiveClock clock(1000);
-    const FrameInputs first = clock.next_frame(1000);
+    const FrameInputs first = inputs_of(clock.next_frame(1000));
     EXPECT_EQ(first.frame, 0);
     EXPECT_EQ(first.time, 0);
     EXPECT_EQ(first.time_delta, k_delta);
@@ -19,7 +19,7 @@ TEST(LiveClock, starts_at_frame_0_and_time_0_whatever_the_clock_says) {
 TEST(LiveClock, runs_with_the_wall_clock) {
     LiveClock clock(1000);
     (void)clock.next_frame(1000.25);
-    const FrameInputs second = clock.next_frame(1000.75);
+    const FrameInputs second = inputs_of(clock.next_frame(1000.75));
     EXPECT_EQ(second.frame, 1);
     EXPECT_EQ(second.time, 0.75);
     EXPECT_EQ(second.time_delta, 0.5);
@@ -29,7 +29,7 @@ TEST(LiveClock, follows_frames_where_it_is_told_to) {
     LiveClock clock(1000, 25.0);
     (void)clock.next_frame(1000);
     const auto expect_frame = [&](int number) {
-        const FrameInputs shown = clock.next_frame(1003.5 + number);
+        const FrameInputs shown = inputs_of(clock.next_frame(1003.5 + number));
         const FrameInputs wanted = inputs_of_frame(number, 25);
         EXPECT_EQ(shown.frame, wanted.frame);
         EXPECT_EQ(shown.time, wanted.time);
@@ -55,7 +55,7 @@ TEST(LiveClock, pause_freezes_time) {
     EXPECT_FALSE(clock.paused());
     clock.toggle_pause(2);
     EXPECT_TRUE(clock.paused());
-    const FrameInputs frozen = clock.next_frame(5);
+    const FrameInputs frozen = inputs_of(clock.next_frame(5));
     EXPECT_EQ(frozen.time, 2);
     EXPECT_EQ(frozen.time_delta, k_delta);
 }
@@ -65,7 +65,7 @@ TEST(LiveClock, frames_drawn_in_a_pause_still_count) {
     (void)clock.next_frame(0);
     clock.toggle_pause(1);
     EXPECT_EQ(clock.next_frame(2).frame, 1);
-    const FrameInputs later = clock.next_frame(9);
+    const FrameInputs later = inputs_of(clock.next_frame(9));
     EXPECT_EQ(later.frame, 2);
     EXPECT_EQ(later.time, 1);
     EXPECT_EQ(later.time_delta, k_delta) << "in every frame of the pause";
@@ -78,7 +78,7 @@ TEST(LiveClock, resumes_where_it_stood) {
     (void)clock.next_frame(50);
     clock.toggle_pause(100);
     EXPECT_FALSE(clock.paused());
-    const FrameInputs resumed = clock.next_frame(100.5);
+    const FrameInputs resumed = inputs_of(clock.next_frame(100.5));
     EXPECT_EQ(resumed.time, 2.5);
     EXPECT_EQ(resumed.time_delta, k_delta) << "the first frame after a pause";
     EXPECT_EQ(clock.next_frame(100.75).time_delta, 0.25);
@@ -88,7 +88,7 @@ TEST(LiveClock, a_rest_is_no_frames_delta) {
     LiveClock clock(0);
     (void)clock.next_frame(1);
     clock.rest();
-    const FrameInputs woken = clock.next_frame(9);
+    const FrameInputs woken = inputs_of(clock.next_frame(9));
     EXPECT_EQ(woken.time, 9) << "time goes on";
     EXPECT_EQ(woken.frame, 1);
     EXPECT_EQ(woken.time_delta, k_delta);
@@ -101,7 +101,7 @@ TEST(LiveClock, restart_begins_anew) {
     (void)clock.next_frame(1);
     (void)clock.next_frame(2);
     clock.restart(3);
-    const FrameInputs first = clock.next_frame(3.5);
+    const FrameInputs first = inputs_of(clock.next_frame(3.5));
     EXPECT_EQ(first.frame, 0);
     EXPECT_EQ(first.time, 0.5);
     EXPECT_EQ(first.time_delta, k_delta);
@@ -124,7 +124,7 @@ TEST(LiveClock, a_step_pauses_and_goes_on_by_one_frame) {
         (void)clock.next_frame(1);
     clock.step(1, 50, 1.5);
     EXPECT_TRUE(clock.paused());
-    const FrameInputs next = clock.next_frame(7);
+    const FrameInputs next = inputs_of(clock.next_frame(7));
     EXPECT_EQ(next.frame, 3) << "frame 2 was on show";
     EXPECT_EQ(next.time, 1.52);
     EXPECT_EQ(next.time_delta, k_delta);
@@ -137,7 +137,7 @@ TEST(LiveClock, a_step_back_shows_the_frame_before) {
     for (int i = 0; i < 3; ++i)
         (void)clock.next_frame(1);
     clock.step(-1, 50, 1.5);
-    const FrameInputs back = clock.next_frame(7);
+    const FrameInputs back = inputs_of(clock.next_frame(7));
     EXPECT_EQ(back.frame, 1);
     EXPECT_EQ(back.time, 1.48);
 }
@@ -146,7 +146,7 @@ TEST(LiveClock, no_step_goes_before_the_start) {
     LiveClock clock(0);
     (void)clock.next_frame(0);
     clock.step(-10, 50, 0.1);
-    const FrameInputs first = clock.next_frame(1);
+    const FrameInputs first = inputs_of(clock.next_frame(1));
     EXPECT_EQ(first.frame, 0);
     EXPECT_EQ(first.time, 0);
 }
@@ -154,12 +154,12 @@ TEST(LiveClock, no_step_goes_before_the_start) {
 TEST(LiveClock, the_rate_is_a_mean_over_half_a_second) {
     LiveClock clock(0);
     for (int i = 0; i < 50; ++i) // the last one at 0.49 s
-        EXPECT_EQ(clock.next_frame(i * 0.01).frame_rate, 60);
-    EXPECT_NEAR(clock.next_frame(0.5).frame_rate, 100, 1e-9);
+        EXPECT_EQ(clock.next_frame(i * 0.01).fps, 60);
+    EXPECT_NEAR(clock.next_frame(0.5).fps, 100, 1e-9);
     EXPECT_NEAR(clock.frame_rate(), 100, 1e-9);
     for (int i = 1; i < 10; ++i)
-        EXPECT_NEAR(clock.next_frame(0.5 + i * 0.05).frame_rate, 100, 1e-9);
-    EXPECT_NEAR(clock.next_frame(1.0001).frame_rate, 20, 0.01);
+        EXPECT_NEAR(clock.next_frame(0.5 + i * 0.05).fps, 100, 1e-9);
+    EXPECT_NEAR(clock.next_frame(1.0001).fps, 20, 0.01);
 }
 
 TEST(LiveClock, the_time_of_a_pause_is_no_part_of_the_rate) {
@@ -168,9 +168,9 @@ TEST(LiveClock, the_time_of_a_pause_is_no_part_of_the_rate) {
         (void)clock.next_frame(i * 0.01);
     clock.toggle_pause(0.2);
     clock.toggle_pause(100);
-    EXPECT_EQ(clock.next_frame(100).frame_rate, 60);
-    EXPECT_EQ(clock.next_frame(100.25).frame_rate, 60);
-    EXPECT_EQ(clock.next_frame(100.5).frame_rate, 4);
+    EXPECT_EQ(clock.next_frame(100).fps, 60);
+    EXPECT_EQ(clock.next_frame(100.25).fps, 60);
+    EXPECT_EQ(clock.next_frame(100.5).fps, 4);
 }
 
 } // namespace

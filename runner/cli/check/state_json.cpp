@@ -1,0 +1,82 @@
+#include "cli/check/state_json.hpp"
+
+#include "render/frame_fields.hpp"
+
+#include <concepts>
+#include <optional>
+#include <tuple>
+
+namespace tidemark::cli {
+namespace {
+
+/// The members of the fields' own types.
+struct Parts {
+    auto operator()(Extent& e) const { return std::tie(e.width, e.height); }
+    auto operator()(glm::vec2& v) const { return std::tie(v.x, v.y); }
+    auto operator()(glm::dvec3& v) const { return std::tie(v.x, v.y, v.z); }
+    auto operator()(render::Date& d) const { return std::tie(d.year, d.month, d.day, d.seconds); }
+    auto operator()(render::Mouse& m) const { return std::tie(m.position, m.pressed_at, m.down, m.is_new); }
+    auto operator()(render::OrbitCamera& c) const {
+        return std::tie(c.azimuth, c.elevation, c.distance, c.target);
+    }
+    auto operator()(scene::Setting& s) const { return std::tie(s.name, s.value); }
+};
+
+template <class T>
+concept HasParts = std::invocable<Parts, T&>;
+
+template <class T>
+Json encode(T value) {
+    if constexpr (HasParts<T>)
+        return std::apply([](auto&... part) { return Json::array({encode(part)...}); }, Parts{}(value));
+    else
+        return value;
+}
+template <class T>
+Json encode(const std::optional<T>& value) {
+    return value ? encode(*value) : Json();
+}
+template <class T>
+Json encode(const std::vector<T>& values) {
+    Json json = Json::array();
+    for (const T& value : values)
+        json.push_back(encode(value));
+    return json;
+}
+
+template <class T>
+void decode(const Json& json, T& value) {
+    if constexpr (HasParts<T>)
+        std::apply([&, i = size_t(0)](auto&... part) mutable { (decode(json[i++], part), ...); },
+                   Parts{}(value));
+    else
+        json.get_to(value);
+}
+template <class T>
+void decode(const Json& json, std::optional<T>& value) {
+    if (!json.is_null())
+        decode(json, value.emplace());
+}
+template <class T>
+void decode(const Json& json, std::vector<T>& values) {
+    for (const Json& each : json)
+        decode(each, values.emplace_back());
+}
+
+} // namespace
+
+Json to_json(const render::FrameState& state) {
+    Json json;
+    render::for_each_field(
+        [&](const auto& field) { json[std::string(field.name)] = encode(state.*field.member); });
+    return json;
+}
+
+render::FrameState frame_state_of(const Json& json) {
+    render::FrameState state;
+    render::for_each_field(
+        [&](const auto& field) { decode(json.at(std::string(field.name)), state.*field.member); });
+    return state;
+}
+
+} // namespace tidemark::cli

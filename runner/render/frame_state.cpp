@@ -1,0 +1,37 @@
+#include "render/frame_state.hpp"
+
+#include <glm/matrix.hpp>
+
+namespace tidemark::render {
+
+FrameState FrameState::at_frame(int number) const {
+    FrameState other = *this;
+    other.frame = number;
+    if (time)
+        other.time = *time - (frame - number) / fps;
+    return other;
+}
+
+FrameState at_time(double seconds, FrameState state) {
+    state.time = seconds;
+    state.frame = frame_at(seconds, state.fps);
+    return state;
+}
+
+FrameInputs inputs_of(const FrameState& state) {
+    FrameInputs inputs;
+    inputs.frame = state.frame;
+    inputs.time = state.seconds();
+    inputs.time_delta = state.time_delta.value_or(1 / state.fps);
+    inputs.frame_rate = state.fps;
+    inputs.mouse = state.mouse.uniform();
+    inputs.mouse_button = {state.mouse.down ? 1 : 0, state.right_button ? 1 : 0};
+    inputs.keyboard = state.keys;
+    inputs.date = later(state.date, inputs.time);
+    inputs.camera = state.camera.matrix();
+    if (state.initial_camera)
+        inputs.view = inverse(state.initial_camera->matrix()) * inputs.camera;
+    return inputs;
+}
+
+} // namespace tidemark::render

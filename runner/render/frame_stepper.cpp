@@ -1,0 +1,42 @@
+#include "render/frame_stepper.hpp"
+
+#include <algorithm>
+
+namespace tidemark::render {
+
+FrameSteps FrameStepper::draw(int frame, const MayDraw& may_draw) {
+    return step(frame + 1, frame, may_draw);
+}
+
+FrameSteps FrameStepper::lead_to(int frame, const MayDraw& may_draw) {
+    return step(frame, frame, may_draw);
+}
+
+void FrameStepper::advance_to(int frame, size_t pass, const MayDraw& may_draw) {
+    lead_to(frame, may_draw);
+    renderer_.advance_to(pass, inputs_of(states_(frame)));
+    next_.reset();
+}
+
+/// Draws the frames before `end`, of which `last` is wanted.
+FrameSteps FrameStepper::step(int end, int last, const MayDraw& may_draw) {
+    if (!renderer_.plan().feedback) {
+        next_ = last;
+    } else if (!next_ || *next_ > last) {
+        renderer_.reset();
+        next_ = std::min(first_, last);
+    }
+    FrameSteps steps;
+    const size_t before = renderer_.passes_drawn();
+    for (; *next_ < end; ++*next_) {
+        steps.complete = !may_draw || may_draw(*next_, last);
+        if (!steps.complete)
+            break;
+        renderer_.draw(inputs_of(states_(*next_)));
+        ++steps.frames;
+    }
+    steps.passes = renderer_.passes_drawn() - before;
+    return steps;
+}
+
+} // namespace tidemark::render
