@@ -12,10 +12,10 @@ FrameSteps FrameStepper::lead_to(int frame, const MayDraw& may_draw) {
     return step(frame, frame, may_draw);
 }
 
-void FrameStepper::advance_to(int frame, size_t pass, const MayDraw& may_draw) {
+PassPreview FrameStepper::preview(int frame, size_t pass, const MayDraw& may_draw) {
     lead_to(frame, may_draw);
-    renderer_.advance_to(pass, inputs_of(states_(frame)));
     next_.reset();
+    return {renderer_, pass, inputs_of(states_(frame))};
 }
 
 /// Draws the frames before `end`, of which `last` is wanted.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/frame_state.hpp"
+#include "render/pass_preview.hpp"
 #include "render/renderer.hpp"
 
 #include <functional>
@@ -33,8 +34,8 @@ public:
     FrameSteps draw(int frame, const MayDraw& may_draw = {});
     /// All that `draw` draws but the frame itself: buffers hold what it would see.
     FrameSteps lead_to(int frame, const MayDraw& may_draw = {});
-    /// Goes on into the frame, as Renderer::advance_to does. What is asked for next begins anew.
-    void advance_to(int frame, size_t pass, const MayDraw& may_draw = {});
+    /// Goes on into the frame. What is asked for next begins anew.
+    PassPreview preview(int frame, size_t pass, const MayDraw& may_draw = {});
 
 private:
     FrameSteps step(int end, int last, const MayDraw& may_draw);

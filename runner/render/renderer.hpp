@@ -4,14 +4,11 @@
 
 #include "base/result.hpp"
 #include "gl/program.hpp"
-#include "glsl/dialect.hpp"
-#include "glsl/double/promote.hpp"
-#include "glsl/specialise/specialise.hpp"
 #include "image/image.hpp"
 #include "render/bound_channel.hpp"
 #include "render/channel_textures.hpp"
+#include "render/compiled_scene.hpp"
 #include "render/frame_inputs.hpp"
-#include "render/frame_plan.hpp"
 #include "render/last_drawing.hpp"
 #include "render/pass_target.hpp"
 #include "render/tile_grid.hpp"
@@ -24,25 +21,6 @@
 #include <vector>
 
 namespace tidemark::render {
-
-struct RenderOptions {
-    Extent extent{640, 360};
-    /// u8 draws Image into RGBA8, so that a picture holds what GL itself shows; f32 into RGBA32F. Buffers are
-    /// always RGBA32F, cubemap passes RGBA16F.
-    image::SampleType samples = image::SampleType::u8;
-    std::string pass{}; ///< the pass to show; empty: Image
-    /// Textures and targets hold what they always hold: in a promoted scene a pass reads floats and writes
-    /// floats, and computes in doubles between.
-    glsl::Precision precision = glsl::Precision::single;
-    /// Beyond `unreachable` its knobs cannot be turned.
-    glsl::Specialise specialise = glsl::Specialise::nothing;
-    Extras extras{};
-    /// Draws the shown pass tile by tile into a target of this size, where nobody reads its picture: then
-    /// `draw` leaves it out, and `draw_tile` draws it.
-    std::optional<Extent> tile{};
-    /// Bytes of Image tell which pixels were not finite: image::take_non_finite. Not where a pass reads it.
-    bool marks_non_finite = false;
-};
 
 /// What a frame takes, in things that can be counted.
 struct FrameWork {
@@ -73,15 +51,6 @@ public:
     /// that are not at rest yet do not count.
     bool follows_clock() const;
 
-    /// Goes on into the frame as far as `pass`: those in front of it are drawn, and draw_stand_in sees what
-    /// `pass` would see. Buffers have made that step then: where there is feedback, `reset` comes next, no
-    /// `draw`.
-    void advance_to(size_t pass, const FrameInputs& inputs);
-    /// Draws what `pass` is about to draw by another program, made from a text of the same dialect, into a
-    /// target of any size; uniforms are the pass's. Of a cubemap, one face. The pass itself stays undrawn.
-    void draw_stand_in(size_t pass, const gl::Program& program, const FrameInputs& inputs,
-                       const gl::RenderTarget& into, int face = 0) const;
-
     /// The tiles of the shown pass; nothing where it is drawn whole.
     std::optional<TileGrid> tiles() const;
     /// One tile, after the `draw` of the same frame, and its pixels in their place in `band`: a picture of
@@ -98,7 +67,7 @@ public:
 
     /// The pixels of the shown pass, drawn whole. A buffer that is shown in bytes is clamped; of a cube, face
     /// +x.
-    image::Image read_back() const { return read_back(shown_); }
+    image::Image read_back() const { return read_back(shown_index()); }
     /// The faces of a shown cubemap pass, +x -x +y -y +z -z.
     std::array<image::Image, 6> read_back_cube() const;
 
@@ -106,7 +75,7 @@ public:
     image::Image read_back(size_t pass) const;
 
     /// Other values for the scene's knobs, in their order, from the next frame on.
-    void turn(std::vector<scene::Knob> knobs) { scene_.knobs = std::move(knobs); }
+    void turn(std::vector<scene::Knob> knobs) { compiled_.turn(std::move(knobs)); }
 
     /// The last picture of any pass in the plan, in floats.
     image::Image read_floats(size_t pass, int face = 0) const;
@@ -117,71 +86,61 @@ public:
 
     FrameWork work() const;
     Extent extent() const { return extent_; }
-    image::SampleType samples() const { return samples_; }
-    const gl::RenderTarget& target() const { return targets_[shown_].latest(); }
-    const scene::Scene& scene() const { return scene_; }
-    const scene::Pass& shown_pass() const { return scene_.passes[shown_]; }
-    size_t shown_index() const { return shown_; }
-    const FramePlan& plan() const { return plan_; }
+    image::SampleType samples() const { return compiled_.options().samples; }
+    const gl::RenderTarget& target() const { return passes_[shown_index()].target.latest(); }
+    const scene::Scene& scene() const { return compiled_.scene(); }
+    const scene::Pass& shown_pass() const { return scene().passes[shown_index()]; }
+    size_t shown_index() const { return compiled_.shown(); }
+    const FramePlan& plan() const { return compiled_.plan(); }
     /// The program of a pass in the plan.
-    const gl::Program& program(size_t pass) const { return *passes_[pass].program; }
-    glsl::Precision precision() const { return precision_; }
+    const gl::Program& program(size_t pass) const { return compiled_[pass].linked.program; }
+    glsl::Precision precision() const { return compiled_.options().precision; }
     /// What a pass in the plan leaves in floats although the scene is promoted.
-    const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const { return passes_[pass].hashes; }
+    const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const {
+        return compiled_[pass].linked.hashes;
+    }
     /// Of the text of a pass in the plan.
-    const glsl::LeftOut& left_out(size_t pass) const { return passes_[pass].left_out; }
+    const glsl::LeftOut& left_out(size_t pass) const { return compiled_[pass].linked.left_out; }
     /// What it was linked as.
-    const glsl::Dialect& dialect(size_t pass) const { return passes_[pass].dialect; }
+    const glsl::Dialect& dialect(size_t pass) const { return compiled_[pass].linked.dialect; }
 
 private:
-    struct CompiledPass {
-        std::optional<gl::Program> program; ///< none: not needed
-        glsl::Dialect dialect;
-        UniformTable uniforms;
+    friend class PassPreview; ///< goes on into a frame, and no further
+    /// What is drawn of a pass, and what it is drawn from.
+    struct DrawnPass {
         std::vector<BoundChannel> channels;
-        std::vector<glsl::KeptHash> hashes;
+        PassTarget target; ///< empty where nothing is drawn
         LastDrawing drawn;
-        glsl::LeftOut left_out;
-        bool discards = false; ///< a pixel may keep what an earlier frame drew there
     };
 
-    Result<void> choose_pass(const std::string& name);
-    std::vector<bool> reachable() const;
-    bool can_be_tiled() const;
-    Result<void> compile();
-    Result<void> bind_channels();
-    const gl::Texture& texture_of(const BoundChannel& channel) const;
+    explicit Renderer(CompiledScene compiled);
     Result<void> make_targets();
     Result<PassTarget> make_target(size_t pass) const;
+    Result<void> bind_channels();
+    bool is_cube(size_t pass) const { return scene().passes[pass].kind == scene::PassKind::cubemap; }
+    bool is_tiled(size_t pass) const { return compiled_.options().tile && pass == compiled_.shown(); }
     bool has_own_size(size_t pass) const;
-    GLenum format_of(size_t pass) const;
 
     void draw_pass(size_t pass, const FrameInputs& inputs);
-    UniformValues uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
-                              Extent extent) const;
-    Edition edition_of(const BoundChannel& channel) const;
-    void bind_textures(const CompiledPass& pass) const;
+    void draw_before(size_t pass, const FrameInputs& inputs);
+    void draw_substitute(size_t pass, const gl::Program& program, const FrameInputs& inputs,
+                         const gl::RenderTarget& into, int face) const;
     void draw_tile(const FrameInputs& inputs, const Tile& tile) const;
     void draw_face(const gl::Program& program, const gl::RenderTarget& into, Extent extent) const;
-    ChannelFacts facts_of(const CompiledPass& pass, scene::PassKind kind, const FrameInputs& inputs) const;
+    UniformValues uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
+                              Extent extent) const;
+    ChannelFacts facts_of(size_t pass, const FrameInputs& inputs) const;
+    void bind_textures(size_t pass) const;
+    const gl::Texture& texture_of(const BoundChannel& channel) const;
+    Edition edition_of(const BoundChannel& channel) const;
 
-    scene::Scene scene_;
+    CompiledScene compiled_;
     Extent extent_;
-    image::SampleType samples_ = image::SampleType::u8;
-    glsl::Precision precision_ = glsl::Precision::single;
-    Extras extras_;
-    glsl::Specialise specialise_ = glsl::Specialise::nothing;
-    size_t shown_ = 0;
-    std::optional<Extent> tile_; ///< of the shown pass
-    bool marks_non_finite_ = false;
     gl::VertexArrayHandle no_vertices_;
-    std::vector<CompiledPass> passes_; ///< one for each of the scene's
-    FramePlan plan_;
     ChannelTextures textures_;
-    std::vector<PassTarget> targets_; ///< one for each of the scene's; empty where nothing is drawn
+    std::vector<DrawnPass> passes_; ///< one for each of the scene's
     size_t passes_drawn_ = 0;
     size_t draws_in_frame_ = 0; ///< the last one
-    bool within_frame_ = false; ///< advance_to was there
 };
 
 } // namespace tidemark::render

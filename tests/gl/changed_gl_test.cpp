@@ -1,6 +1,7 @@
 // A pass is drawn again only where something that it reads has changed, and nobody can tell: two renderers
 // of one scene see the same frames, one draws what changed, the other everything.
 #include "gl_test.hpp"
+#include "render/pass_preview.hpp"
 #include "scene/load_scene.hpp"
 
 #include <cmath>
@@ -277,12 +278,12 @@ TEST_F(ChangedTest, passes_in_front_of_one_that_is_looked_at_are_drawn_when_they
            "#iChannel0 \"buffer_a.glsl\"\n"
            "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }"}});
     const size_t image = sparing_->shown_index();
-    both([&](Renderer& renderer) { renderer.advance_to(image, at(0)); });
+    both([&](Renderer& renderer) { (void)PassPreview(renderer, image, at(0)); });
     EXPECT_EQ(sparing_->passes_drawn(), 1u);
     expect_the_same();
     auto target = gl::make_render_target(gl::make_texture(k_extent, GL_RGBA32F, 1));
     ASSERT_TRUE(target);
-    sparing_->draw_stand_in(image, sparing_->program(image), at(0), *target);
+    PassPreview(*sparing_, image, at(0)).draw(sparing_->program(image), *target);
     EXPECT_EQ(draw(at(0)), 1u); // Image itself was not drawn yet
     EXPECT_EQ(draw(at(1)), 0u);
 }

@@ -158,7 +158,7 @@ TEST_P(SoundShaders, DrawTheSameWhenWatched) {
     request.reach = glsl::WatchRequest::Reach::everything;
     const glsl::Watch watch = glsl::watch(**text, glsl::find_facts(**text), request);
     for (const PixelPlace pixel : {PixelPlace{0, 0, 0}, PixelPlace{9, 5, 0}, PixelPlace{15, 8, 0}}) {
-        const auto reading = read_pixel({*renderer, pass, inputs}, watch, pixel);
+        const auto reading = read_pixel(PassPreview(*renderer, pass, inputs), watch, pixel);
         ASSERT_TRUE(reading) << reading.error().message;
         EXPECT_TRUE(reading->arrived());
         for (size_t i = 0; i < 4; ++i)

@@ -20,15 +20,14 @@ protected:
         const auto text = read_text(drawing, 0);
         EXPECT_TRUE(text) << to_string(text.error());
         const Variation made = vary(**text, glsl::find_facts(**text));
-        const render::FrameInputs inputs;
-        const Moment moment{drawing, 0, inputs};
-        auto stand_in = StandIn::link(moment, made.text, "a variation");
+        const PassPreview preview(drawing, 0, {});
+        auto stand_in = StandIn::link(preview, made.text, "a variation");
         if (!stand_in) {
             ADD_FAILURE() << to_string(stand_in.error()) << "\n" << made.text;
             return std::vector<float>(expressions.size());
         }
         stand_in->set(made.mode_uniform, mode);
-        stand_in->draw(moment);
+        stand_in->draw(preview);
         return reds(stand_in->picture(), expressions.size());
     }
 };

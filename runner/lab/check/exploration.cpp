@@ -83,7 +83,7 @@ private:
     };
 
     Result<void> prepare() {
-        const auto renderer = bench_.poised(plain_state());
+        const auto renderer = bench_.compiled();
         if (!renderer)
             return fail(renderer.error());
         SearchInputs inputs;
@@ -103,7 +103,7 @@ private:
         texts_ = *std::move(texts);
         extent_ = texts_.size() > 1 || (*renderer)->plan().feedback ? k_probe_extent : k_asked;
         for (const PassText& text : texts_)
-            if (auto watched = watch(**renderer, text); !watched) {
+            if (auto watched = watch(text); !watched) {
                 result_.left_out = to_string(watched.error());
                 passes_.clear();
                 reached_.clear();
@@ -113,9 +113,11 @@ private:
         return {};
     }
 
-    Result<void> watch(const render::Renderer& renderer, const PassText& text) {
-        const render::FrameInputs inputs = inputs_of(plain_state());
-        auto watched = WatchedDomains::link({renderer, text.pass, inputs}, text, k_part);
+    Result<void> watch(const PassText& text) {
+        const auto preview = bench_.preview(plain_state(), text.pass);
+        if (!preview)
+            return fail(preview.error());
+        auto watched = WatchedDomains::link(*preview, text, k_part);
         if (!watched)
             return fail(std::move(watched.error()));
         for (size_t i = 0; i < watched->watch().objectives.size(); ++i)
@@ -146,12 +148,10 @@ private:
         }
         finite_ = true;
         for (WatchedPass& pass : passes_) {
-            const auto renderer = bench_.poised(at);
-            if (!renderer)
-                return fail(renderer.error());
-            const render::FrameInputs inputs = inputs_of(at);
-            (*renderer)->advance_to(pass.text.pass, inputs);
-            note(pass, {**renderer, pass.text.pass, inputs}, grid, at);
+            const auto preview = bench_.preview(at, pass.text.pass);
+            if (!preview)
+                return fail(preview.error());
+            note(pass, *preview, grid, at);
         }
         if (grid.stride == coarse().stride)
             looks_.push_back(last_);
@@ -161,9 +161,9 @@ private:
         return confirm(at);
     }
 
-    void note(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const FrameState& at) {
+    void note(WatchedPass& pass, const PassPreview& preview, const PixelGrid& grid, const FrameState& at) {
         const glsl::DomainWatch& watch = pass.watched.watch();
-        const std::vector<uint32_t> words = pass.watched.draw(moment, grid);
+        const std::vector<uint32_t> words = pass.watched.draw(preview, grid);
         const bool finite = pass.watched.finite();
         for (size_t i = 0; i < watch.objectives.size(); ++i) {
             const glsl::Objective& objective = watch.objectives[i];
@@ -178,14 +178,14 @@ private:
         for (size_t i = 0; i < watch.sites.size(); ++i)
             if (const glsl::DomainReading reading = reading_of(watch, words, i);
                 reading.count > 0 && outside_.insert({pass.text.pass, i}).second)
-                tell(pass, moment, grid, at, i, reading);
+                tell(pass, preview, grid, at, i, reading);
         finite_ = finite_ && finite;
     }
 
     void reach(size_t objective, bool reached) { reached_[objective] = reached_[objective] || reached; }
 
     /// What is new, with its operand in the first pixel that showed it.
-    void tell(WatchedPass& pass, const Moment& moment, const PixelGrid& grid, const FrameState& at,
+    void tell(WatchedPass& pass, const PassPreview& preview, const PixelGrid& grid, const FrameState& at,
               size_t site, glsl::DomainReading reading) {
         const glsl::DomainWatch& watch = pass.watched.watch();
         const std::string place = place_of_site(*pass.text.text, watch.sites[site]);
@@ -198,7 +198,7 @@ private:
         if (!told.bound)
             return;
         const glm::ivec2 pixel = pass.watched.pixel(grid, reading.pixel);
-        const auto alone = reading_of(watch, pass.watched.draw(moment, {0, pixel.x, pixel.y}), site);
+        const auto alone = reading_of(watch, pass.watched.draw(preview, {0, pixel.x, pixel.y}), site);
         if (alone.count > 0)
             reading = alone;
         told.sentence = fmt::format("{}: {}, at pixel {},{} at {:.6g} s", place,

@@ -45,17 +45,15 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
     return &renderer;
 }
 
-Result<render::Renderer*> ProbeBench::poised(const FrameState& state, Entry entry,
-                                             glsl::Precision precision) {
-    auto made = renderer(state, entry, precision);
+Result<render::PassPreview> ProbeBench::preview(const FrameState& state, size_t pass) {
+    auto made = renderer(state, Entry::picture, glsl::Precision::single);
     if (!made)
-        return made;
-    render::FrameStepper(**made, state, first_frame_of(state)).lead_to(state.frame);
-    return made;
+        return fail(std::move(made.error()));
+    return render::FrameStepper(**made, state, first_frame_of(state)).preview(state.frame, pass);
 }
 
-Result<render::Renderer*> ProbeBench::poised(const FrameState& state) {
-    return poised(state, Entry::picture, glsl::Precision::single);
+Result<const render::Renderer*> ProbeBench::compiled() {
+    return renderer(plain_state(), Entry::picture, glsl::Precision::single);
 }
 
 Result<render::Renderer*> ProbeBench::drawn(const FrameState& state, Entry entry, glsl::Precision precision) {
@@ -95,7 +93,7 @@ std::vector<PassPicture> ProbeBench::read_back(render::Renderer& renderer) const
 }
 
 Result<bool> ProbeBench::has_feedback() {
-    const auto made = renderer(plain_state(), Entry::picture, glsl::Precision::single);
+    const auto made = compiled();
     if (!made)
         return fail(made.error());
     return (*made)->plan().feedback;

@@ -53,8 +53,10 @@ public:
     const std::string& hit_problem() const { return hit_problem_; }
     Result<Hits> hits(const FrameState& state, glsl::Precision precision = glsl::Precision::single);
 
-    /// A renderer in that situation, for what is drawn in the place of a pass: all frames before are drawn.
-    Result<render::Renderer*> poised(const FrameState& state);
+    /// A pass that is about to be drawn in that state: all frames before are drawn.
+    Result<render::PassPreview> preview(const FrameState& state, size_t pass);
+    /// What the scene as it stands was compiled to.
+    Result<const render::Renderer*> compiled();
 
     /// Compiles anew, where `picture` takes what it has.
     Result<image::Image> fresh_picture(const FrameState& state);
@@ -69,7 +71,6 @@ public:
 
 private:
     enum class Entry { picture, hit };
-    Result<render::Renderer*> poised(const FrameState& state, Entry entry, glsl::Precision precision);
     Result<render::Renderer*> drawn(const FrameState& state, Entry entry, glsl::Precision precision);
     std::vector<PassPicture> read_back(render::Renderer& renderer) const;
     Result<render::Renderer*> renderer(const FrameState& state, Entry entry, glsl::Precision precision);

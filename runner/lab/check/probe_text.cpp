@@ -7,7 +7,7 @@
 namespace tidemark::lab {
 
 Result<std::vector<PassText>> read_texts(ProbeBench& bench, bool as_written) {
-    const auto renderer = bench.poised(plain_state());
+    const auto renderer = bench.compiled();
     if (!renderer)
         return fail(renderer.error());
     std::vector<PassText> texts;

@@ -23,7 +23,7 @@ bool comes_from_outside(const scene::Scene& scene, const scene::ChannelInput& in
 
 /// Of the passes that are drawn.
 Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
-    const auto renderer = bench.poised(plain_state());
+    const auto renderer = bench.compiled();
     if (!renderer)
         return fail(renderer.error());
     const scene::Scene& scene = bench.scene();

@@ -64,37 +64,34 @@ public:
 
 private:
     Result<void> compare(size_t pass, const glsl::Variation& varied, std::span<const Mode> modes) {
-        const auto renderer = bench_.poised(k_state);
-        if (!renderer)
-            return fail(renderer.error());
-        const render::FrameInputs inputs = inputs_of(k_state);
-        (*renderer)->advance_to(pass, inputs);
-        const Moment moment{**renderer, pass, inputs};
-        auto stand_in = StandIn::link(moment, varied.text, "a variation of the text");
+        const auto preview = bench_.preview(k_state, pass);
+        if (!preview)
+            return fail(preview.error());
+        auto stand_in = StandIn::link(*preview, varied.text, "a variation of the text");
         if (!stand_in)
             return fail(std::move(stand_in.error()));
         asked_ = true;
         std::vector<image::Image> others;
         for (const Mode& mode : modes)
-            others.push_back(drawn(*stand_in, moment, varied, mode.number));
-        const image::Image plain = varied.mode_uniform.empty() ? as_drawn(**renderer, pass, inputs)
-                                                               : drawn(*stand_in, moment, varied, 0);
+            others.push_back(drawn(*stand_in, *preview, varied, mode.number));
+        const image::Image plain = varied.mode_uniform.empty() ? as_drawn(*stand_in, *preview)
+                                                               : drawn(*stand_in, *preview, varied, 0);
         for (size_t i = 0; i < modes.size(); ++i)
             note(pass, modes[i], plain, others[i]);
         return {};
     }
 
-    static image::Image drawn(StandIn& stand_in, const Moment& moment, const glsl::Variation& varied,
+    static image::Image drawn(StandIn& stand_in, const PassPreview& preview, const glsl::Variation& varied,
                               int mode) {
         stand_in.set(varied.mode_uniform, mode);
-        stand_in.draw(moment);
+        stand_in.draw(preview);
         return stand_in.picture();
     }
 
-    /// By the author's own text; the renderer is behind that frame then.
-    static image::Image as_drawn(render::Renderer& renderer, size_t pass, const render::FrameInputs& inputs) {
-        renderer.draw(inputs);
-        return renderer.read_floats(pass);
+    /// By the author's own text.
+    static image::Image as_drawn(const StandIn& stand_in, const PassPreview& preview) {
+        stand_in.draw_own(preview);
+        return stand_in.picture();
     }
 
     void note(size_t pass, const Mode& mode, const image::Image& plain, const image::Image& other) {

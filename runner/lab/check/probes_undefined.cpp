@@ -73,27 +73,24 @@ public:
     Result<std::vector<Undefined>> run(const std::vector<View>& views) {
         std::vector<Undefined> found;
         for (const View& view : views) {
-            const auto renderer = bench_.poised(view.state);
-            if (!renderer)
-                return fail(renderer.error());
-            const render::FrameInputs inputs = inputs_of(view.state);
-            (*renderer)->advance_to(pass_.pass, inputs);
-            const Moment moment{**renderer, pass_.pass, inputs};
+            const auto preview = bench_.preview(view.state, pass_.pass);
+            if (!preview)
+                return fail(preview.error());
             if (!watched_) {
-                auto linked = WatchedDomains::link(moment, pass_, k_probe_extent);
+                auto linked = WatchedDomains::link(*preview, pass_, k_probe_extent);
                 if (!linked)
                     return fail(std::move(linked.error()));
                 watched_ = *std::move(linked);
             }
-            look(moment, view, found);
+            look(*preview, view, found);
         }
         return found;
     }
 
 private:
-    void look(const Moment& moment, const View& view, std::vector<Undefined>& found) {
+    void look(const PassPreview& preview, const View& view, std::vector<Undefined>& found) {
         const glsl::DomainWatch& watch = watched_->watch();
-        const std::vector<uint32_t> words = watched_->draw(moment, view.grid);
+        const std::vector<uint32_t> words = watched_->draw(preview, view.grid);
         std::optional<image::Image> zero;
         for (size_t i = 0; i < watch.sites.size(); ++i) {
             const glsl::DomainReading reading = reading_of(watch, words, i);
@@ -109,9 +106,9 @@ private:
             if (pass_.pass != bench_.scene().image_index())
                 each.where.pass = bench_.scene().passes[pass_.pass].name;
             if (!zero)
-                zero = watched_->picture_with(moment, view.grid, watch.sites.size(), 0);
+                zero = watched_->picture_with(preview, view.grid, watch.sites.size(), 0);
             for (const double value : {std::numeric_limits<double>::quiet_NaN(), 1.0}) {
-                const image::Image other = watched_->picture_with(moment, view.grid, i, value);
+                const image::Image other = watched_->picture_with(preview, view.grid, i, value);
                 if (const double percent = 100 * differing(*zero, other);
                     each.picture.bytes.empty() || percent > each.percent) {
                     each.percent = percent;

@@ -5,11 +5,11 @@
 
 namespace tidemark::lab {
 
-Result<WatchedDomains> WatchedDomains::link(const Moment& moment, const PassText& pass, Extent part) {
+Result<WatchedDomains> WatchedDomains::link(const PassPreview& preview, const PassText& pass, Extent part) {
     constexpr std::string_view k_what = "the text with its domains watched";
     for (const auto scope : {glsl::DomainScope::everything, glsl::DomainScope::floats}) {
         glsl::DomainWatch watch = glsl::watch_domains(*pass.text, pass.facts, scope);
-        auto linked = StandIn::link(moment, watch.text, k_what, part);
+        auto linked = StandIn::link(preview, watch.text, k_what, part);
         if (linked)
             return WatchedDomains(std::move(watch), *std::move(linked));
         if (scope == glsl::DomainScope::floats)
@@ -28,19 +28,19 @@ void WatchedDomains::set(int site, double value, const PixelGrid& grid, size_t o
     stand_in_.set(watch_.width_uniform, stand_in_.target().extent().width);
 }
 
-std::vector<uint32_t> WatchedDomains::draw(const Moment& moment, const PixelGrid& grid) {
+std::vector<uint32_t> WatchedDomains::draw(const PassPreview& preview, const PixelGrid& grid) {
     const ShaderWords words(std::max<size_t>(watch_.words(), 1));
     set(-1, 0, grid, watch_.objectives.size());
     gl::clear(stand_in_.target()); // of what an earlier draw left where this one discards
-    stand_in_.draw(moment);
+    stand_in_.draw(preview);
     return words.read();
 }
 
-image::Image WatchedDomains::picture_with(const Moment& moment, const PixelGrid& grid, size_t site,
+image::Image WatchedDomains::picture_with(const PassPreview& preview, const PixelGrid& grid, size_t site,
                                           double value) {
     const ShaderWords ignored(std::max<size_t>(watch_.words(), 1));
     set(int(site), value, grid, 0);
-    stand_in_.draw(moment);
+    stand_in_.draw(preview);
     return stand_in_.picture();
 }
 

@@ -1,4 +1,5 @@
-// A pass that watches its domains (glsl/instrument/domains.hpp), drawn in its place. A context must be current.
+// A pass that watches its domains (glsl/instrument/domains.hpp), drawn in its place. A context must be
+// current.
 #pragma once
 
 #include "glsl/instrument/domains.hpp"
@@ -16,14 +17,14 @@ class WatchedDomains {
 public:
     /// `part`: the size of what is drawn of the pass. Where the driver refuses the text with all of it
     /// watched, the functions of floats are.
-    static Result<WatchedDomains> link(const Moment& moment, const PassText& pass, Extent part);
+    static Result<WatchedDomains> link(const PassPreview& preview, const PassText& pass, Extent part);
 
     const glsl::DomainWatch& watch() const { return watch_; }
 
     /// What the sites met and how near the objectives came.
-    std::vector<uint32_t> draw(const Moment& moment, const PixelGrid& grid);
+    std::vector<uint32_t> draw(const PassPreview& preview, const PixelGrid& grid);
     /// What the pass shows where that site gives `value` outside of its domain, and all others 0.
-    image::Image picture_with(const Moment& moment, const PixelGrid& grid, size_t site, double value);
+    image::Image picture_with(const PassPreview& preview, const PixelGrid& grid, size_t site, double value);
     /// What the last draw made.
     bool finite() const;
     /// Where in the picture a pixel is that the buffer numbers.

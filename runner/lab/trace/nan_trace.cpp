@@ -43,9 +43,9 @@ std::string to_text(const PixelBits& bits) {
 /// One pixel of one pass at one moment.
 class PixelTracer {
 public:
-    PixelTracer(const Moment& moment, const WatchedText& watched, NanTrace& trace,
+    PixelTracer(const PassPreview& preview, const WatchedText& watched, NanTrace& trace,
                 const TraceRequest& request)
-        : moment_(moment), watched_(watched), trace_(trace), request_(request) {}
+        : preview_(preview), watched_(watched), trace_(trace), request_(request) {}
 
     Result<void> run(bool nan_only) {
         nan_only_ = nan_only;
@@ -69,7 +69,7 @@ private:
     }
 
     Result<WatchReading> read(const WatchRequest& request) const {
-        return read_pixel(moment_, glsl::watch(watched_.text, watched_.facts, request), trace_.pixel);
+        return read_pixel(preview_, glsl::watch(watched_.text, watched_.facts, request), trace_.pixel);
     }
 
     /// The first statement that is not finite; where none is, the first operation of all.
@@ -88,7 +88,7 @@ private:
     void compare(const WatchReading& reading) {
         if (!reading.arrived())
             trace_.notes.push_back("the watched shader did not come to its end in this pixel");
-        const bool half = moment_.renderer.scene().passes[moment_.pass].kind == scene::PassKind::cubemap;
+        const bool half = preview_.pass().kind == scene::PassKind::cubemap;
         if (is_finite(reading.colour) != is_finite(trace_.colour) ||
             (!half && !same(reading.colour, trace_.colour)))
             trace_.notes.push_back(fmt::format("watching changes this pixel: {} as drawn, {} watched",
@@ -113,12 +113,11 @@ private:
         request.within = statement;
         request.capture = operation;
         const glsl::Watch watch = glsl::watch(watched_.text, watched_.facts, request);
-        auto reading = read_pixel(moment_, watch, trace_.pixel);
+        auto reading = read_pixel(preview_, watch, trace_.pixel);
         if (!reading)
             return fail(std::move(reading.error()));
         if (reading->hit() == operation)
-            add_reading(birth, watched_, operation, watch, *reading, moment_.renderer.scene(),
-                        moment_.renderer.scene().passes[moment_.pass]);
+            add_reading(birth, watched_, operation, watch, *reading, preview_.scene(), preview_.pass());
         return birth;
     }
 
@@ -175,7 +174,7 @@ private:
         return {};
     }
 
-    const Moment& moment_;
+    const PassPreview& preview_;
     const WatchedText& watched_;
     NanTrace& trace_;
     const TraceRequest& request_;
@@ -215,8 +214,6 @@ public:
     }
 
 private:
-    render::FrameInputs inputs_at(int frame) const { return inputs_of(request_.states(frame)); }
-
     render::FrameStepper::MayDraw tell_of_steps() const {
         return [this](int frame, int) {
             if (request_.stepping)
@@ -247,15 +244,13 @@ private:
         trace.washed = is_finite(trace.colour);
         if (request_.progress && !trace.washed)
             request_.progress(trace);
-        stepper_.advance_to(bad.frame, bad.pass, tell_of_steps());
+        const PassPreview preview = stepper_.preview(bad.frame, bad.pass, tell_of_steps());
         auto text = read_text(renderer_, bad.pass);
         if (!text)
             return fail(std::move(text.error()));
         const glsl::TreeFacts facts = glsl::find_facts(**text);
         const WatchedText watched{**text, facts};
-        const render::FrameInputs inputs = inputs_at(bad.frame);
-        const Moment moment{renderer_, bad.pass, inputs};
-        if (auto done = PixelTracer(moment, watched, trace, request_).run(nan_only); !done)
+        if (auto done = PixelTracer(preview, watched, trace, request_).run(nan_only); !done)
             trace.notes.push_back(to_string(done.error()));
         if (trace.washed && !trace.first)
             return std::optional<NanTrace>();
@@ -267,28 +262,34 @@ private:
         for (const render::PlannedPass& planned : renderer_.plan().passes) {
             if (renderer_.scene().passes[planned.pass].kind == scene::PassKind::cubemap)
                 continue;
-            stepper_.advance_to(request_.frame, planned.pass, tell_of_steps());
-            auto text = read_text(renderer_, planned.pass);
-            if (!text)
-                return fail(std::move(text.error()));
-            const render::FrameInputs inputs = inputs_at(request_.frame);
-            const Moment moment{renderer_, planned.pass, inputs};
-            WatchRequest watch_request;
-            watch_request.reach = Reach::everything;
-            watch_request.nan_only = true;
-            watch_request.map_width = extent_of(moment).width;
-            const auto hits =
-                read_map(moment, glsl::watch(**text, glsl::find_facts(**text), watch_request), 0);
-            if (!hits)
-                return fail(hits.error());
-            const auto hit = std::find_if(hits->begin(), hits->end(), [](NodeId id) { return id != 0; });
-            if (hit == hits->end())
-                continue;
-            const int index = int(hit - hits->begin());
-            const int width = watch_request.map_width;
-            return trace({planned.pass, request_.frame, {index % width, index / width, 0}}, true);
+            const auto pixel = first_hidden(planned.pass);
+            if (!pixel)
+                return fail(pixel.error());
+            if (*pixel)
+                return trace({planned.pass, request_.frame, **pixel}, true);
         }
         return std::optional<NanTrace>();
+    }
+
+    /// The first pixel of the pass in which an operation gives NaN.
+    Result<std::optional<PixelPlace>> first_hidden(size_t pass) {
+        const PassPreview preview = stepper_.preview(request_.frame, pass, tell_of_steps());
+        auto text = read_text(renderer_, pass);
+        if (!text)
+            return fail(std::move(text.error()));
+        WatchRequest watch_request;
+        watch_request.reach = Reach::everything;
+        watch_request.nan_only = true;
+        watch_request.map_width = preview.extent().width;
+        const auto hits = read_map(preview, glsl::watch(**text, glsl::find_facts(**text), watch_request), 0);
+        if (!hits)
+            return fail(hits.error());
+        const auto hit = std::find_if(hits->begin(), hits->end(), [](NodeId id) { return id != 0; });
+        if (hit == hits->end())
+            return std::optional<PixelPlace>();
+        const int index = int(hit - hits->begin());
+        const int width = watch_request.map_width;
+        return PixelPlace{index % width, index / width, 0};
     }
 
     render::Renderer& renderer_;

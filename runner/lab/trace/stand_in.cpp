@@ -1,25 +1,19 @@
 #include "lab/trace/stand_in.hpp"
 
 #include "glsl/assemble.hpp"
-#include "render/pass_target.hpp"
 
 #include <fmt/format.h>
 
 namespace tidemark::lab {
 
-Extent extent_of(const Moment& moment) {
-    const bool cube = moment.renderer.scene().passes[moment.pass].kind == scene::PassKind::cubemap;
-    return cube ? Extent{render::k_cube_side, render::k_cube_side} : moment.renderer.extent();
-}
-
-Result<StandIn> StandIn::link(const Moment& moment, const std::string& text, std::string_view what,
+Result<StandIn> StandIn::link(const PassPreview& preview, const std::string& text, std::string_view what,
                               std::optional<Extent> extent) {
-    const auto version = moment.renderer.dialect(moment.pass).version;
+    const auto version = preview.dialect().version;
     auto program = gl::Program::link(glsl::vertex_shader(version), text);
     if (!program)
         return fail(ErrorCode::load,
                     fmt::format("the driver refuses {}: {}", what, program.error().substr(0, 400)));
-    auto target = gl::make_render_target(gl::make_texture(extent.value_or(extent_of(moment)), GL_RGBA32F, 1));
+    auto target = gl::make_render_target(gl::make_texture(extent.value_or(preview.extent()), GL_RGBA32F, 1));
     if (!target)
         return fail(ErrorCode::load, fmt::format("the driver has no memory for the picture of {}", what));
     return StandIn(*std::move(program), *std::move(target));
@@ -30,8 +24,13 @@ void StandIn::set(const std::string& name, double value) {
         gl::set_uniform(program_, *uniform, std::span(&value, 1));
 }
 
-void StandIn::draw(const Moment& moment, int face) const {
-    moment.renderer.draw_stand_in(moment.pass, program_, moment.inputs, target_, face);
+void StandIn::draw(const PassPreview& preview, int face) const {
+    preview.draw(program_, target_, face);
+}
+
+void StandIn::draw_own(const PassPreview& preview) const {
+    gl::clear(target_);
+    preview.draw(preview.program(), target_);
 }
 
 image::Image StandIn::picture() const {

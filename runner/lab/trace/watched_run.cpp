@@ -15,12 +15,12 @@ struct Drawn {
     std::vector<uint32_t> words;
 };
 
-Result<Drawn> draw(const Moment& moment, const glsl::Watch& watch, size_t words, int face) {
-    auto stand_in = StandIn::link(moment, watch.text, "the watched text");
+Result<Drawn> draw(const PassPreview& preview, const glsl::Watch& watch, size_t words, int face) {
+    auto stand_in = StandIn::link(preview, watch.text, "the watched text");
     if (!stand_in)
         return fail(std::move(stand_in.error()));
     const ShaderWords buffer(words);
-    stand_in->draw(moment, face);
+    stand_in->draw(preview, face);
     return Drawn{*std::move(stand_in), buffer.read()};
 }
 
@@ -55,10 +55,10 @@ Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer
                                   known);
 }
 
-Result<WatchReading> read_pixel(const Moment& moment, const glsl::Watch& watch, PixelPlace pixel) {
+Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& watch, PixelPlace pixel) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(pixel.x, pixel.y, 1, 1);
-    auto drawn = draw(moment, watch, glsl::WatchLayout::k_words, pixel.face);
+    auto drawn = draw(preview, watch, glsl::WatchLayout::k_words, pixel.face);
     glDisable(GL_SCISSOR_TEST);
     if (!drawn)
         return fail(std::move(drawn.error()));
@@ -69,8 +69,8 @@ Result<WatchReading> read_pixel(const Moment& moment, const glsl::Watch& watch, 
     return reading;
 }
 
-Result<std::vector<glsl::NodeId>> read_map(const Moment& moment, const glsl::Watch& watch, int face) {
-    auto drawn = draw(moment, watch, extent_of(moment).pixels(), face);
+Result<std::vector<glsl::NodeId>> read_map(const PassPreview& preview, const glsl::Watch& watch, int face) {
+    auto drawn = draw(preview, watch, preview.extent().pixels(), face);
     if (!drawn)
         return fail(std::move(drawn.error()));
     return std::move(drawn->words);

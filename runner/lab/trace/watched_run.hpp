@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 #include "glsl/instrument/watch.hpp"
 #include "lab/trace/stand_in.hpp"
+#include "render/renderer.hpp"
 
 #include <array>
 #include <cstdint>
@@ -41,9 +42,9 @@ Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer
 
 /// The whole triangle is drawn and all but one pixel cut off, so that derivatives and everything else are as
 /// in the picture. Fails (ErrorCode::load) with the driver's words when it refuses the text.
-Result<WatchReading> read_pixel(const Moment& moment, const glsl::Watch& watch, PixelPlace pixel);
+Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& watch, PixelPlace pixel);
 
 /// The first hit of each pixel (WatchRequest::map_width is the picture's).
-Result<std::vector<glsl::NodeId>> read_map(const Moment& moment, const glsl::Watch& watch, int face);
+Result<std::vector<glsl::NodeId>> read_map(const PassPreview& preview, const glsl::Watch& watch, int face);
 
 } // namespace tidemark::lab
