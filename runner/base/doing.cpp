@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <new>
 
 namespace tidemark {
@@ -35,7 +34,7 @@ DoingPage::Seen DoingPage::seen() const {
 
 void DoingPage::note(std::string_view what, int64_t since, bool starting) {
     size_ = 0;
-    std::memcpy(what_, what.data(), std::min(what.size(), k_longest));
+    what.copy(what_, k_longest);
     since_ = since;
     starting_ = starting;
     has_driver_ = has_driver_ || starting;
