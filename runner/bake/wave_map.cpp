@@ -2,6 +2,7 @@
 
 #include "bake/fast_marching.hpp"
 #include "bake/smooth_step.hpp"
+#include "base/try.hpp"
 
 #include <fmt/format.h>
 
@@ -86,8 +87,7 @@ std::vector<double> path_distances(const HeightMap& map) {
 } // namespace
 
 Result<image::Image> bake_wave_map(const HeightMap& map) {
-    if (auto checked = check_water(map); !checked)
-        return fail(std::move(checked.error()));
+    TRY(check_water(map));
     const std::vector<double> path = path_distances(map);
     image::Image image({map.side, map.side}, 4, image::SampleType::f32);
     for (size_t node = 0; node < path.size(); ++node) {

@@ -1,5 +1,7 @@
 #include "base/output_path.hpp"
 
+#include "base/try.hpp"
+
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -121,20 +123,16 @@ Result<void> OutputPath::check_spared(const fs::path& final_path) const {
 }
 
 Result<OutputPath::Place> OutputPath::place() const {
-    if (auto clean = check_links(); !clean)
-        return fail(std::move(clean.error()));
+    TRY(check_links());
     Place place{whole_};
     if (chosen_parts_ == 0) {
-        auto behind = behind_links(whole_);
-        if (!behind)
-            return fail(std::move(behind.error()));
-        place.path = *std::move(behind);
+        auto behind = TRY(behind_links(whole_));
+        place.path = std::move(behind);
         place.descriptor = descriptor_named(place.path);
     }
     place.stream = place.descriptor || is_stream(place.path);
     if (!place.stream)
-        if (auto spared = check_spared(place.path); !spared)
-            return fail(std::move(spared.error()));
+        TRY(check_spared(place.path));
     return place;
 }
 

@@ -1,5 +1,6 @@
 #include "base/descriptor.hpp"
 #include "base/file.hpp"
+#include "base/try.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -152,11 +153,9 @@ void remove_abandoned(const fs::path& folder, const std::string& stem) {
 } // namespace
 
 Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view extension) {
-    auto place = output.place();
-    if (!place)
-        return fail(std::move(place.error()));
+    auto place = TRY(output.place());
     std::error_code ignored;
-    if (fs::is_directory(place->path, ignored))
+    if (fs::is_directory(place.path, ignored))
         return cannot_write(output, EISDIR);
     const fs::path name = output.path().filename(); // a link may lead to a name of another kind
     std::string ending(extension.empty() ? name.extension().string() : extension);
@@ -164,13 +163,12 @@ Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view
         ending.clear();
     const std::string stem =
         name.stem().string().substr(0, k_longest_name - 1 - k_part.size() - k_number_room - ending.size());
-    fs::path folder = place->stream ? fs::temp_directory_path(ignored) : place->path.parent_path();
+    fs::path folder = place.stream ? fs::temp_directory_path(ignored) : place.path.parent_path();
     if (folder.empty())
         folder = ".";
     remove_abandoned(folder, stem);
-    StagedFile staged(output, *std::move(place));
-    if (auto opened = staged.open(folder, stem, ending); !opened)
-        return fail(std::move(opened.error()));
+    StagedFile staged(output, std::move(place));
+    TRY(staged.open(folder, stem, ending));
     return staged;
 }
 
@@ -235,17 +233,13 @@ Result<void> StagedFile::commit() {
 }
 
 Result<void> write_file(const OutputPath& output, std::span<const std::byte> bytes) {
-    auto place = output.place();
-    if (!place)
-        return fail(std::move(place.error()));
-    if (place->stream)
-        return write_stream(output, *place, [&] { // all at once, then nothing
+    auto place = TRY(output.place());
+    if (place.stream)
+        return write_stream(output, place, [&] { // all at once, then nothing
             return Result<std::span<const std::byte>>(std::exchange(bytes, {}));
         });
-    auto staged = StagedFile::create(output);
-    if (!staged)
-        return fail(std::move(staged.error()));
-    return staged->write(bytes).and_then([&] { return staged->commit(); });
+    auto staged = TRY(StagedFile::create(output));
+    return staged.write(bytes).and_then([&] { return staged.commit(); });
 }
 
 Result<void> write_file(const OutputPath& output, std::string_view text) {
@@ -253,10 +247,8 @@ Result<void> write_file(const OutputPath& output, std::string_view text) {
 }
 
 Result<void> check_writable(const OutputPath& output) {
-    auto place = output.place();
-    if (!place)
-        return fail(std::move(place.error()));
-    if (place->stream)
+    auto place = TRY(output.place());
+    if (place.stream)
         return {};
     return StagedFile::create(output).map([](const StagedFile&) {});
 }

@@ -1,3 +1,4 @@
+#include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
@@ -182,30 +183,23 @@ Result<void> write_map(const CompareOptions& options, const OutputPath& output, 
 }
 
 Result<int> compare(const CompareOptions& options) {
-    if (auto good = check(options); !good)
-        return fail(good.error());
-    const auto pairs = pairs_of(options);
-    if (!pairs)
-        return fail(pairs.error());
+    TRY(check(options));
+    const auto pairs = TRY(pairs_of(options));
     std::optional<OutputName> output;
     if (!options.output.empty()) {
         if (options.output == "-")
             return fail(ErrorCode::usage, "-o: the picture of the difference needs a file");
-        if (auto known = image::check_picture_name(options.output); !known)
-            return fail(std::move(known.error()));
-        auto parsed = OutputName::parse(options.output, pairs->size());
-        if (!parsed)
-            return fail(parsed.error());
-        output = *std::move(parsed);
-        output->spare(pictures_of(*pairs));
-        for (const Pair& pair : *pairs)
-            if (auto place = output->of_frame(pair.frame.value_or(0)).place(); !place)
-                return fail(std::move(place.error()));
+        TRY(image::check_picture_name(options.output));
+        auto parsed = TRY(OutputName::parse(options.output, pairs.size()));
+        output = std::move(parsed);
+        output->spare(pictures_of(pairs));
+        for (const Pair& pair : pairs)
+            TRY(output->of_frame(pair.frame.value_or(0)).place());
     }
     Json json = {{"tidemark", k_version}, {"frames", Json::array()}};
     std::string text;
     std::vector<std::string> beyond;
-    for (const Pair& pair : *pairs) {
+    for (const Pair& pair : pairs) {
         auto reference = image::read_picture(pair.reference), test = image::read_picture(pair.test);
         for (const auto* side : {&reference, &test})
             if (!*side)
@@ -217,18 +211,14 @@ Result<int> compare(const CompareOptions& options) {
                         fmt::format("{}'{}' and '{}': {}", pair.label(), pair.reference.string(),
                                     pair.test.string(), metrics.error().message));
         if (output)
-            if (auto written =
-                    write_map(options, output->of_frame(pair.frame.value_or(0)), same.left, same.right);
-                !written)
-                return fail(written.error());
+            TRY(write_map(options, output->of_frame(pair.frame.value_or(0)), same.left, same.right));
         text += text_of(pair, *metrics, same.note);
         json["frames"].push_back(json_of(pair, *metrics, same.note));
         for (std::string& line : failures(options, pair, *metrics))
             beyond.push_back(std::move(line));
     }
     json["failures"] = beyond;
-    if (auto printed = put(options.json ? dump(json, 2) + "\n" : text); !printed)
-        return fail(printed.error());
+    TRY(put(options.json ? dump(json, 2) + "\n" : text));
     for (const std::string& line : beyond)
         say(line);
     return beyond.empty() ? 0 : exit_code(ErrorCode::check_failed);

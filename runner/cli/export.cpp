@@ -1,4 +1,5 @@
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
@@ -59,13 +60,10 @@ Result<int> export_scene(const ExportOptions& options) {
     if (options.json && options.output == "-")
         return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
     std::vector<fs::path> read;
-    const auto project = project_of(options, read);
-    if (!project)
-        return fail(project.error());
+    const auto project = TRY(project_of(options, read));
     if (options.output == "-")
-        return put(*project).map([] { return 0; });
-    if (auto written = write_file(OutputPath::typed(options.output).sparing(read), *project); !written)
-        return fail(std::move(written.error()));
+        return put(project).map([] { return 0; });
+    TRY(write_file(OutputPath::typed(options.output).sparing(read), project));
     say(fmt::format("wrote {}", options.output));
     if (!options.json)
         return 0;

@@ -1,5 +1,6 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
@@ -81,29 +82,21 @@ Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool
 }
 
 Result<int> import(const ImportOptions& options) {
-    const auto json = read_file(options.file);
-    if (!json)
-        return fail(json.error());
-    const auto files = scene::split_project(*json, options.file.string());
-    if (!files)
-        return fail(files.error());
+    const auto json = TRY(read_file(options.file));
+    const auto files = TRY(scene::split_project(json, options.file.string()));
     const OutputPath output =
         OutputPath::typed_or(options.folder, name_after_scene(options.file, "")).sparing({options.file});
-    if (auto made = make_folder(output); !made)
-        return fail(std::move(made.error()));
+    TRY(make_folder(output));
     const fs::path& folder = output.path();
     const Receipt old = read_receipt(folder);
-    if (auto prepared = prepare_folder(folder, old, options.force); !prepared)
-        return fail(std::move(prepared.error()));
-    for (const scene::ProjectFile& file : *files)
-        if (auto place = (output / file.name).place(); !place)
-            return fail(std::move(place.error()));
+    TRY(prepare_folder(folder, old, options.force));
+    for (const scene::ProjectFile& file : files)
+        TRY((output / file.name).place());
 
     std::string receipt;
     std::vector<std::string> names;
-    for (const scene::ProjectFile& file : *files) {
-        if (auto written = write_file(output / file.name, file.bytes); !written)
-            return fail(std::move(written.error()));
+    for (const scene::ProjectFile& file : files) {
+        TRY(write_file(output / file.name, file.bytes));
         receipt += fmt::format("{}  {}\n", hash_of(file.bytes), file.name);
         names.push_back(file.name);
     }
@@ -111,8 +104,7 @@ Result<int> import(const ImportOptions& options) {
     for (const auto& [name, hash] : old) // a pass that the project no longer has
         if (std::find(names.begin(), names.end(), name) == names.end() && is_as_written(folder / name, old))
             fs::remove(folder / name, ignored);
-    if (auto written = write_file(output / k_receipt, receipt); !written)
-        return fail(std::move(written.error()));
+    TRY(write_file(output / k_receipt, receipt));
     say(fmt::format("wrote {}: {}", folder.string(), fmt::join(names, ", ")));
     if (!options.json)
         return 0;

@@ -1,6 +1,7 @@
 #include "cli/input_script.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "cli/requests.hpp"
 
 #include <fmt/format.h>
@@ -193,10 +194,8 @@ Result<InputScript> parse_input_script(std::string_view text, const std::string&
 }
 
 Result<InputScript> load_input_script(const std::filesystem::path& file) {
-    auto text = read_text_file(file);
-    if (!text)
-        return fail(std::move(text.error()));
-    return parse_input_script(*text, file.string());
+    auto text = TRY(read_text_file(file));
+    return parse_input_script(text, file.string());
 }
 
 std::string to_string(const InputScript& script) {

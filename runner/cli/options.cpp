@@ -1,5 +1,6 @@
 #include "cli/options.hpp"
 
+#include "base/try.hpp"
 #include "cli/value_check.hpp"
 
 #include <CLI/CLI.hpp>
@@ -109,8 +110,7 @@ Result<FrameSequence> resolve(const FrameOptions& options) {
         place = *parsed;
         return {};
     };
-    if (auto size = keep(parse_size(options.size), state.extent); !size)
-        return fail(size.error());
+    TRY(keep(parse_size(options.size), state.extent));
     if (!(options.fps > 0) || !std::isfinite(options.fps))
         return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", options.fps));
     state.fps = options.fps;
@@ -126,22 +126,17 @@ Result<FrameSequence> resolve(const FrameOptions& options) {
         sequence.frames = {state.frame};
     }
     if (options.frames)
-        if (auto frames = keep(parse_frames(*options.frames), sequence.frames); !frames)
-            return fail(frames.error());
+        TRY(keep(parse_frames(*options.frames), sequence.frames));
     if (options.mouse)
-        if (auto mouse = keep(parse_mouse(*options.mouse), state.mouse); !mouse)
-            return fail(mouse.error());
+        TRY(keep(parse_mouse(*options.mouse), state.mouse));
     if (options.date)
-        if (auto date = keep(render::parse_date(*options.date), state.date); !date)
-            return fail(date.error());
+        TRY(keep(render::parse_date(*options.date), state.date));
     if (options.camera)
-        if (auto camera = keep(render::parse_camera(*options.camera), state.camera); !camera)
-            return fail(camera.error());
+        TRY(keep(render::parse_camera(*options.camera), state.camera));
     state.pass = options.pass;
     sequence.input_file = options.input.value_or("");
     if (options.input)
-        if (auto input = keep(load_input_script(*options.input), sequence.input); !input)
-            return fail(input.error());
+        TRY(keep(load_input_script(*options.input), sequence.input));
     return sequence;
 }
 

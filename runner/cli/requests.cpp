@@ -1,5 +1,6 @@
 #include "cli/requests.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "glsl/overrides.hpp"
 #include "render/frame_fields.hpp"
@@ -170,8 +171,7 @@ Result<void> apply_options(const SceneRequest& request, scene::Scene& scene) {
 Result<scene::Scene> load(const SceneRequest& request) {
     auto scene = load_as_written(request);
     if (scene)
-        if (auto applied = apply_options(request, *scene); !applied)
-            return fail(std::move(applied.error()));
+        TRY(apply_options(request, *scene));
     return scene;
 }
 

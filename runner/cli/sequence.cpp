@@ -1,5 +1,6 @@
 #include "cli/sequence.hpp"
 
+#include "base/try.hpp"
 #include "cli/output_name.hpp"
 
 #include <fmt/format.h>
@@ -35,15 +36,13 @@ Result<Sequence> find_sequence(std::string_view name) {
     std::error_code ignored;
     if (name.find_first_of("%#") == std::string_view::npos || fs::exists(name, ignored))
         return Sequence{{std::nullopt, fs::path(name)}};
-    const auto pattern = OutputName::parse(name, 2, "");
-    if (!pattern)
-        return fail(pattern.error());
-    const fs::path folder = pattern->pattern().parent_path();
+    const auto pattern = TRY(OutputName::parse(name, 2, ""));
+    const fs::path folder = pattern.pattern().parent_path();
     Sequence found;
     for (fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, ignored), end;
          !ignored && entry != end; entry.increment(ignored))
-        if (const auto number = frame_of(entry->path(), *pattern))
-            found[number] = pattern->of_frame(*number).path();
+        if (const auto number = frame_of(entry->path(), pattern))
+            found[number] = pattern.of_frame(*number).path();
     if (found.empty())
         return fail(ErrorCode::load, fmt::format("there is no file '{}'", name));
     return found;

@@ -1,5 +1,6 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
@@ -69,10 +70,8 @@ Result<lab::Study> base_study(const StudyOptions& options) {
 Result<std::vector<lab::View>> views_of(const std::string& text) {
     if (!text.ends_with(".json"))
         return lab::parse_views(text);
-    const auto file = read_text_file(text);
-    if (!file)
-        return fail(file.error());
-    auto study = lab::parse_study(fmt::format("{{\"views\": {}}}", *file), text);
+    const auto file = TRY(read_text_file(text));
+    auto study = lab::parse_study(fmt::format("{{\"views\": {}}}", file), text);
     if (!study)
         return fail(std::move(study.error()));
     return std::move(study->views);
@@ -85,10 +84,8 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
         return study;
     std::vector<lab::Axis> axes;
     for (const std::string& text : options.vary) {
-        auto axis = lab::parse_axis(text, "--vary");
-        if (!axis)
-            return fail(std::move(axis.error()));
-        axes.push_back(*std::move(axis));
+        auto axis = TRY(lab::parse_axis(text, "--vary"));
+        axes.push_back(std::move(axis));
     }
     if (!axes.empty())
         study->series = lab::series_of(axes);
@@ -96,26 +93,20 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
     if (study->sources.empty() && study->precision == glsl::Precision::single)
         study->sources = {{"rounding", {}, true}};
     for (const std::string& text : options.reference) {
-        auto settings = lab::parse_settings(text, "--reference");
-        if (!settings)
-            return fail(std::move(settings.error()));
+        auto settings = TRY(lab::parse_settings(text, "--reference"));
         if (&text == &options.reference.front())
             study->reference.clear();
-        study->reference.insert(study->reference.end(), settings->begin(), settings->end());
+        study->reference.insert(study->reference.end(), settings.begin(), settings.end());
     }
     if (!options.views.empty()) {
-        auto views = views_of(options.views);
-        if (!views)
-            return fail(std::move(views.error()));
-        study->views = *std::move(views);
+        auto views = TRY(views_of(options.views));
+        study->views = std::move(views);
     }
     if (study->views.empty())
         study->views = lab::default_views();
     if (!options.size.empty()) {
-        const auto extent = parse_size(options.size);
-        if (!extent)
-            return fail(extent.error());
-        study->extent = *extent;
+        const auto extent = TRY(parse_size(options.size));
+        study->extent = extent;
     }
     if (study->series.empty())
         return fail(ErrorCode::usage, "the study turns no knob: give it \"series\", or --vary NAME=a,b,c");
@@ -146,40 +137,30 @@ void note_scene_and_driver(lab::Circumstances& facts, const scene::Scene& scene)
 /// Prints what became worse; the number of such findings.
 Result<size_t> hold_against_baseline(const std::string& file, const std::string& text,
                                      const lab::WorkPrecisionSet& set) {
-    const auto found = lab::compare_with(text, file, set);
-    if (!found)
-        return fail(found.error());
-    for (const auto* lines : {&found->notes, &found->worse})
+    const auto found = TRY(lab::compare_with(text, file, set));
+    for (const auto* lines : {&found.notes, &found.worse})
         for (const std::string& line : *lines)
             say(line);
-    say(fmt::format("against the baseline: {} of {} settings worse", found->worse.size(), found->compared));
-    return found->worse.size();
+    say(fmt::format("against the baseline: {} of {} settings worse", found.worse.size(), found.compared));
+    return found.worse.size();
 }
 
 Result<int> study(const StudyOptions& options) {
-    auto plan = plan_study(options);
-    if (!plan)
-        return fail(std::move(plan.error()));
+    auto plan = TRY(plan_study(options));
     if (!(options.timing.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     Interrupt interrupt;
-    const auto scene = load(options.scene);
-    if (!scene)
-        return fail(scene.error());
+    const auto scene = TRY(load(options.scene));
     // Read now: the report may take its place.
-    const auto baseline = options.baseline.empty() ? Result<std::string>() : read_text_file(options.baseline);
-    if (!baseline)
-        return fail(baseline.error());
+    const auto baseline =
+        TRY(options.baseline.empty() ? Result<std::string>() : read_text_file(options.baseline));
     const OutputPath folder =
         OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-study"))
-            .sparing(files_of_study(options, *scene));
-    if (auto made = prepare_report(folder); !made)
-        return fail(std::move(made.error()));
-    const auto context = platform::HeadlessContext::create(options.device);
-    if (!context)
-        return fail(context.error());
+            .sparing(files_of_study(options, scene));
+    TRY(prepare_report(folder));
+    const auto context = TRY(platform::HeadlessContext::create(options.device));
     StudyWatcher watcher(interrupt);
-    auto findings = lab::conduct(*scene, *plan, options.timing, watcher.watch(), circumstances_now());
+    auto findings = lab::conduct(scene, plan, options.timing, watcher.watch(), circumstances_now());
     watcher.finish();
     if (!findings && interrupt.requested()) {
         say(to_string(findings.error()));
@@ -187,21 +168,18 @@ Result<int> study(const StudyOptions& options) {
     }
     if (!findings)
         return fail(std::move(findings.error()));
-    note_scene_and_driver(findings->set.circumstances, *scene);
+    note_scene_and_driver(findings->set.circumstances, scene);
     const OutputPath place = report_folder(folder, findings->set.circumstances.complete);
-    if (auto made = make_folder(place); !made)
-        return fail(std::move(made.error()));
-    if (auto written = lab::write_report(place, *findings); !written)
-        return fail(std::move(written.error()));
+    TRY(make_folder(place));
+    TRY(lab::write_report(place, *findings));
     say_findings(findings->set, place.path());
     if (options.json)
-        if (auto printed = put(lab::to_json(findings->set)); !printed)
-            return fail(std::move(printed.error()));
+        TRY(put(lab::to_json(findings->set)));
     if (interrupt.requested())
         return Interrupt::k_exit_code;
     if (options.baseline.empty())
         return 0;
-    return hold_against_baseline(options.baseline, *baseline, findings->set).map([](size_t worse) {
+    return hold_against_baseline(options.baseline, baseline, findings->set).map([](size_t worse) {
         return worse == 0 ? 0 : exit_code(ErrorCode::check_failed);
     });
 }

@@ -1,5 +1,6 @@
 #include "cli/trial.hpp"
 
+#include "base/try.hpp"
 #include "cli/omissions.hpp"
 #include "gl/capabilities.hpp"
 #include "lab/statistics.hpp"
@@ -144,31 +145,29 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
     certain.specialise = glsl::Specialise::unreachable;
     const Clock clock = clock_of(plan);
     const lab::Stopwatch start;
-    auto plain = Renderer::create(scene, certain);
-    if (!plain)
-        return fail(std::move(plain.error()));
-    if (!worth_trying(*plain, options.specialise))
-        return Trial{*std::move(plain)};
-    plain->draw(plan.first);
+    auto plain = TRY(Renderer::create(scene, certain));
+    if (!worth_trying(plain, options.specialise))
+        return Trial{std::move(plain)};
+    plain.draw(plan.first);
     const double plain_start = milliseconds_on(start, clock);
-    const Pictures first = pictures_of(*plain);
-    const double plain_time = milliseconds_of(*plain, plan.last, clock);
-    const Pictures last = pictures_of(*plain);
+    const Pictures first = pictures_of(plain);
+    const double plain_time = milliseconds_of(plain, plan.last, clock);
+    const Pictures last = pictures_of(plain);
     const double cost = plain_start + k_frames_of_trial * plain_time;
     if (!plan.allowed && cost > k_share_of_sequence * double(plan.frames) * plain_time)
-        return blank(*std::move(plain));
+        return blank(std::move(plain));
     auto special = Renderer::create(scene, options);
     if (!special)
-        return blank(*std::move(plain));
+        return blank(std::move(plain));
     special->draw(plan.first);
     double difference = difference_of(pictures_of(*special), first);
     double share = milliseconds_of(*special, plan.last, clock) / plain_time;
     difference = std::max(difference, difference_of(pictures_of(*special), last));
     const bool close = difference <= plan.allowed.value_or(0);
     if (close && plan.timing > 0)
-        share = share_of(*special, *plain, plan);
+        share = share_of(*special, plain, plan);
     const bool taken = close && share < 1;
-    Trial trial = blank(taken ? *std::move(special) : *std::move(plain));
+    Trial trial = blank(taken ? *std::move(special) : std::move(plain));
     trial.said = verdict(difference, plan.allowed, taken);
     if (taken)
         trial.share = share;

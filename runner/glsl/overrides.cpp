@@ -1,6 +1,7 @@
 #include "glsl/overrides.hpp"
 
 #include "base/hint.hpp"
+#include "base/try.hpp"
 #include "glsl/syntax/preprocess.hpp"
 #include "scene/overrides.hpp"
 #include "text/tokens.hpp"
@@ -158,10 +159,8 @@ std::optional<std::string> definition_of(const scene::Scene& scene, std::string_
 }
 
 Result<void> override_definition(scene::Scene& scene, std::string_view setting) {
-    const auto split = scene::split_setting(setting, "--define");
-    if (!split)
-        return fail(split.error());
-    const auto [name, value] = *split;
+    const auto split = TRY(scene::split_setting(setting, "--define"));
+    const auto [name, value] = split;
     if (value.find_first_of("\n\r") != std::string_view::npos)
         return fail(ErrorCode::usage, fmt::format("--define {}: the value must be one line", name));
     std::vector<std::string> names;

@@ -1,5 +1,6 @@
 #include "glsl/pass_reading.hpp"
 
+#include "base/try.hpp"
 #include "glsl/hit.hpp"
 #include "glsl/initialise.hpp"
 #include "glsl/overloads.hpp"
@@ -104,12 +105,10 @@ Result<Assembly> PassReading::assemble(const Dialect& dialect) const {
     Assembly result;
     result.source.append_generated(version_lines(dialect, changes.extensions));
     if (dialect.precision != Precision::single) {
-        auto promoted = promote(std::move(body), dialect.precision == Precision::promoted_whole);
-        if (!promoted)
-            return fail(std::move(promoted.error()));
-        result.source.append_generated(promoted->functions);
-        body = std::move(promoted->body);
-        result.hashes = std::move(promoted->hashes);
+        auto promoted = TRY(promote(std::move(body), dialect.precision == Precision::promoted_whole));
+        result.source.append_generated(promoted.functions);
+        body = std::move(promoted.body);
+        result.hashes = std::move(promoted.hashes);
     }
     result.source.append(body);
     return result;

@@ -1,5 +1,6 @@
 #include "lab/savings.hpp"
 
+#include "base/try.hpp"
 #include "image/files/png_codec.hpp"
 #include "lab/stopwatch.hpp"
 
@@ -75,10 +76,8 @@ public:
     Result<Elapsed> start() {
         renderer_.reset();
         const Stopwatch watch;
-        auto renderer = render::Renderer::create(scene_, way_.options);
-        if (!renderer)
-            return fail(std::move(renderer.error()));
-        renderer_ = *std::move(renderer);
+        auto renderer = TRY(render::Renderer::create(scene_, way_.options));
+        renderer_ = std::move(renderer);
         renderer_->draw(inputs_of(k_frame));
         glFinish();
         return watch.elapsed();
@@ -181,8 +180,7 @@ struct Measuring {
         double last = first;
         for (int number = 0; allowance.another(rounds, last, share); ++number) {
             const Stopwatch watch;
-            if (auto done = round(number, rounds); !done)
-                return fail(std::move(done.error()));
+            TRY(round(number, rounds));
             last = watch.elapsed().wall;
         }
         if (rounds.count() >= k_fewest_runs)
@@ -237,20 +235,14 @@ struct Measuring {
     Result<void> all(double milliseconds, const Costs& costs) {
         const double share = milliseconds / (saving.in_frame() ? saving.in_file() ? 3 : 2 : 1);
         if (saving.in_frame()) {
-            auto start = starts(share, costs.starts);
-            if (!start)
-                return fail(std::move(start.error()));
-            saving.start = *start;
-            auto frame = frames(2 * share, costs.frames);
-            if (!frame)
-                return fail(std::move(frame.error()));
-            saving.frame = *frame;
+            auto start = TRY(starts(share, costs.starts));
+            saving.start = start;
+            auto frame = TRY(frames(2 * share, costs.frames));
+            saving.frame = frame;
         }
         if (saving.in_file()) {
-            auto file = files(milliseconds, costs.frames);
-            if (!file)
-                return fail(std::move(file.error()));
-            saving.file = *file;
+            auto file = TRY(files(milliseconds, costs.frames));
+            saving.file = file;
         }
         return {};
     }
@@ -284,10 +276,8 @@ SavingsBench::~SavingsBench() = default;
 
 Result<SavingsBench> SavingsBench::create(const scene::Scene& scene, const render::RenderOptions& options) {
     const Way way{options};
-    const auto started = Contender(scene, way).start();
-    if (!started)
-        return fail(started.error());
-    return SavingsBench(std::make_unique<Parts>(Parts{scene, way, started->wall}));
+    const auto started = TRY(Contender(scene, way).start());
+    return SavingsBench(std::make_unique<Parts>(Parts{scene, way, started.wall}));
 }
 
 Result<Saving> SavingsBench::measure(std::span<const Omission> things, double seconds) {
@@ -319,11 +309,9 @@ Result<Saving> SavingsBench::measure(std::span<const Omission> things, double se
     saving.without.frame = without.work();
     saving.with_it.frame = with_it.work();
     if (way.alpha)
-        if (auto weighed = weigh_files(without, with_it, saving); !weighed)
-            return fail(std::move(weighed.error()));
+        TRY(weigh_files(without, with_it, saving));
     const Costs costs{one->wall + other->wall, frame + frames};
-    if (auto timed = Measuring{without, with_it, allowance, saving}.all(1e3 * seconds, costs); !timed)
-        return fail(std::move(timed.error()));
+    TRY(Measuring{without, with_it, allowance, saving}.all(1e3 * seconds, costs));
     return saving;
 }
 

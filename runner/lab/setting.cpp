@@ -1,6 +1,7 @@
 #include "lab/setting.hpp"
 
 #include "base/hint.hpp"
+#include "base/try.hpp"
 #include "glsl/overrides.hpp"
 #include "scene/overrides.hpp"
 
@@ -100,8 +101,7 @@ Result<void> apply(scene::Scene& scene, const Setting& setting) {
 
 Result<scene::Scene> with(scene::Scene scene, const std::vector<Setting>& settings) {
     for (const Setting& setting : settings)
-        if (auto applied = apply(scene, setting); !applied)
-            return fail(std::move(applied.error()));
+        TRY(apply(scene, setting));
     return scene;
 }
 

@@ -1,5 +1,7 @@
 #include "render/bands.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 
 namespace tidemark::render {
@@ -19,10 +21,8 @@ Result<bool> draw_bands(const Renderer& renderer, const FrameInputs& inputs, con
                 return false;
             renderer.draw_tile(inputs, grid.at(column, number), band);
         }
-        auto other = take(std::move(band));
-        if (!other)
-            return fail(std::move(other.error()));
-        band = *std::move(other);
+        auto other = TRY(take(std::move(band)));
+        band = std::move(other);
     }
     return true;
 }

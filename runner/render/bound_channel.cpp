@@ -1,5 +1,7 @@
 #include "render/bound_channel.hpp"
 
+#include "base/try.hpp"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -22,10 +24,8 @@ Result<BoundChannel> make_channel(const gl::Program& program, int unit, const sc
     if (const size_t* pass = source_pass(channel.input)) {
         bound.source = scene::PassOutput{*pass};
     } else {
-        const auto texture = textures.require(channel);
-        if (!texture)
-            return fail(texture.error());
-        bound.source = *texture;
+        const auto texture = TRY(textures.require(channel));
+        bound.source = texture;
     }
     point_samplers(program, unit);
     return bound;

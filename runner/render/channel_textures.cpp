@@ -1,5 +1,6 @@
 #include "render/channel_textures.hpp"
 
+#include "base/try.hpp"
 #include "gl/capabilities.hpp"
 #include "image/files/cubemap_file.hpp"
 #include "image/files/picture_file.hpp"
@@ -94,12 +95,9 @@ public:
     }
 
     Result<Loaded> operator()(const scene::Picture& picture) const {
-        auto image = image::read_picture(picture.file);
-        if (!image)
-            return fail(std::move(image.error()));
-        if (auto fits = check_size(image->extent, picture.file); !fits)
-            return fail(std::move(fits.error()));
-        return picture.one_channel ? red_alone(*std::move(image)) : flat(*std::move(image));
+        auto image = TRY(image::read_picture(picture.file));
+        TRY(check_size(image.extent, picture.file));
+        return picture.one_channel ? red_alone(std::move(image)) : flat(std::move(image));
     }
 
     Result<Loaded> operator()(const scene::Noise& noise) const {
@@ -118,17 +116,13 @@ public:
     }
 
     Result<Loaded> operator()(const scene::Cubemap& cubemap) const {
-        auto faces = image::read_cubemap(cubemap.files);
-        if (!faces)
-            return fail(std::move(faces.error()));
-        return cube(*faces);
+        auto faces = TRY(image::read_cubemap(cubemap.files));
+        return cube(faces);
     }
 
     Result<Loaded> operator()(const scene::Volume& input) const {
-        auto data = image::read_volume(input.file);
-        if (!data)
-            return fail(std::move(data.error()));
-        return volume(*data);
+        auto data = TRY(image::read_volume(input.file));
+        return volume(data);
     }
 
     Result<Loaded> operator()(const scene::StandIn& stand_in) const {
@@ -186,12 +180,9 @@ public:
     }
 
     Result<Loaded> operator()(const scene::Video& video) const {
-        auto opened = image::VideoFrames::open(video.file);
-        if (!opened)
-            return fail(std::move(opened.error()));
-        if (auto fits = check_size(opened->extent(), video.file); !fits)
-            return fail(std::move(fits.error()));
-        const auto frames = std::make_shared<image::VideoFrames>(*std::move(opened));
+        auto opened = TRY(image::VideoFrames::open(video.file));
+        TRY(check_size(opened.extent(), video.file));
+        const auto frames = std::make_shared<image::VideoFrames>(std::move(opened));
         return Loaded{gl::make_texture(frames->extent(), GL_RGBA8, levels_),
                       [frames, vflip = sampling_.vflip, shown = std::optional<size_t>()](
                           const gl::Texture& texture, const FrameInputs& inputs) mutable {

@@ -1,5 +1,6 @@
 #include "render/compiled_scene.hpp"
 
+#include "base/try.hpp"
 #include "glsl/pass_reading.hpp"
 #include "render/channel_textures.hpp"
 
@@ -40,8 +41,7 @@ bool reads(const scene::Pass& reader, size_t pass) {
 Result<CompiledScene> CompiledScene::create(scene::Scene scene, const RenderOptions& options) {
     CompiledScene compiled(std::move(scene), options);
     for (const auto step : {&CompiledScene::choose_pass, &CompiledScene::compile})
-        if (auto done = (compiled.*step)(); !done)
-            return fail(std::move(done.error()));
+        TRY((compiled.*step)());
     return compiled;
 }
 
@@ -107,17 +107,15 @@ Result<void> CompiledScene::compile() {
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto linked = link_pass(
+        auto linked = TRY(link_pass(
             scene_, scene_.passes[i],
-            {options_.precision, options_.specialise, options_.tile && i == shown_, marks && i == shown_});
-        if (!linked)
-            return fail(std::move(linked.error()));
-        supply_other_kinds(scene_, i, linked->dialect.channels);
-        reflections[i] = linked->program.reflection();
-        if (linked->discards)
+            {options_.precision, options_.specialise, options_.tile && i == shown_, marks && i == shown_}));
+        supply_other_kinds(scene_, i, linked.dialect.channels);
+        reflections[i] = linked.program.reflection();
+        if (linked.discards)
             discarding.push_back(i);
-        UniformTable uniforms(linked->program.reflection(), scene_.knobs, options_.extras.uniforms);
-        passes_[i] = CompiledPass{*std::move(linked), std::move(uniforms)};
+        UniformTable uniforms(linked.program.reflection(), scene_.knobs, options_.extras.uniforms);
+        passes_[i] = CompiledPass{std::move(linked), std::move(uniforms)};
     }
     plan_ = plan_frame(scene_, reflections, shown_, options_.extras, discarding);
     return {};

@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include "base/doing.hpp"
+#include "base/try.hpp"
 
 #include <fmt/format.h>
 
@@ -46,13 +47,10 @@ Renderer::Renderer(CompiledScene compiled)
 }
 
 Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& options) {
-    auto compiled = CompiledScene::create(std::move(scene), options);
-    if (!compiled)
-        return fail(std::move(compiled.error()));
-    Renderer renderer(*std::move(compiled));
+    auto compiled = TRY(CompiledScene::create(std::move(scene), options));
+    Renderer renderer(std::move(compiled));
     for (const auto step : {&Renderer::make_targets, &Renderer::bind_channels})
-        if (auto done = (renderer.*step)(); !done)
-            return fail(std::move(done.error()));
+        TRY((renderer.*step)());
     return renderer;
 }
 
@@ -81,10 +79,8 @@ Result<void> Renderer::make_targets() {
 Result<void> Renderer::bind_channels() {
     for (const PlannedPass& planned : plan().passes) {
         const auto add = [&](int unit, const scene::Channel& channel) -> Result<void> {
-            auto bound = make_channel(program(planned.pass), unit, channel, textures_);
-            if (!bound)
-                return fail(std::move(bound.error()));
-            passes_[planned.pass].channels.push_back(*std::move(bound));
+            auto bound = TRY(make_channel(program(planned.pass), unit, channel, textures_));
+            passes_[planned.pass].channels.push_back(std::move(bound));
             return {};
         };
         for (const int number : planned.channels)
@@ -109,10 +105,8 @@ Result<void> Renderer::resize(Extent extent) {
     for (const PlannedPass& planned : plan().passes) {
         if (has_own_size(planned.pass))
             continue;
-        auto target = passes_[planned.pass].target.resized(extent);
-        if (!target)
-            return fail(std::move(target.error()));
-        fresh[planned.pass] = *std::move(target);
+        auto target = TRY(passes_[planned.pass].target.resized(extent));
+        fresh[planned.pass] = std::move(target);
     }
     for (const PlannedPass& planned : plan().passes)
         if (!has_own_size(planned.pass))

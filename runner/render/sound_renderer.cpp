@@ -1,6 +1,7 @@
 #include "render/sound_renderer.hpp"
 
 #include "base/doing.hpp"
+#include "base/try.hpp"
 #include "glsl/assemble.hpp"
 #include "render/frame_plan.hpp"
 #include "render/link_pass.hpp"
@@ -35,15 +36,13 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Dat
     const scene::Pass* pass = scene.find(scene::PassKind::sound);
     if (!pass)
         return fail(ErrorCode::usage, fmt::format("'{}' has no Sound pass", scene.file.string()));
-    auto linked = link_pass(scene, *pass, {.precision = precision});
-    if (!linked)
-        return fail(std::move(linked.error()));
+    auto linked = TRY(link_pass(scene, *pass, {.precision = precision}));
     auto target =
         gl::make_render_target(gl::make_texture({glsl::k_sound_tile, glsl::k_sound_tile}, GL_RGBA8, 1));
     if (!target)
         return fail(ErrorCode::load, "this driver has no memory for a block of sound");
     SoundRenderer renderer;
-    renderer.program_ = std::move(linked->program);
+    renderer.program_ = std::move(linked.program);
     renderer.target_ = *std::move(target);
     renderer.knobs_ = scene.knobs;
     renderer.inputs_.date = date;
@@ -58,10 +57,8 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Dat
             channel.input = scene::Unbound{texture_kind(scene, channel.input)};
         if (!needs_texture(channel.input, number, renderer.program_.reflection()))
             continue;
-        auto bound = make_channel(renderer.program_, number, channel, renderer.textures_);
-        if (!bound)
-            return fail(std::move(bound.error()));
-        renderer.channels_.push_back(*std::move(bound));
+        auto bound = TRY(make_channel(renderer.program_, number, channel, renderer.textures_));
+        renderer.channels_.push_back(std::move(bound));
     }
     return renderer;
 }

@@ -1,5 +1,6 @@
 #include "scene/directives.hpp"
 
+#include "base/try.hpp"
 #include "scene/host_uniforms.hpp"
 #include "scene/sources.hpp"
 #include "text/tokens.hpp"
@@ -183,8 +184,7 @@ Result<Directives> DirectiveReader::read_all() {
             continue;
         }
         const size_t begin = tokens_[position_].begin;
-        if (auto read = read_directive(); !read)
-            return fail(std::move(read.error()));
+        TRY(read_directive());
         edits_.push_back({begin, tokens_[position_ - 1].end(), {}});
     }
     for (size_t i = 0; i < wishes_.size(); ++i) {
@@ -241,19 +241,17 @@ Result<void> DirectiveReader::read_channel(std::string_view keyword, const Sourc
 }
 
 Result<void> DirectiveReader::read_channel_source(size_t number, const SourceLocation& where) {
-    auto name = expect_string();
-    if (!name)
-        return fail(std::move(name.error()));
-    if (name->starts_with("file://"))
-        name->erase(0, std::string_view("file://").size());
-    if (name->find("://") != std::string::npos)
+    auto name = TRY(expect_string());
+    if (name.starts_with("file://"))
+        name.erase(0, std::string_view("file://").size());
+    if (name.find("://") != std::string::npos)
         return fail(
-            error_at(where, fmt::format("'{}' is not a local file: tidemark downloads nothing", *name)));
-    if (name->empty())
+            error_at(where, fmt::format("'{}' is not a local file: tidemark downloads nothing", name)));
+    if (name.empty())
         return fail(error_at(where, "the name of the picture is empty"));
     Channel& channel = directives_.channels[number];
     channel.where = where;
-    directives_.sources[number] = *std::move(name);
+    directives_.sources[number] = std::move(name);
     return {};
 }
 
@@ -278,12 +276,10 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
         return wanted("MinFilter, MagFilter, WrapMode or Type");
     const SourceLocation where = here();
     const std::string parameter(tokens_[position_++].text);
-    auto value = expect_string();
-    if (!value)
-        return fail(std::move(value.error()));
+    auto value = TRY(expect_string());
     if (parameter == "MinFilter") {
         for (const MinFilter& filter : k_min_filters)
-            if (filter.name == *value) {
+            if (filter.name == value) {
                 wishes.minify = filter.filter;
                 wishes.mipmaps = filter.mipmaps;
                 return {};
@@ -291,26 +287,26 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
         return fail(
             error_at(where, fmt::format("MinFilter \"{}\": give Nearest, Linear, or one of the two with "
                                         "MipMapNearest or MipMapLinear behind it",
-                                        *value)));
+                                        value)));
     }
     if (parameter == "MagFilter") {
-        if (*value != "Nearest" && *value != "Linear")
-            return fail(error_at(where, fmt::format("MagFilter \"{}\": give Nearest or Linear", *value)));
-        wishes.magnify = *value == "Nearest" ? Filter::nearest : Filter::linear;
+        if (value != "Nearest" && value != "Linear")
+            return fail(error_at(where, fmt::format("MagFilter \"{}\": give Nearest or Linear", value)));
+        wishes.magnify = value == "Nearest" ? Filter::nearest : Filter::linear;
         return {};
     }
     if (parameter == "WrapMode") {
         for (const auto& [name, wrap] : k_wraps)
-            if (name == *value) {
+            if (name == value) {
                 wishes.wrap = wrap;
                 return {};
             }
-        return fail(error_at(where, fmt::format("WrapMode \"{}\": give Repeat, Clamp or Mirror", *value)));
+        return fail(error_at(where, fmt::format("WrapMode \"{}\": give Repeat, Clamp or Mirror", value)));
     }
     if (parameter == "Type") {
-        wishes.cubemap = *value == "CubeMap";
-        if (*value != "Texture2D" && *value != "CubeMap")
-            return fail(error_at(where, fmt::format("Type \"{}\": give Texture2D or CubeMap", *value)));
+        wishes.cubemap = value == "CubeMap";
+        if (value != "Texture2D" && value != "CubeMap")
+            return fail(error_at(where, fmt::format("Type \"{}\": give Texture2D or CubeMap", value)));
         return {};
     }
     return fail(
@@ -355,22 +351,16 @@ Result<void> DirectiveReader::check_name_is_free(const Knob& knob) const {
 Result<void> DirectiveReader::read_knob_values(Knob& knob) {
     const bool has_default = accept("=");
     if (has_default) {
-        const auto value = read_value(knob);
-        if (!value)
-            return fail(value.error());
-        knob.value = *value;
+        const auto value = TRY(read_value(knob));
+        knob.value = value;
     }
     if (accept("in")) {
-        const auto range = read_range(knob);
-        if (!range)
-            return fail(range.error());
-        knob.range = *range;
+        const auto range = TRY(read_range(knob));
+        knob.range = range;
     }
     if (accept("step")) {
-        const auto step = read_value(knob);
-        if (!step)
-            return fail(step.error());
-        knob.step = *step;
+        const auto step = TRY(read_value(knob));
+        knob.step = step;
     } else if (info(knob.type).whole) {
         knob.step = KnobValue{1, 1, 1, 1};
     }
@@ -390,46 +380,38 @@ Result<KnobRange> DirectiveReader::read_range(const Knob& knob) {
     const bool square = next_is("[");
     if (!square && !next_is("{"))
         return wanted("'{' or '['");
-    if (auto open = open_bracket(square ? "[" : "{", square ? "]" : "}"); !open)
-        return fail(open.error());
-    const auto low = read_value(knob);
-    if (!low)
-        return fail(low.error());
-    if (auto comma = expect(","); !comma)
-        return fail(comma.error());
-    const auto high = read_value(knob);
-    if (!high)
-        return fail(high.error());
+    TRY(open_bracket(square ? "[" : "{", square ? "]" : "}"));
+    const auto low = TRY(read_value(knob));
+    TRY(expect(","));
+    const auto high = TRY(read_value(knob));
     if (auto closed = close_bracket(square ? "]" : "}"); !closed)
         return fail(closed.error());
     for (size_t i = 0; i < size_t(info(knob.type).components); ++i)
-        if ((*low)[i] > (*high)[i])
+        if (low[i] > high[i])
             return fail(error_at(where, fmt::format("the range of '{}' runs backwards", knob.name)));
-    return KnobRange{*low, *high};
+    return KnobRange{low, high};
 }
 
 Result<KnobValue> DirectiveReader::read_value(const Knob& knob) {
     const SourceLocation where = here();
-    const auto literal = read_literal();
-    if (!literal)
-        return fail(literal.error());
+    const auto literal = TRY(read_literal());
     const KnobTypeInfo& type = info(knob.type);
     const size_t components = size_t(type.components);
-    if (literal->numbers.size() != 1 && literal->numbers.size() != components)
+    if (literal.numbers.size() != 1 && literal.numbers.size() != components)
         return fail(error_at(where, fmt::format("'{}' is a {}: it takes {}", knob.name, type.directive_name,
                                                 components == 1
                                                     ? "one number"
                                                     : fmt::format("{} numbers or one for all", components))));
-    if (type.whole && !literal->whole)
+    if (type.whole && !literal.whole)
         return fail(error_at(
             where, fmt::format("'{}' is an {}: it takes whole numbers", knob.name, type.directive_name)));
-    for (const double number : literal->numbers)
+    for (const double number : literal.numbers)
         if (type.whole && !fits_int(number))
             return fail(error_at(where, fmt::format("'{}' is an {}: {:.0f} does not fit", knob.name,
                                                     type.directive_name, number)));
     KnobValue value{};
     for (size_t i = 0; i < components; ++i)
-        value[i] = literal->numbers[literal->numbers.size() == 1 ? 0 : i];
+        value[i] = literal.numbers[literal.numbers.size() == 1 ? 0 : i];
     return value;
 }
 
@@ -438,14 +420,11 @@ Result<Value> DirectiveReader::read_literal() {
     const bool constructor = peek() && find_knob_type(peek()->text) != nullptr;
     if (constructor) {
         ++position_;
-        if (auto open = open_bracket("(", ")"); !open)
-            return fail(open.error());
+        TRY(open_bracket("(", ")"));
     }
     do {
-        const auto number = read_number(value.whole);
-        if (!number)
-            return fail(number.error());
-        value.numbers.push_back(*number);
+        const auto number = TRY(read_number(value.whole));
+        value.numbers.push_back(number);
     } while (constructor && accept(","));
     if (constructor)
         if (auto closed = close_bracket(")"); !closed)

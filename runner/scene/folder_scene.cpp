@@ -1,6 +1,7 @@
 #include "scene/folder_scene.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "scene/bounds.hpp"
 #include "scene/media.hpp"
 #include "scene/pass_loader.hpp"
@@ -59,8 +60,7 @@ Result<Scene> load_by_names(const fs::path& folder, const PassFiles& files, cons
     std::vector<size_t> drafts;
     for (const auto& [name, file] : files) {
         if (name.kind == Kind::common) {
-            if (auto loaded = loader.load_common(file); !loaded)
-                return fail(std::move(loaded.error()));
+            TRY(loader.load_common(file));
             continue;
         }
         Draft draft;
@@ -70,10 +70,8 @@ Result<Scene> load_by_names(const fs::path& folder, const PassFiles& files, cons
         drafts.push_back(loader.add(std::move(draft)));
     }
     for (const size_t draft : drafts)
-        if (auto loaded = loader.load(draft); !loaded)
-            return fail(std::move(loaded.error()));
-    if (auto finished = loader.finish(); !finished)
-        return fail(std::move(finished.error()));
+        TRY(loader.load(draft));
+    TRY(loader.finish());
     warn_of_unread(scene, files);
     return scene;
 }
@@ -94,42 +92,35 @@ Result<Scene> load_by_project(const fs::path& folder, const PassFiles& files, co
     const auto json = bounds.check(file).and_then([&] { return read_file(file); });
     if (!json)
         return fail(json.error());
-    auto project = read_project(*json, file.string(), CodeIn::files);
-    if (!project)
-        return fail(std::move(project.error()));
-    const std::vector<std::string> names = pass_names(*project);
+    auto project = TRY(read_project(*json, file.string(), CodeIn::files));
+    const std::vector<std::string> names = pass_names(project);
     Scene scene = scene_of(folder);
     scene.files.push_back(file);
     const MediaFolder media(options.media);
-    auto drafts = draft_project(scene, {*project, names, folder, media, bounds, file.string()});
-    if (!drafts)
-        return fail(std::move(drafts.error()));
+    auto drafts = TRY(draft_project(scene, {project, names, folder, media, bounds, file.string()}));
 
     PassLoader loader(scene, folder, bounds, Conditional::leave);
     for (size_t i = 0; i < names.size(); ++i) {
-        ProjectPass& pass = project->passes[i];
+        ProjectPass& pass = project.passes[i];
         const std::string place = fmt::format("{}:{}", file.string(), names[i]);
         const fs::path code = pass.file ? (folder / *pass.file).lexically_normal() : fs::path();
-        if (!drafts->of_pass[i]) {
-            auto loaded = pass.file ? loader.load_common(code) : Result<void>();
-            if (!loaded)
-                return fail(std::move(loaded.error()));
-            if (!pass.file)
+        if (!drafts.of_pass[i]) {
+            if (pass.file)
+                TRY(loader.load_common(code));
+            else
                 scene.common.append(plain_text(std::move(pass.code)), place, 1);
             continue;
         }
-        Draft& draft = drafts->drafts[*drafts->of_pass[i]];
+        Draft& draft = drafts.drafts[*drafts.of_pass[i]];
         draft.file = code;
         if (!pass.file)
             draft.pass.text.append(plain_text(std::move(pass.code)), place, 1);
     }
-    for (Draft& draft : drafts->drafts)
+    for (Draft& draft : drafts.drafts)
         loader.add(std::move(draft));
-    for (const size_t draft : drafts->order)
-        if (auto loaded = loader.load(draft); !loaded)
-            return fail(std::move(loaded.error()));
-    if (auto finished = loader.finish(); !finished)
-        return fail(std::move(finished.error()));
+    for (const size_t draft : drafts.order)
+        TRY(loader.load(draft));
+    TRY(loader.finish());
     warn_of_unused(scene, files, file);
     return scene;
 }
@@ -175,12 +166,10 @@ Result<PassFiles> pass_files(const fs::path& folder) {
 }
 
 Result<Scene> load_folder_scene(const fs::path& folder, const LoadOptions& options) {
-    const auto files = pass_files(folder);
-    if (!files)
-        return fail(files.error());
+    const auto files = TRY(pass_files(folder));
     std::error_code ignored;
-    return fs::exists(folder / k_project_file, ignored) ? load_by_project(folder, *files, options)
-                                                        : load_by_names(folder, *files, options);
+    return fs::exists(folder / k_project_file, ignored) ? load_by_project(folder, files, options)
+                                                        : load_by_names(folder, files, options);
 }
 
 } // namespace tidemark::scene

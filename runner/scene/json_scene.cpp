@@ -1,6 +1,7 @@
 #include "scene/json_scene.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "scene/bounds.hpp"
 #include "scene/builder.hpp"
 #include "scene/folder_scene.hpp"
@@ -14,34 +15,28 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 
 Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) {
-    auto bytes = read_file(path);
-    if (!bytes)
-        return fail(std::move(bytes.error()));
+    auto bytes = TRY(read_file(path));
     const CodeIn code = path.filename() == k_project_file ? CodeIn::files : CodeIn::json;
-    auto project = read_project(*bytes, path.string(), code);
-    if (!project)
-        return fail(std::move(project.error()));
+    auto project = TRY(read_project(bytes, path.string(), code));
     // `tidemark view folder/scene.json` means the folder.
-    for (const ProjectPass& pass : project->passes)
+    for (const ProjectPass& pass : project.passes)
         if (pass.file)
             return load_folder_scene(path.parent_path().empty() ? fs::path(".") : path.parent_path(),
                                      options);
-    const std::vector<std::string> names = pass_names(*project);
+    const std::vector<std::string> names = pass_names(project);
     Scene scene;
     scene.file = path;
     scene.files.push_back(path);
     const Bounds bounds(path.parent_path(), options.allow_outside);
     const MediaFolder media(options.media);
-    auto drafts = draft_project(scene, {*project, names, path.parent_path(), media, bounds, path.string()});
-    if (!drafts)
-        return fail(std::move(drafts.error()));
+    auto drafts =
+        TRY(draft_project(scene, {project, names, path.parent_path(), media, bounds, path.string()}));
     for (size_t i = 0; i < names.size(); ++i) {
         const std::string place = fmt::format("{}:{}", path.string(), names[i]);
-        text::MappedText& text = drafts->text_of(i, scene);
-        text.append(plain_text(std::move(project->passes[i].code)), place, 1);
+        text::MappedText& text = drafts.text_of(i, scene);
+        text.append(plain_text(std::move(project.passes[i].code)), place, 1);
     }
-    if (auto finished = finish_scene(scene, std::move(drafts->drafts), drafts->order); !finished)
-        return fail(std::move(finished.error()));
+    TRY(finish_scene(scene, std::move(drafts.drafts), drafts.order));
     return scene;
 }
 

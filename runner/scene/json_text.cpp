@@ -1,5 +1,7 @@
 #include "scene/json_text.hpp"
 
+#include "base/try.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -134,8 +136,7 @@ bool is_pass(const Json& json) {
 
 Result<Json> parse_json(std::string_view text, const std::string& file) {
     Survey survey(text, file);
-    if (auto good = survey.run(); !good)
-        return fail(std::move(good.error()));
+    TRY(survey.run());
     std::string mended;
     if (!survey.lone_surrogates().empty()) {
         mended = text;

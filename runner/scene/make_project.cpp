@@ -1,5 +1,6 @@
 #include "base/overloaded.hpp"
 #include "base/printable.hpp"
+#include "base/try.hpp"
 #include "scene/host_uniforms.hpp"
 #include "scene/json_text.hpp"
 #include "scene/pass_names.hpp"
@@ -48,8 +49,7 @@ public:
         : scene_(scene), warnings_(warnings) {}
 
     Result<Json> write() {
-        if (auto numbered = number_buffers(); !numbered)
-            return fail(std::move(numbered.error()));
+        TRY(number_buffers());
         Json passes = Json::array();
         for (const Pass& pass : scene_.passes)
             if (pass.kind == PassKind::image)
@@ -204,11 +204,9 @@ std::string knobs_as_constants(const Scene& scene) {
 }
 
 Result<std::string> make_project(const Scene& scene, std::vector<Diagnostic>& warnings) {
-    auto json = ProjectWriter(scene, warnings).write();
-    if (!json)
-        return fail(std::move(json.error()));
+    auto json = TRY(ProjectWriter(scene, warnings).write());
     try {
-        return json->dump(k_indent) + "\n";
+        return json.dump(k_indent) + "\n";
     } catch (const Json::type_error&) { // JSON is Unicode
         return fail(ErrorCode::load,
                     fmt::format("'{}' has a text that is not UTF-8: save it as that, for JSON is",

@@ -1,5 +1,6 @@
 #include "scene/overrides.hpp"
 
+#include "base/try.hpp"
 #include "scene/builder.hpp"
 #include "scene/sources.hpp"
 
@@ -71,14 +72,10 @@ Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_
 }
 
 Result<void> override_channel(Scene& scene, std::string_view setting) {
-    const auto split = split_setting(setting, "--channel");
-    if (!split)
-        return fail(split.error());
-    const std::string_view what = split->second;
-    const auto place = channel_of(scene, split->first);
-    if (!place)
-        return fail(place.error());
-    const auto [pass, number] = *place;
+    const auto split = TRY(split_setting(setting, "--channel"));
+    const std::string_view what = split.second;
+    const auto place = TRY(channel_of(scene, split.first));
+    const auto [pass, number] = place;
     if (number.size() != 1 || number[0] < '0' || number[0] >= '0' + k_channel_count || what.empty())
         return fail(ErrorCode::usage,
                     fmt::format("--channel {}: give it as N=FILE, N=noise or N=none, N from 0 to {}", setting,
@@ -99,22 +96,16 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
 }
 
 Result<void> override_knob(Scene& scene, std::string_view setting) {
-    const auto split = split_setting(setting, "--set");
-    if (!split)
-        return fail(split.error());
-    const auto knob = find_knob(scene.knobs, split->first);
-    if (!knob)
-        return fail(knob.error());
-    const auto value = parse_knob_value(**knob, split->second);
-    if (!value)
-        return fail(value.error());
-    (*knob)->value = *value;
-    if (!in_range(**knob))
+    const auto split = TRY(split_setting(setting, "--set"));
+    const auto knob = TRY(find_knob(scene.knobs, split.first));
+    const auto value = TRY(parse_knob_value(*knob, split.second));
+    (knob)->value = value;
+    if (!in_range(*knob))
         scene.warnings.push_back(
-            {(*knob)->where, Severity::warning,
+            {(knob)->where, Severity::warning,
              fmt::format("--set {}: {} has the range {} to {}; the value is taken as it is", setting,
-                         (*knob)->name, to_string(**knob, (*knob)->range->low),
-                         to_string(**knob, (*knob)->range->high))});
+                         (knob)->name, to_string(*knob, (knob)->range->low),
+                         to_string(*knob, (knob)->range->high))});
     return {};
 }
 

@@ -1,6 +1,7 @@
 #include "scene/pass_loader.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "scene/pass_names.hpp"
 #include "scene/project_drafts.hpp"
 #include "scene/sources.hpp"
@@ -42,25 +43,19 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
     const auto read_text = [&](const fs::path& path) -> Result<std::string> {
         // The person who named the scene may name a link.
         if (path != scene_.file.lexically_normal())
-            if (auto inside = bounds_.check(path); !inside)
-                return fail(std::move(inside.error()));
+            TRY(bounds_.check(path));
         if (conditional_ == Conditional::read)
             return read_text_file(path);
         return read_file(path).map(plain_text);
     };
-    auto expanded = text::expand_includes(file, read_text);
-    if (!expanded)
-        return fail(std::move(expanded.error()));
-    for (const auto* paths : {&expanded->files, &expanded->missing}) // a missing one may come
+    auto expanded = TRY(text::expand_includes(file, read_text));
+    for (const auto* paths : {&expanded.files, &expanded.missing}) // a missing one may come
         for (const fs::path& path : *paths)
             note_file(scene_, path);
-    auto directives = take_directives(expanded->text, conditional_);
-    if (!directives)
-        return fail(std::move(directives.error()));
-    scene_.warnings.insert(scene_.warnings.end(), directives->warnings.begin(), directives->warnings.end());
-    if (auto added = add_knobs(std::move(directives->knobs)); !added)
-        return fail(std::move(added.error()));
-    return FileText{std::move(expanded->text), *std::move(directives), std::move(expanded->files)};
+    auto directives = TRY(take_directives(expanded.text, conditional_));
+    scene_.warnings.insert(scene_.warnings.end(), directives.warnings.begin(), directives.warnings.end());
+    TRY(add_knobs(std::move(directives.knobs)));
+    return FileText{std::move(expanded.text), std::move(directives), std::move(expanded.files)};
 }
 
 /// A knob that several passes declare alike is one knob: it has one slider and one value.
@@ -82,25 +77,21 @@ Result<void> PassLoader::add_knobs(std::vector<Knob> knobs) {
 }
 
 Result<void> PassLoader::load_common(const fs::path& file) {
-    auto read_file = read(file);
-    if (!read_file)
-        return fail(std::move(read_file.error()));
-    commons_.push_back({file.lexically_normal(), std::move(read_file->text)});
+    auto read_file = TRY(read(file));
+    commons_.push_back({file.lexically_normal(), std::move(read_file.text)});
     return {};
 }
 
 Result<void> PassLoader::load(size_t draft) {
     if (!drafts_[draft].file.empty()) {
-        auto file = read(drafts_[draft].file);
-        if (!file)
-            return fail(std::move(file.error()));
-        drafts_[draft].pass.text = std::move(file->text);
-        drafts_[draft].pass.keyboard_helpers = file->directives.keyboard_helpers;
+        auto file = TRY(read(drafts_[draft].file));
+        drafts_[draft].pass.text = std::move(file.text);
+        drafts_[draft].pass.keyboard_helpers = file.directives.keyboard_helpers;
         drafts_[draft].pass.bare_file = conditional_ == Conditional::read;
-        scene_.moves_view = scene_.moves_view || file->directives.moves_view;
-        included_[draft] = std::move(file->files);
+        scene_.moves_view = scene_.moves_view || file.directives.moves_view;
+        included_[draft] = std::move(file.files);
         loading_.push_back(draft);
-        auto bound = bind(draft, file->directives);
+        auto bound = bind(draft, file.directives);
         loading_.pop_back();
         if (!bound)
             return bound;
@@ -118,10 +109,8 @@ Result<void> PassLoader::bind(size_t draft, const Directives& directives) {
                 drafts_[draft].pass.channels[i] = std::move(channel);
             continue;
         }
-        auto input = input_of(draft, channel, directives.sources[i]);
-        if (!input)
-            return fail(std::move(input.error()));
-        channel.input = *std::move(input);
+        auto input = TRY(input_of(draft, channel, directives.sources[i]));
+        channel.input = std::move(input);
         drafts_[draft].pass.channels[i] = std::move(channel);
     }
     return {};

@@ -1,5 +1,6 @@
 #include "scene/project.hpp"
 
+#include "base/try.hpp"
 #include "scene/json_text.hpp"
 #include "scene/pass_names.hpp"
 
@@ -42,8 +43,7 @@ public:
         if (passes_.size() > k_most_passes)
             return refuse(fmt::format("it has {} passes: ShaderToy has at most 8", passes_.size()));
         for (const Json& pass : passes_)
-            if (auto read = read_pass(pass); !read)
-                return fail(std::move(read.error()));
+            TRY(read_pass(pass));
         const std::vector<std::string> names = pass_names(project_);
         for (size_t i = 0; i < names.size(); ++i)
             if (std::optional<std::string>& named = project_.passes[i].file; named && named->empty())
@@ -167,13 +167,9 @@ Result<Project> read_passes(const Json& passes, const std::string& file, CodeIn 
 }
 
 Result<Project> read_project(std::string_view text, const std::string& file, CodeIn code) {
-    auto json = parse_json(text, file);
-    if (!json)
-        return fail(std::move(json.error()));
-    const auto passes = find_passes(*json, file);
-    if (!passes)
-        return fail(passes.error());
-    return read_passes(**passes, file, code);
+    auto json = TRY(parse_json(text, file));
+    const auto passes = TRY(find_passes(json, file));
+    return read_passes(*passes, file, code);
 }
 
 std::vector<std::string> pass_names(const Project& project) {

@@ -1,5 +1,7 @@
 #include "scene/project_drafts.hpp"
 
+#include "base/try.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,12 +75,10 @@ Result<ProjectDrafts> draft_project(Scene& scene, InputReader::Context context) 
         for (Channel& channel : channels)
             channel.input = Unbound{};
         for (const ProjectInput& input : project.passes[i].inputs) {
-            auto channel = inputs.read(input);
-            if (!channel)
-                return fail(std::move(channel.error()));
-            if (size_t* read = source_pass(channel->input))
+            auto channel = TRY(inputs.read(input));
+            if (size_t* read = source_pass(channel.input))
                 *read = *result.of_pass[*read];
-            channels[size_t(input.channel)] = *std::move(channel);
+            channels[size_t(input.channel)] = std::move(channel);
         }
     }
     auto warnings = inputs.take_warnings();

@@ -1,6 +1,7 @@
 #include "scene/project_files.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "scene/folder_scene.hpp"
 #include "scene/json_text.hpp"
 #include "scene/pass_names.hpp"
@@ -17,23 +18,17 @@ constexpr int k_indent = 2;
 } // namespace
 
 Result<std::vector<ProjectFile>> split_project(std::string_view text, const std::string& file) {
-    auto json = parse_json(text, file);
-    if (!json)
-        return fail(std::move(json.error()));
-    const auto passes = find_passes(*json, file);
-    if (!passes)
-        return fail(passes.error());
-    auto project = read_passes(**passes, file, CodeIn::json);
-    if (!project)
-        return fail(std::move(project.error()));
-    const std::vector<std::string> names = pass_names(*project);
+    auto json = TRY(parse_json(text, file));
+    const auto passes = TRY(find_passes(json, file));
+    auto project = TRY(read_passes(*passes, file, CodeIn::json));
+    const std::vector<std::string> names = pass_names(project);
     std::vector<ProjectFile> files;
     for (size_t i = 0; i < names.size(); ++i) {
-        ProjectPass& pass = project->passes[i];
+        ProjectPass& pass = project.passes[i];
         files.push_back({file_name_of(names[i]), std::move(pass.code)});
-        (**passes)[i]["code"] = Json{{"file", files.back().name}};
+        (*passes)[i]["code"] = Json{{"file", files.back().name}};
     }
-    files.push_back({k_project_file, json->dump(k_indent) + "\n"});
+    files.push_back({k_project_file, json.dump(k_indent) + "\n"});
     return files;
 }
 
@@ -42,19 +37,13 @@ Result<std::string> join_project(const fs::path& folder, const Bounds& bounds) {
     const auto text = bounds.check(file).and_then([&] { return read_file(file); });
     if (!text)
         return fail(text.error());
-    auto json = parse_json(*text, file.string());
-    if (!json)
-        return fail(std::move(json.error()));
-    const auto passes = find_passes(*json, file.string());
-    if (!passes)
-        return fail(passes.error());
-    const auto project = read_passes(**passes, file.string(), CodeIn::files);
-    if (!project)
-        return fail(project.error());
-    for (size_t i = 0; i < project->passes.size(); ++i) {
-        if (!project->passes[i].file)
+    auto json = TRY(parse_json(*text, file.string()));
+    const auto passes = TRY(find_passes(json, file.string()));
+    const auto project = TRY(read_passes(*passes, file.string(), CodeIn::files));
+    for (size_t i = 0; i < project.passes.size(); ++i) {
+        if (!project.passes[i].file)
             continue;
-        const fs::path code_file = (folder / *project->passes[i].file).lexically_normal();
+        const fs::path code_file = (folder / *project.passes[i].file).lexically_normal();
         auto code = bounds.check(code_file).and_then([&] { return read_file(code_file); });
         if (!code)
             return fail(std::move(code.error()));
@@ -65,9 +54,9 @@ Result<std::string> join_project(const fs::path& folder, const Bounds& bounds) {
             return fail(ErrorCode::load,
                         fmt::format("'{}' is not UTF-8: save it as that, for JSON is", code_file.string()));
         }
-        (**passes)[i]["code"] = std::move(value);
+        (*passes)[i]["code"] = std::move(value);
     }
-    return json->dump(k_indent) + "\n";
+    return json.dump(k_indent) + "\n";
 }
 
 } // namespace tidemark::scene

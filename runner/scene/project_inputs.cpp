@@ -1,5 +1,6 @@
 #include "scene/project_inputs.hpp"
 
+#include "base/try.hpp"
 #include "scene/pass_names.hpp"
 #include "scene/sources.hpp"
 
@@ -105,10 +106,8 @@ Sampling InputReader::sampling_of(const ProjectInput& input, Kind kind) {
 
 Result<Channel> InputReader::read(const ProjectInput& input) {
     const Kind kind = kind_of(input);
-    auto what = input_of(input, kind);
-    if (!what)
-        return fail(std::move(what.error()));
-    return Channel{*std::move(what), sampling_of(input, kind), {}};
+    auto what = TRY(input_of(input, kind));
+    return Channel{std::move(what), sampling_of(input, kind), {}};
 }
 
 Result<ChannelInput> InputReader::input_of(const ProjectInput& input, Kind kind) {
@@ -158,21 +157,19 @@ ChannelInput InputReader::cube_output() const {
 }
 
 Result<ChannelInput> InputReader::media_input(const ProjectInput& input, MediaKind kind) {
-    auto files = files_of(input, kind);
-    if (!files)
-        return fail(std::move(files.error()));
+    auto files = TRY(files_of(input, kind));
     const Media* media = media_of(input);
-    if (files->empty())
+    if (files.empty())
         return instead_of(input, media, substitute_for(kind, media));
     switch (kind) {
     case MediaKind::picture:
-        return Picture{files->front(), media && media->kind == kind && media->channels == 1};
-    case MediaKind::cubemap: return Cubemap{*std::move(files)};
-    case MediaKind::volume: return Volume{files->front()};
-    case MediaKind::video: return Video{files->front()};
+        return Picture{files.front(), media && media->kind == kind && media->channels == 1};
+    case MediaKind::cubemap: return Cubemap{std::move(files)};
+    case MediaKind::volume: return Volume{files.front()};
+    case MediaKind::video: return Video{files.front()};
     case MediaKind::music: break;
     }
-    return Music{files->front()};
+    return Music{files.front()};
 }
 
 /// A file of the project's own, else one of ShaderToy's.

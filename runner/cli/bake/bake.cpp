@@ -1,4 +1,5 @@
 #include "bake/ramps.hpp"
+#include "base/try.hpp"
 #include "cli/bake/bake_island.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
@@ -23,13 +24,11 @@ struct BakeOptions {
 
 Result<int> write(const OutputPath& output, const image::Image& image) {
     const fs::path& path = output.path();
-    if (auto known = image::check_picture_name(path); !known)
-        return fail(std::move(known.error()));
+    TRY(image::check_picture_name(path));
     const auto depth =
         image.type == image::SampleType::f32 ? image::SampleDepth::u16 : image::natural_depth(path);
     const image::PictureFormat format{depth, {{"Software", "tidemark bake"}}};
-    if (auto written = image::write_picture(output, image, format); !written)
-        return fail(std::move(written.error()));
+    TRY(image::write_picture(output, image, format));
     say(fmt::format("wrote {}", path.string()));
     return 0;
 }

@@ -2,6 +2,7 @@
 
 #include "bake/island.hpp"
 #include "bake/wave_map.hpp"
+#include "base/try.hpp"
 #include "cli/bake/bake_island_study.hpp"
 #include "cli/console.hpp"
 #include "cli/value_check.hpp"
@@ -61,22 +62,17 @@ Result<int> bake(const IslandOptions& options) {
     OutputPath output = OutputPath::typed_or(options.output, "island.exr");
     if (!options.heights.empty())
         output = output.sparing({options.heights});
-    if (auto known = image::check_picture_format(output.path(), options.depth); !known)
-        return fail(std::move(known.error()));
+    TRY(image::check_picture_format(output.path(), options.depth));
     const std::jthread loading = image::preload_picture_codec(output.path());
-    if (auto place = output.place(); !place)
-        return fail(std::move(place.error()));
-    const auto map = heights_of(options);
-    if (!map)
-        return fail(map.error());
-    const auto baked = bake::bake_wave_map(*map);
+    TRY(output.place());
+    const auto map = TRY(heights_of(options));
+    const auto baked = bake::bake_wave_map(map);
     if (!baked) {
         const std::string name =
             options.heights.empty() ? fmt::format("island {}", options.seed) : options.heights.string();
         return fail(baked.error().code, fmt::format("cannot use '{}': {}", name, baked.error().message));
     }
-    if (auto written = image::write_picture(output, *baked, format_of(options, *map)); !written)
-        return fail(std::move(written.error()));
+    TRY(image::write_picture(output, *baked, format_of(options, map)));
     say(fmt::format("wrote {}", output.string()));
     return 0;
 }

@@ -1,6 +1,7 @@
 #include "cli/bake/bake_island_study.hpp"
 
 #include "bake/march_study.hpp"
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/study_support.hpp"
 #include "lab/study/curves.hpp"
@@ -168,8 +169,7 @@ lab::WorkPrecisionSet march_set(const std::vector<MarchSetting>& settings) {
 Result<int> write_march_report(const MarchStudyRequest& request) {
     Interrupt interrupt;
     const OutputPath folder = OutputPath::typed(request.folder);
-    if (auto made = prepare_report(folder); !made)
-        return fail(std::move(made.error()));
+    TRY(prepare_report(folder));
     const std::vector<MarchSetting> settings = march_settings();
     lab::Findings findings{march_set(settings), {}};
     std::vector<std::vector<std::function<void()>>> marches;
@@ -192,8 +192,7 @@ Result<int> write_march_report(const MarchStudyRequest& request) {
     lab::judge(findings.set);
     lab::observe_orders(findings.set);
     const OutputPath place = report_folder(folder, findings.set.circumstances.complete);
-    if (auto written = lab::write_report(place, findings); !written)
-        return fail(std::move(written.error()));
+    TRY(lab::write_report(place, findings));
     say_findings(findings.set, place.path());
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }
@@ -201,8 +200,7 @@ Result<int> write_march_report(const MarchStudyRequest& request) {
 } // namespace
 
 Result<int> study_march(const MarchStudyRequest& request) {
-    if (auto printed = put_tables(); !printed)
-        return fail(std::move(printed.error()));
+    TRY(put_tables());
     return request.folder.empty() ? 0 : write_march_report(request);
 }
 

@@ -1,5 +1,6 @@
 #include "cli/capture/band_output.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "image/census.hpp"
 #include "image/colours.hpp"
@@ -41,8 +42,7 @@ BandOutput::BandOutput(std::optional<image::PictureStream> stream, bool hashed) 
 }
 
 Result<image::Image> BandOutput::take(image::Image band) {
-    if (auto done = wait(); !done)
-        return fail(std::move(done.error()));
+    TRY(wait());
     std::swap(band, band_);
     writing_ = std::async(std::launch::async, [this] { return write(); });
     return band;

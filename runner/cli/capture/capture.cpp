@@ -1,3 +1,4 @@
+#include "base/try.hpp"
 #include "cli/capture/capture_plan.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
@@ -41,23 +42,19 @@ Result<render::Renderer> choose_renderer(const CapturePlan& plan, render::Render
     if (!plan.trial || drawing.tile)
         return render::Renderer::create(plan.scene, drawing);
     drawing.specialise = plan.trial->as_far_as;
-    auto trial = choose_program(plan.scene, drawing, plan.trial->frames);
-    if (!trial)
-        return fail(std::move(trial.error()));
-    if (!trial->said.empty())
-        say(trial->said);
-    return std::move(trial->renderer);
+    auto trial = TRY(choose_program(plan.scene, drawing, plan.trial->frames));
+    if (!trial.said.empty())
+        say(trial.said);
+    return std::move(trial.renderer);
 }
 
 Result<render::Renderer> compile(const CapturePlan& plan, Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     Watchdog watchdog;
     const Watchdog::Watch watch(watchdog, "compiling", plan.timeout);
-    const auto tile = choose_tile(plan);
-    if (!tile)
-        return fail(tile.error());
+    const auto tile = TRY(choose_tile(plan));
     render::RenderOptions drawing = plan.drawing;
-    drawing.tile = *tile;
+    drawing.tile = tile;
     auto renderer = choose_renderer(plan, drawing);
     if (renderer && plan.tile_side && !renderer->tiles())
         return fail(
@@ -125,28 +122,21 @@ Result<int> capture_frames(const CapturePlan& plan) {
     std::jthread codec; // is loaded beside the driver, which takes as long
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
-    const auto context = platform::HeadlessContext::create(plan.device);
-    if (!context)
-        return fail(context.error());
+    const auto context = TRY(platform::HeadlessContext::create(plan.device));
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
-    auto renderer = compile(plan, interrupt);
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    Capture run(plan, *renderer, sound ? sound->path() : std::filesystem::path());
-    const auto complete = run.run(interrupt);
-    if (!complete)
-        return fail(complete.error());
+    auto renderer = TRY(compile(plan, interrupt));
+    Capture run(plan, renderer, sound ? sound->path() : std::filesystem::path());
+    const auto complete = TRY(run.run(interrupt));
     if (plan.json)
-        if (auto printed = put(dump(run.report(), 2) + "\n"); !printed)
-            return fail(std::move(printed.error()));
+        TRY(put(dump(run.report(), 2) + "\n"));
     say_what_is_not_finite(run.records(), plan);
-    const bool written = *complete || !plan.output.video(); // of a video nothing is kept but the whole
+    const bool written = complete || !plan.output.video(); // of a video nothing is kept but the whole
     if (written && !plan.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
-    if (!*complete)
+    if (!complete)
         say(fmt::format("interrupted after {} of {} frames{}", run.records().size(),
                         plan.frames.frames.size(), written ? "" : ": no video was written"));
-    return *complete ? 0 : Interrupt::k_exit_code;
+    return complete ? 0 : Interrupt::k_exit_code;
 }
 
 Result<int> capture(const CaptureOptions& options) {

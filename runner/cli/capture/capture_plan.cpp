@@ -1,6 +1,7 @@
 #include "cli/capture/capture_plan.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/sequence.hpp"
 #include "image/files/video_writer.hpp"
@@ -83,17 +84,13 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.frames = *std::move(frames);
     std::vector<int>& numbers = plan.frames.frames;
     const size_t count = std::unordered_set(numbers.begin(), numbers.end()).size();
-    auto output = options.output ? OutputName::parse(*options.output, count)
-                                 : OutputName::of_scene(options.scene.path, count);
-    if (!output)
-        return fail(std::move(output.error()));
-    plan.output = *std::move(output);
+    auto output = TRY(options.output ? OutputName::parse(*options.output, count)
+                                     : OutputName::of_scene(options.scene.path, count));
+    plan.output = std::move(output);
     if (plan.to_picture_files())
         drop_repeats(numbers);
-    const auto depth = parse_depth(options.depth, plan.output, plan.frames.state.pass);
-    if (!depth)
-        return fail(depth.error());
-    plan.depth = *depth;
+    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.frames.state.pass));
+    plan.depth = depth;
     plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.drawing = {
         .extent = plan.frames.state.extent,
@@ -125,8 +122,7 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
     for (const std::filesystem::path& file : read)
         if (const auto frame = frame_of(file, plan.output);
             frame && std::ranges::find(plan.frames.frames, *frame) != plan.frames.frames.end())
-            if (auto place = plan.output.of_frame(*frame).place(); !place)
-                return fail(std::move(place.error()));
+            TRY(plan.output.of_frame(*frame).place());
     return {};
 }
 
@@ -165,14 +161,10 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     auto plan = plan_of_options(options);
     if (!plan)
         return plan;
-    auto scene = load(options.scene);
-    if (!scene)
-        return fail(std::move(scene.error()));
-    plan->scene = *std::move(scene);
-    if (auto spared = spare_what_is_read(options, *plan); !spared)
-        return fail(std::move(spared.error()));
-    if (auto faces = check_faces(*plan); !faces)
-        return fail(std::move(faces.error()));
+    auto scene = TRY(load(options.scene));
+    plan->scene = std::move(scene);
+    TRY(spare_what_is_read(options, *plan));
+    TRY(check_faces(*plan));
     plan->trial = plan_trial(options, *plan);
     return plan;
 }
@@ -185,13 +177,10 @@ Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     if (!(options.duration > 0) || options.duration > k_longest_sound)
         return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
                                                   options.duration, k_longest_sound));
-    auto scene = load(options.scene);
-    if (!scene)
-        return fail(std::move(scene.error()));
-    OutputPath output = OutputPath::typed(*options.output).sparing(files_read(*scene));
-    if (auto writable = check_writable(output); !writable)
-        return fail(std::move(writable.error()));
-    return SoundPlan{*std::move(scene), std::move(output), options.device, precision_of(options.scene),
+    auto scene = TRY(load(options.scene));
+    OutputPath output = OutputPath::typed(*options.output).sparing(files_read(scene));
+    TRY(check_writable(output));
+    return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene),
                      options.duration};
 }
 

@@ -1,5 +1,6 @@
 #include "cli/capture/capture_run.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/omissions.hpp"
@@ -38,21 +39,18 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
-    if (auto opened = open_output(); !opened)
-        return fail(std::move(opened.error()));
+    TRY(open_output());
     prepare(interrupt);
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
         const auto outcome =
-            renderer_.tiles() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record);
-        if (!outcome)
-            return fail(outcome.error());
-        if (*outcome == Outcome::interrupted) {
+            TRY(renderer_.tiles() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record));
+        if (outcome == Outcome::interrupted) {
             video_.reset(); // whole or not at all
             return close_output().map([] { return false; });
         }
-        if (*outcome == Outcome::unwanted)
+        if (outcome == Outcome::unwanted)
             break;
         records_.push_back(std::move(record));
         progress.advance();
@@ -63,12 +61,10 @@ Result<bool> Capture::run(Interrupt& interrupt) {
 Result<void> Capture::open_output() {
     if (plan_.output.video()) {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
-        auto video = image::VideoWriter::create(
+        auto video = TRY(image::VideoWriter::create(
             plan_.output.of_frame(0),
-            {cube ? image::k_panorama : renderer_.extent(), plan_.pace.fps, sound_});
-        if (!video)
-            return fail(std::move(video.error()));
-        video_.emplace(*std::move(video));
+            {cube ? image::k_panorama : renderer_.extent(), plan_.pace.fps, sound_}));
+        video_.emplace(std::move(video));
     } else if (!plan_.output.standard_output() && !renderer_.tiles()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
         writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
@@ -136,10 +132,8 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     if (!step_to(frame, interrupt, record, work))
         return Outcome::interrupted;
     work.watch.reset();
-    auto output = open_bands(record);
-    if (!output)
-        return fail(std::move(output.error()));
-    BandOutput& bands = **output;
+    auto output = TRY(open_bands(record));
+    BandOutput& bands = *output;
     Progress progress("tiles", renderer_.tiles()->count());
     const auto before_tile = [&] {
         if (work.watch)
@@ -160,8 +154,8 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     if (!*drawn)
         return Outcome::interrupted;
     record.milliseconds = milliseconds_since(work.start);
-    record.sha256 = (*output)->sha256();
-    record.not_finite = (*output)->not_finite();
+    record.sha256 = (output)->sha256();
+    record.not_finite = (output)->not_finite();
     return Outcome::made;
 }
 
@@ -170,11 +164,9 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     if (!plan_.output.standard_output()) {
         // Image's alpha is 1.
         const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
-        auto made = image::PictureStream::create(plan_.output.of_frame(record.state.frame),
-                                                 renderer_.extent(), alpha, format_of(record));
-        if (!made)
-            return fail(std::move(made.error()));
-        stream.emplace(*std::move(made));
+        auto made = TRY(image::PictureStream::create(plan_.output.of_frame(record.state.frame),
+                                                     renderer_.extent(), alpha, format_of(record)));
+        stream.emplace(std::move(made));
     }
     return std::make_unique<BandOutput>(std::move(stream), plan_.json);
 }

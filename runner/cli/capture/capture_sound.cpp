@@ -1,5 +1,6 @@
 #include "cli/capture/capture_sound.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/progress.hpp"
 #include "platform/headless_context.hpp"
@@ -17,16 +18,14 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precisi
     if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
         return fail(ErrorCode::usage,
                     fmt::format("sound ends at {} s: iSampleOffset counts its samples in an int", k_last));
-    auto renderer = render::SoundRenderer::create(scene, render::Date{}, precision);
-    if (!renderer)
-        return fail(std::move(renderer.error()));
+    auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}, precision));
     const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
     const auto first = int(std::llround(start * render::k_sample_rate));
     const auto block = 2 * size_t(render::SoundRenderer::block_samples());
     std::vector<int16_t> samples;
     Progress progress("blocks of sound", (count + block - 1) / block);
     while (samples.size() < count && !interrupt.requested()) {
-        const std::vector<int16_t> drawn = renderer->draw(first + int(samples.size() / 2));
+        const std::vector<int16_t> drawn = renderer.draw(first + int(samples.size() / 2));
         samples.insert(samples.end(), drawn.begin(), drawn.end());
         progress.advance();
     }
@@ -36,16 +35,11 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precisi
 
 Result<int> capture_sound(const SoundPlan& plan) {
     const Interrupt interrupt;
-    const auto context = platform::HeadlessContext::create(plan.device);
-    if (!context)
-        return fail(context.error());
-    const auto samples = draw_sound(plan.scene, plan.precision, 0, plan.duration, interrupt);
-    if (!samples)
-        return fail(samples.error());
+    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto samples = TRY(draw_sound(plan.scene, plan.precision, 0, plan.duration, interrupt));
     if (interrupt.requested())
         return Interrupt::k_exit_code;
-    if (auto written = sound::write_wav(plan.output, int(render::k_sample_rate), *samples); !written)
-        return fail(std::move(written.error()));
+    TRY(sound::write_wav(plan.output, int(render::k_sample_rate), samples));
     say(fmt::format("wrote {}", plan.output.string()));
     return 0;
 }

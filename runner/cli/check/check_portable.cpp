@@ -1,5 +1,6 @@
 #include "cli/check/check_portable.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/version.hpp"
@@ -57,18 +58,16 @@ void add_refusals(const scene::Scene& scene, Diagnostics& found) {
 } // namespace
 
 Result<int> check_portable(const SceneRequest& request, const std::string& device, bool as_json) {
-    const auto scene = load(request);
-    if (!scene)
-        return fail(scene.error());
-    Diagnostics found = glsl::portability_lint(*scene);
+    const auto scene = TRY(load(request));
+    Diagnostics found = glsl::portability_lint(scene);
     const auto context = platform::HeadlessContext::create(device);
     if (context)
-        add_refusals(*scene, found);
+        add_refusals(scene, found);
     else
         say("only the texts were looked at, nothing was compiled: " + to_string(context.error()));
 
     Json json = {{"tidemark", k_version},
-                 {"scene", scene->file.string()},
+                 {"scene", scene.file.string()},
                  {"portable", found.empty()},
                  {"compiled", context.has_value()},
                  {"findings", Json::array()}};

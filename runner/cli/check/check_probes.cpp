@@ -1,6 +1,7 @@
 #include "cli/check/check_probes.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "cli/check/asked.hpp"
 #include "cli/check/one_thread.hpp"
 #include "cli/check/verdicts.hpp"
@@ -63,10 +64,8 @@ Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scen
     std::error_code ignored;
     if (!fs::exists(file, ignored))
         return lab::Promises{};
-    const auto text = scene::Bounds(file.parent_path(), request.files.allow_outside).read_text(file);
-    if (!text)
-        return fail(text.error());
-    return lab::parse_promises(*text, file.string(),
+    const auto text = TRY(scene::Bounds(file.parent_path(), request.files.allow_outside).read_text(file));
+    return lab::parse_promises(text, file.string(),
                                [&](const std::string& name) { return glsl::definition_of(scene, name); });
 }
 
@@ -90,10 +89,8 @@ Result<Asked> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name,
         asked.answer = {Verdict::cut, k_not_asked};
     } else {
         const Clock::time_point start = Clock::now();
-        auto answer = probe.ask(bench);
-        if (!answer)
-            return fail(std::move(answer.error()));
-        asked.answer = *std::move(answer);
+        auto answer = TRY(probe.ask(bench));
+        asked.answer = std::move(answer);
         asked.seconds = seconds_since(start);
     }
     return asked;
@@ -104,26 +101,20 @@ using Probes = std::span<const lab::Probe* const>;
 /// In a process of its own: one line for each probe.
 Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, const lab::Promises& promises,
                      Probes probes, Clock::time_point start, const Tell& tell) {
-    auto painter = one_thread_painter(scene, request.device);
-    if (!painter)
-        return fail(std::move(painter.error()));
-    const auto context = platform::HeadlessContext::create(request.device);
-    if (!context)
-        return fail(context.error());
+    auto painter = TRY(one_thread_painter(scene, request.device));
+    const auto context = TRY(platform::HeadlessContext::create(request.device));
     lab::DrawElsewhere with_one_thread;
     if (counts_threads())
         with_one_thread = [&](const render::FrameState& state) {
-            return drawn_by(*painter, state, request.budget - seconds_since(start));
+            return drawn_by(painter, state, request.budget - seconds_since(start));
         };
     lab::ProbeBench bench(scene, promises, with_one_thread);
     for (const lab::Probe* probe : probes) {
-        auto asked = ask(*probe, bench, !request.probes.empty(), seconds_since(start) < request.budget);
-        if (!asked)
-            return fail(std::move(asked.error()));
-        if (auto kept = keep_picture(OutputPath::typed(request.output).sparing(files_read(scene)), *asked);
+        auto asked = TRY(ask(*probe, bench, !request.probes.empty(), seconds_since(start) < request.budget));
+        if (auto kept = keep_picture(OutputPath::typed(request.output).sparing(files_read(scene)), asked);
             !kept)
             return kept;
-        tell(dump(told(*asked)));
+        tell(dump(told(asked)));
     }
     return {};
 }
@@ -219,32 +210,25 @@ Result<int> list_probes() {
 }
 
 Result<int> check_probes(const ProbesRequest& request) {
-    const auto probes = chosen_probes(request.probes);
-    if (!probes)
-        return fail(probes.error());
+    const auto probes = TRY(chosen_probes(request.probes));
     if (!(request.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     const Clock::time_point start = Clock::now();
-    auto scene = load(request.scene);
-    if (!scene)
-        return fail(std::move(scene.error()));
-    const auto promises = promises_of(request.scene, *scene);
-    if (!promises)
-        return fail(promises.error());
+    auto scene = TRY(load(request.scene));
+    const auto promises = TRY(promises_of(request.scene, scene));
     const bool verdicts_tell = !request.json && ::isatty(STDERR_FILENO) != 1;
-    Progress progress("probes", verdicts_tell ? 0 : probes->size(), {.limit = request.budget});
+    Progress progress("probes", verdicts_tell ? 0 : probes.size(), {.limit = request.budget});
     std::vector<Asked> all;
-    const auto done =
-        answer_all(request, *scene, *promises, *probes, start, [&](Asked asked) -> Result<void> {
-            if (asked.answer.non_finite) // before the next probe: a finding wants its reason first
-                trace(request, *scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
-            progress.step_aside();
-            if (auto shown = put(request.json ? "" : row(request, asked)); !shown)
-                return shown;
-            all.push_back(std::move(asked));
-            progress.advance();
-            return {};
-        });
+    const auto done = answer_all(request, scene, promises, probes, start, [&](Asked asked) -> Result<void> {
+        if (asked.answer.non_finite) // before the next probe: a finding wants its reason first
+            trace(request, scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
+        progress.step_aside();
+        if (auto shown = put(request.json ? "" : row(request, asked)); !shown)
+            return shown;
+        all.push_back(std::move(asked));
+        progress.advance();
+        return {};
+    });
     if (!done)
         return fail(done.error());
     progress.step_aside();

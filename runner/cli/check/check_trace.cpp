@@ -1,5 +1,6 @@
 #include "cli/check/check_trace.hpp"
 
+#include "base/try.hpp"
 #include "cli/check/trace_apart.hpp"
 #include "cli/console.hpp"
 #include "cli/version.hpp"
@@ -45,28 +46,20 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
 } // namespace
 
 Result<int> check_trace(const TraceOptions& options) {
-    const auto frames = resolve(options.frames);
-    if (!frames)
-        return fail(frames.error());
-    if (frames->frames.size() != 1)
+    const auto frames = TRY(resolve(options.frames));
+    if (frames.frames.size() != 1)
         return fail(ErrorCode::usage, "--trace looks at one frame: give --frame N or --time T");
     if (!(options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
-    const auto pixel = parse_pixel(options.pixel, frames->state.extent);
-    if (!pixel)
-        return fail(pixel.error());
-    const auto scene = load(options.scene);
-    if (!scene)
-        return fail(scene.error());
+    const auto pixel = TRY(parse_pixel(options.pixel, frames.state.extent));
+    const auto scene = TRY(load(options.scene));
     TraceJob job{options.device, {}};
-    job.request.frame = frames->frames.front();
-    job.request.states = states_of(*frames);
-    job.request.pixel = *pixel;
+    job.request.frame = frames.frames.front();
+    job.request.states = states_of(frames);
+    job.request.pixel = pixel;
     job.request.hidden = options.hidden;
-    const auto run = trace_apart(*scene, job, options.timeout);
-    if (!run)
-        return fail(run.error());
-    return report(*run, options, *scene);
+    const auto run = TRY(trace_apart(scene, job, options.timeout));
+    return report(run, options, scene);
 }
 
 } // namespace tidemark::cli

@@ -1,5 +1,6 @@
 #include "cli/check/one_thread.hpp"
 
+#include "base/try.hpp"
 #include "cli/check/state_json.hpp"
 #include "cli/check/told.hpp"
 #include "cli/supervisor.hpp"
@@ -17,9 +18,7 @@ namespace {
 
 Result<image::Image> picture(const scene::Scene& scene, const std::string& device,
                              const render::FrameState& state) {
-    const auto context = platform::HeadlessContext::create(device);
-    if (!context)
-        return fail(context.error());
+    const auto context = TRY(platform::HeadlessContext::create(device));
     return lab::ProbeBench(scene, {}).picture(state);
 }
 
@@ -46,14 +45,12 @@ bool counts_threads() {
 }
 
 Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds) {
-    const auto run = painter.ask(dump(to_json(state)), seconds);
-    if (!run)
-        return fail(run.error());
-    if (run->timed_out)
+    const auto run = TRY(painter.ask(dump(to_json(state)), seconds));
+    if (run.timed_out)
         return fail(ErrorCode::timed_out, fmt::format("one thread gave up after {:.3g} s", seconds));
-    if (run->output.empty())
-        return fail(ErrorCode::load, crash_text(run->signal, run->doing));
-    const Json bits = Json::parse(run->output);
+    if (run.output.empty())
+        return fail(ErrorCode::load, crash_text(run.signal, run.doing));
+    const Json bits = Json::parse(run.output);
     if (auto error = told_error(bits))
         return fail(*std::move(error));
     image::Image picture(state.extent, 3, image::SampleType::f32);

@@ -1,5 +1,6 @@
 #include "cli/check/trace_apart.hpp"
 
+#include "base/try.hpp"
 #include "cli/check/trace_text.hpp"
 #include "cli/forked.hpp"
 #include "cli/supervisor.hpp"
@@ -21,13 +22,9 @@ Json told(const lab::NanTrace& trace) {
 
 /// In the child.
 Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const TraceJob& job, const Tell& tell) {
-    const auto context = platform::HeadlessContext::create(job.device);
-    if (!context)
-        return fail(context.error());
+    const auto context = TRY(platform::HeadlessContext::create(job.device));
     const render::FrameState state = job.request.states(job.request.frame);
-    auto renderer = render::Renderer::create(scene, {state.extent, image::SampleType::f32, state.pass});
-    if (!renderer)
-        return fail(std::move(renderer.error()));
+    auto renderer = TRY(render::Renderer::create(scene, {state.extent, image::SampleType::f32, state.pass}));
     lab::TraceRequest request = job.request;
     request.progress = [&](const lab::NanTrace& found) { tell(dump(told(found))); };
     auto told_last = std::chrono::steady_clock::now();
@@ -37,7 +34,7 @@ Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const Trac
             tell(dump(Json{{"frame", frame}}));
         }
     };
-    return lab::trace_nan(*renderer, request);
+    return lab::trace_nan(renderer, request);
 }
 
 /// The last of what was found, and the frame that was told last.

@@ -1,3 +1,4 @@
+#include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/inspect/device_list.hpp"
@@ -71,12 +72,10 @@ std::string to_line(const platform::HeadlessDevice& device) {
 }
 
 Result<int> inspect_devices(bool as_json) {
-    const auto devices = list_devices_apart();
-    if (!devices)
-        return fail(devices.error());
+    const auto devices = TRY(list_devices_apart());
     std::string text;
     Json json = {{"tidemark", k_version}, {"devices", Json::array()}};
-    for (const platform::HeadlessDevice& device : *devices) {
+    for (const platform::HeadlessDevice& device : devices) {
         text += to_line(device);
         json["devices"].push_back(to_json(device));
     }
@@ -165,10 +164,8 @@ Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl:
         if (pass.name != name && !(name.empty() && pass.kind == scene::PassKind::image))
             continue;
         const glsl::PassReading reading(scene, pass);
-        const auto assembly = reading.assemble(reading.dialects(precision).front());
-        if (!assembly)
-            return fail(assembly.error());
-        return put_exact(glsl::specialise(assembly->source, scene.knobs, how).source.text()).map([] {
+        const auto assembly = TRY(reading.assemble(reading.dialects(precision).front()));
+        return put_exact(glsl::specialise(assembly.source, scene.knobs, how).source.text()).map([] {
             return 0;
         });
     }
@@ -176,31 +173,25 @@ Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl:
 }
 
 Result<int> inspect_scene(const InspectOptions& options) {
-    auto scene = load(options.scene);
-    if (!scene)
-        return fail(std::move(scene.error()));
+    auto scene = TRY(load(options.scene));
     if (options.source)
-        return put_source(*scene, options.pass, precision_of(options.scene),
+        return put_source(scene, options.pass, precision_of(options.scene),
                           options.specialised ? glsl::Specialise::settled : glsl::Specialise::nothing);
     if (options.device == "none")
-        return put(options.json ? dump(what_files_say(*scene), 2) + "\n" : lines_of_files(*scene)).map([] {
+        return put(options.json ? dump(what_files_say(scene), 2) + "\n" : lines_of_files(scene)).map([] {
             return 0;
         });
     const FreshDriverCache fresh;
-    const auto context = platform::HeadlessContext::create(options.device, platform::DebugContext::yes);
-    if (!context)
-        return fail(context.error());
+    const auto context = TRY(platform::HeadlessContext::create(options.device, platform::DebugContext::yes));
     render::RenderOptions target;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
     target.specialise = glsl::Specialise::unreachable;
-    const Sizes sizes = compiled_sizes(*scene, target.precision); // before the driver has seen any of it
-    const auto renderer = render::Renderer::create(*std::move(scene), target);
-    if (!renderer)
-        return fail(renderer.error());
+    const Sizes sizes = compiled_sizes(scene, target.precision); // before the driver has seen any of it
+    const auto renderer = TRY(render::Renderer::create(std::move(scene), target));
     const gl::Capabilities driver = gl::query_capabilities();
-    return put(options.json ? dump(to_json(*renderer, driver, sizes), 2) + "\n"
-                            : to_text(*renderer, driver, sizes))
+    return put(options.json ? dump(to_json(renderer, driver, sizes), 2) + "\n"
+                            : to_text(renderer, driver, sizes))
         .map([] { return 0; });
 }
 

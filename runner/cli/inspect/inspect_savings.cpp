@@ -1,5 +1,6 @@
 #include "cli/inspect/inspect_savings.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/inspect/library_cost.hpp"
 #include "cli/json_dump.hpp"
@@ -70,10 +71,8 @@ Result<std::vector<LoadedLibrary>> load_libraries(const SavingsOptions& options,
     if (!asks_for(options, k_libraries))
         return loaded;
     for (const OptionalLibrary& library : optional_libraries()) {
-        auto cost = measure_loading(library, k_share_of_library * left_of(options, watch));
-        if (!cost)
-            return fail(std::move(cost.error()));
-        loaded.push_back({library, *cost});
+        auto cost = TRY(measure_loading(library, k_share_of_library * left_of(options, watch)));
+        loaded.push_back({library, cost});
     }
     return loaded;
 }
@@ -85,15 +84,11 @@ Result<std::vector<Answer>> ask(const SavingsOptions& options, const scene::Scen
     std::vector<Answer> answers;
     if (questions.empty())
         return answers;
-    auto bench = lab::SavingsBench::create(scene, target);
-    if (!bench)
-        return fail(std::move(bench.error()));
+    auto bench = TRY(lab::SavingsBench::create(scene, target));
     for (const Question& question : questions) {
-        const auto saving = bench->measure(question.things, left_of(options, watch) /
-                                                                double(questions.size() - answers.size()));
-        if (!saving)
-            return fail(saving.error());
-        answers.push_back({question.name, *saving});
+        const auto saving = TRY(bench.measure(
+            question.things, left_of(options, watch) / double(questions.size() - answers.size())));
+        answers.push_back({question.name, saving});
     }
     return answers;
 }
@@ -238,32 +233,24 @@ std::vector<std::string> things_left_out() {
 
 Result<int> inspect_savings(const SavingsOptions& options) {
     const lab::Stopwatch watch;
-    const auto extent = parse_size(options.size);
-    if (!extent)
-        return fail(extent.error());
-    const auto scene = load(options.scene);
-    if (!scene)
-        return fail(scene.error());
+    const auto extent = TRY(parse_size(options.size));
+    const auto scene = TRY(load(options.scene));
     const auto libraries = load_libraries(options, watch); // before there is a context
     if (!libraries)
         return fail(libraries.error());
-    const auto context = platform::HeadlessContext::create(options.device);
-    if (!context)
-        return fail(context.error());
+    const auto context = TRY(platform::HeadlessContext::create(options.device));
     render::RenderOptions target;
-    target.extent = *extent;
+    target.extent = extent;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
     target.specialise = glsl::Specialise::unreachable;
-    const auto answers = ask(options, *scene, target, questions_of(options), watch);
-    if (!answers)
-        return fail(answers.error());
-    const auto printed = put(options.json ? dump(report_json(options, *answers, *libraries), 2) + "\n"
-                                          : report_text(options, *answers, *libraries));
+    const auto answers = TRY(ask(options, scene, target, questions_of(options), watch));
+    const auto printed = put(options.json ? dump(report_json(options, answers, *libraries), 2) + "\n"
+                                          : report_text(options, answers, *libraries));
     const bool same =
-        std::ranges::all_of(*answers, [](const Answer& answer) { return answer.saving.same_pixels; });
+        std::ranges::all_of(answers, [](const Answer& answer) { return answer.saving.same_pixels; });
     const bool whole =
-        std::ranges::all_of(*answers, [](const Answer& answer) { return answer.saving.cut.empty(); });
+        std::ranges::all_of(answers, [](const Answer& answer) { return answer.saving.cut.empty(); });
     return printed.map([&] { return !same ? 1 : whole ? 0 : exit_code(ErrorCode::timed_out); });
 }
 

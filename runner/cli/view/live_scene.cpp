@@ -1,5 +1,6 @@
 #include "cli/view/live_scene.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "scene/folder_scene.hpp"
@@ -138,13 +139,10 @@ Result<void> LiveScene::begin(Loading loading, platform::Window& window, const V
 }
 
 Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view, bool settle) {
-    auto context = window.create_context();
-    if (!context)
-        return fail(std::move(context.error()));
+    auto context = TRY(window.create_context());
     building_since_ = now_seconds();
     settling_ = settle;
-    builder_.start(
-        {*std::move(context), std::move(scene), view.options, view.inputs, settle, view.rehearsal});
+    builder_.start({std::move(context), std::move(scene), view.options, view.inputs, settle, view.rehearsal});
     return {};
 }
 

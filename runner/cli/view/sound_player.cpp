@@ -1,5 +1,6 @@
 #include "cli/view/sound_player.hpp"
 
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "render/sound_renderer.hpp"
@@ -129,16 +130,11 @@ bool SoundPlayer::busy() const {
 }
 
 Result<SoundPlayer::Voice> SoundPlayer::begin(Order order) {
-    auto device = sound::Playback::open(int(k_rate));
-    if (!device)
-        return fail(std::move(device.error()));
-    if (auto current = order.context.make_current(); !current)
-        return fail(std::move(current.error()));
-    auto renderer = render::SoundRenderer::create(order.scene, render::local_date(), order.precision);
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    (void)renderer->draw_rows(0, k_rows); // the driver finishes compiling with the first draw
-    return Voice(std::move(order.context), *std::move(renderer), *std::move(device));
+    auto device = TRY(sound::Playback::open(int(k_rate)));
+    TRY(order.context.make_current());
+    auto renderer = TRY(render::SoundRenderer::create(order.scene, render::local_date(), order.precision));
+    (void)renderer.draw_rows(0, k_rows); // the driver finishes compiling with the first draw
+    return Voice(std::move(order.context), std::move(renderer), std::move(device));
 }
 
 void SoundPlayer::run() {

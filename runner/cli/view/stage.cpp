@@ -1,5 +1,6 @@
 #include "cli/view/stage.hpp"
 
+#include "base/try.hpp"
 #include "cli/trial.hpp"
 #include "cli/view/wall_clock.hpp"
 
@@ -24,17 +25,14 @@ constexpr double k_largest_share = 0.97;
 
 Result<Stage> Stage::create(platform::WindowContext context, scene::Scene scene,
                             const render::RenderOptions& options, const render::FrameInputs& first) {
-    if (auto current = context.make_current(); !current)
-        return fail(std::move(current.error()));
+    TRY(context.make_current());
     const double start = now_seconds();
-    auto renderer = render::Renderer::create(std::move(scene), options);
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    renderer->warm_up(first);
+    auto renderer = TRY(render::Renderer::create(std::move(scene), options));
+    renderer.warm_up(first);
     const double compiling = now_seconds() - start;
-    const bool worth_settling = worth_trying(*renderer, k_settled);
+    const bool worth_settling = worth_trying(renderer, k_settled);
     context.leave();
-    Stage stage(std::move(context), std::make_unique<render::Renderer>(*std::move(renderer)));
+    Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(renderer)));
     if (worth_settling)
         stage.seconds_to_settle_ =
             std::max(k_shortest_rest_seconds, k_rest_per_second_of_compiling * compiling);
@@ -43,8 +41,7 @@ Result<Stage> Stage::create(platform::WindowContext context, scene::Scene scene,
 
 Result<Stage> Stage::settle(platform::WindowContext context, const scene::Scene& scene,
                             const render::RenderOptions& options, const render::FrameInputs& shown) {
-    if (auto current = context.make_current(); !current)
-        return fail(std::move(current.error()));
+    TRY(context.make_current());
     render::RenderOptions settled = options;
     settled.specialise = k_settled;
     TrialPlan plan{shown, shown, std::numeric_limits<size_t>::max()};
@@ -52,14 +49,12 @@ Result<Stage> Stage::settle(platform::WindowContext context, const scene::Scene&
     plan.first.time = 0;
     plan.first.date = render::later(shown.date, -shown.time);
     plan.timing = k_timing_ms;
-    auto trial = choose_program(scene, settled, plan);
-    if (!trial)
-        return fail(std::move(trial.error()));
-    if (!trial->share || *trial->share > k_largest_share)
+    auto trial = TRY(choose_program(scene, settled, plan));
+    if (!trial.share || *trial.share > k_largest_share)
         return fail(ErrorCode::check_failed, "the specialised program is no better");
     context.leave();
-    Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(trial->renderer)));
-    stage.share_ = trial->share;
+    Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(trial.renderer)));
+    stage.share_ = trial.share;
     return stage;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/view/stage_builder.hpp"
 
+#include "base/try.hpp"
 #include "glsl/driver_load.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +18,7 @@ constexpr size_t k_most_at_once = 3;
 
 Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
     if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
-        if (auto tried = order.rehearsal->try_out(unwanted); !tried)
-            return fail(std::move(tried.error()));
+        TRY(order.rehearsal->try_out(unwanted));
     if (order.settle)
         return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
     return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);

@@ -1,4 +1,5 @@
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
@@ -54,32 +55,25 @@ void play(const SceneRequest& request, const std::string& pass) {
 }
 
 Result<int> view(const ViewOptions& options) {
-    auto frames = resolve(options.frames);
-    if (!frames)
-        return fail(std::move(frames.error()));
-    if (const Extent size = frames->state.extent; std::max(size.width, size.height) > k_largest_window)
+    auto frames = TRY(resolve(options.frames));
+    if (const Extent size = frames.state.extent; std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
                                                   size.width, size.height, k_largest_window));
-    const auto limits = resolve(options.limits);
-    if (!limits)
-        return fail(limits.error());
-    Viewer::Settings settings{options.scene, *std::move(frames)};
-    settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits->memory);
+    const auto limits = TRY(resolve(options.limits));
+    Viewer::Settings settings{options.scene, std::move(frames)};
+    settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits.memory);
     settings.record = OutputPath::typed(options.record);
     settings.plain = options.plain;
     // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
     if (options.frames.date || options.frames.input || !options.record.empty())
         settings.date = settings.frames.state.date;
     if (!settings.record.empty())
-        if (auto writable = check_writable(settings.record); !writable)
-            return fail(std::move(writable.error()));
+        TRY(check_writable(settings.record));
     Interrupt interrupt;
-    auto viewer = Viewer::open(std::move(settings));
-    if (!viewer)
-        return fail(std::move(viewer.error()));
+    auto viewer = TRY(Viewer::open(std::move(settings)));
     const Interrupt::Waking waking(interrupt, platform::Window::wake);
-    auto outcome = viewer->run(interrupt);
-    if (viewer->busy()) { // a driver that compiles cannot be waited for
+    auto outcome = viewer.run(interrupt);
+    if (viewer.busy()) { // a driver that compiles cannot be waited for
         if (!outcome)
             say(to_string(outcome.error()));
         ::_exit(outcome ? *outcome : exit_code(outcome.error().code));

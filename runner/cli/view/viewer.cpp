@@ -2,6 +2,7 @@
 
 #include "base/file.hpp"
 #include "base/leftovers.hpp"
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
@@ -81,8 +82,7 @@ Result<Viewer> Viewer::open(Settings settings) {
     if (first.scene)
         settings.record = settings.record.sparing(files_read(*first.scene));
     if (!settings.record.empty())
-        if (auto place = settings.record.place(); !place)
-            return fail(std::move(place.error()));
+        TRY(settings.record.place());
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
     auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark");
     if (!window) // nothing can be waited for
@@ -104,8 +104,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
     while (!closing_ && !interrupt.requested()) {
         listen();
         const double now = now_seconds();
-        if (auto followed = follow_scene(now); !followed)
-            return fail(std::move(followed.error()));
+        TRY(follow_scene(now));
         settle_after_rest(now);
         if (wants_frame(now))
             draw(now);
@@ -401,11 +400,9 @@ LiveScene::View Viewer::view() const {
 
 Result<void> Viewer::follow_scene(double now) {
     const bool failed = scene_.failure() != nullptr;
-    auto fresh = scene_.follow(window_, view(), now);
-    if (!fresh)
-        return fail(std::move(fresh.error()));
+    auto fresh = TRY(scene_.follow(window_, view(), now));
     stale_ = stale_ || failed != (scene_.failure() != nullptr);
-    return *fresh ? show(**std::move(fresh), now) : Result<void>();
+    return fresh ? show(*std::move(fresh), now) : Result<void>();
 }
 
 /// From now on. One that has settled draws what was drawn before: nothing else changes.

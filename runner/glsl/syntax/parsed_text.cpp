@@ -1,5 +1,7 @@
 #include "glsl/syntax/parsed_text.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 
 namespace tidemark::glsl {
@@ -10,14 +12,10 @@ ParsedText::read(text::MappedText source, std::span<const KnownMacro> known, boo
     const text::LineMap& lines = result->source_.lines();
     result->tokens_ = text::tokenize(result->source_.text());
     result->preprocessed_ = preprocess(result->tokens_, known, all_known);
-    auto expansion = expand(result->tokens_, result->preprocessed_, lines);
-    if (!expansion)
-        return fail(std::move(expansion.error()));
-    result->expansion_ = *std::move(expansion);
-    auto tree = parse(result->expansion_.words, result->tokens_, lines);
-    if (!tree)
-        return fail(std::move(tree.error()));
-    result->tree_ = *std::move(tree);
+    auto expansion = TRY(expand(result->tokens_, result->preprocessed_, lines));
+    result->expansion_ = std::move(expansion);
+    auto tree = TRY(parse(result->expansion_.words, result->tokens_, lines));
+    result->tree_ = std::move(tree);
     return result;
 }
 

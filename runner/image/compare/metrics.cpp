@@ -1,5 +1,6 @@
 #include "image/compare/metrics.hpp"
 
+#include "base/try.hpp"
 #include "image/compare/flip.hpp"
 #include "image/compare/ssim.hpp"
 
@@ -107,11 +108,9 @@ Result<PictureDifference> compare(const Image& left, const Image& right, double 
 }
 
 Result<PictureMetrics> measure(const Image& reference, const Image& test, double tolerance) {
-    auto samples = compare(reference, test, tolerance);
-    if (!samples)
-        return fail(std::move(samples.error()));
-    PictureMetrics metrics{*samples};
-    if (std::isnan(samples->rmse)) {
+    auto samples = TRY(compare(reference, test, tolerance));
+    PictureMetrics metrics{samples};
+    if (std::isnan(samples.rmse)) {
         metrics.ssim = metrics.flip = metrics.largest_flip = std::nan("");
         return metrics;
     }

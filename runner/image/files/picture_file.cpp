@@ -1,6 +1,7 @@
 #include "image/files/picture_file.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "image/files/codec_loader.hpp"
 #include "image/files/file_check.hpp"
 #include "image/files/file_samples.hpp"
@@ -213,12 +214,10 @@ Result<Image> read_picture(const fs::path& path) {
     const auto checked = checked_file(*format, std::move(*file));
     if (!checked)
         return refuse(checked.error());
-    auto image = decode(*format, std::as_bytes(std::span(*checked)));
+    auto image = TRY(decode(*format, std::as_bytes(std::span(*checked))));
     if (!image)
-        return fail(std::move(image.error()));
-    if (!*image)
-        return refuse(image->error());
-    return std::move(**image);
+        return refuse(image.error());
+    return std::move(*image);
 }
 
 Result<void> write_picture(const OutputPath& output, const Image& image, const PictureFormat& format) {
@@ -309,10 +308,8 @@ Result<PictureStream> PictureStream::create(const OutputPath& output, Extent ext
         return fail(std::move(checked.error()));
     if (Result<void> checked = check_extent(path, extent); !checked)
         return fail(std::move(checked.error()));
-    auto staged = StagedFile::create(output);
-    if (!staged)
-        return fail(std::move(staged.error()));
-    PictureStream stream(*std::move(staged), path, alpha, std::move(format));
+    auto staged = TRY(StagedFile::create(output));
+    PictureStream stream(std::move(staged), path, alpha, std::move(format));
     const WrittenFormat& written = *written_format(path);
     const bool keeps_alpha = alpha && written.has_alpha;
     auto encoder = encode_rows(job_without_samples(written, extent, keeps_alpha ? 4 : 3, stream.format_),

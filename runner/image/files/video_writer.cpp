@@ -1,5 +1,7 @@
 #include "image/files/video_writer.hpp"
 
+#include "base/try.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -91,14 +93,12 @@ bool is_video_name(const fs::path& path) {
 Result<VideoWriter> VideoWriter::create(const OutputPath& output, const VideoFormat& format) {
     const fs::path& path = output.path();
     assert(is_video_name(path));
-    auto staged = StagedFile::create(output);
-    if (!staged)
-        return fail(std::move(staged.error()));
-    auto encoder = ChildProcess::start(arguments_for(staged->path(), format), ChildProcess::Input::written);
+    auto staged = TRY(StagedFile::create(output));
+    auto encoder = ChildProcess::start(arguments_for(staged.path(), format), ChildProcess::Input::written);
     if (!encoder)
         return fail(ErrorCode::write,
                     fmt::format("cannot write '{}': {}", path.string(), encoder.error().message));
-    return VideoWriter(path, *std::move(staged), *std::move(encoder));
+    return VideoWriter(path, std::move(staged), *std::move(encoder));
 }
 
 Result<void> VideoWriter::push(const Image& image) {

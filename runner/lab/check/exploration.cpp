@@ -1,5 +1,6 @@
 #include "lab/check/exploration.hpp"
 
+#include "base/try.hpp"
 #include "lab/check/domain_fault.hpp"
 #include "lab/check/finite_look.hpp"
 #include "lab/check/search_space.hpp"
@@ -50,27 +51,22 @@ public:
     explicit Explorer(ProbeBench& bench) : bench_(bench) {}
 
     Result<Explored> run() {
-        if (auto prepared = prepare(); !prepared)
-            return fail(std::move(prepared.error()));
+        TRY(prepare());
         const std::vector<SearchPoint> points = space_->survey();
         for (const SearchPoint& point : points) {
             if (is_over(k_looks_end))
                 break;
-            if (auto seen = look(point, coarse()); !seen)
-                return fail(std::move(seen.error()));
+            TRY(look(point, coarse()));
             if (looks_.size() == 1)
                 watch_ = Stopwatch(); // without what compiling took
         }
         surveyed_ = looks_.size();
         // Behind a comparison that goes another way there may be more of them.
         for (int round = 1; round <= k_rounds; ++round)
-            if (auto stepped = step_to_edges(k_most_steps * round / k_rounds); !stepped)
-                return fail(std::move(stepped.error()));
+            TRY(step_to_edges(k_most_steps * round / k_rounds));
         spent_ = watch_.elapsed().cpu;
-        if (auto zoomed = zoom_in(); !zoomed)
-            return fail(std::move(zoomed.error()));
-        if (auto drawn = draw_whole(); !drawn)
-            return fail(std::move(drawn.error()));
+        TRY(zoom_in());
+        TRY(draw_whole());
         result_.sentence = sentence();
         return std::move(result_);
     }
@@ -83,12 +79,10 @@ private:
     };
 
     Result<void> prepare() {
-        const auto renderer = bench_.compiled();
-        if (!renderer)
-            return fail(renderer.error());
+        const auto renderer = TRY(bench_.compiled());
         SearchInputs inputs;
-        for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
-            const gl::Reflection& active = (*renderer)->program(planned.pass).reflection();
+        for (const render::PlannedPass& planned : (renderer)->plan().passes) {
+            const gl::Reflection& active = (renderer)->program(planned.pass).reflection();
             inputs.time = inputs.time || active.has("iTime") || active.has("iFrame");
             inputs.mouse = inputs.mouse || active.has("iMouse");
         }
@@ -101,7 +95,7 @@ private:
         }
         // Where other passes are drawn before, each look costs a picture of theirs.
         texts_ = *std::move(texts);
-        extent_ = texts_.size() > 1 || (*renderer)->plan().feedback ? k_probe_extent : k_asked;
+        extent_ = texts_.size() > 1 || (renderer)->plan().feedback ? k_probe_extent : k_asked;
         for (const PassText& text : texts_)
             if (auto watched = watch(text); !watched) {
                 result_.left_out = to_string(watched.error());
@@ -114,16 +108,12 @@ private:
     }
 
     Result<void> watch(const PassText& text) {
-        const auto preview = bench_.preview(plain_state(), text.pass);
-        if (!preview)
-            return fail(preview.error());
-        auto watched = WatchedDomains::link(*preview, text, k_part);
-        if (!watched)
-            return fail(std::move(watched.error()));
-        for (size_t i = 0; i < watched->watch().objectives.size(); ++i)
+        const auto preview = TRY(bench_.preview(plain_state(), text.pass));
+        auto watched = TRY(WatchedDomains::link(preview, text, k_part));
+        for (size_t i = 0; i < watched.watch().objectives.size(); ++i)
             reached_.push_back(false);
-        const size_t first = reached_.size() - watched->watch().objectives.size();
-        passes_.push_back({text, *std::move(watched), first});
+        const size_t first = reached_.size() - watched.watch().objectives.size();
+        passes_.push_back({text, std::move(watched), first});
         return {};
     }
 
@@ -148,10 +138,8 @@ private:
         }
         finite_ = true;
         for (WatchedPass& pass : passes_) {
-            const auto preview = bench_.preview(at, pass.text.pass);
-            if (!preview)
-                return fail(preview.error());
-            note(pass, *preview, grid, at);
+            const auto preview = TRY(bench_.preview(at, pass.text.pass));
+            note(pass, preview, grid, at);
         }
         if (grid.stride == coarse().stride)
             looks_.push_back(last_);
@@ -210,10 +198,8 @@ private:
     Result<void> confirm(const FrameState& at) {
         if (!result_.not_finite.empty())
             return {};
-        const auto passes = bench_.passes(at);
-        if (!passes)
-            return fail(passes.error());
-        if (not_finite(bench_, at, *passes))
+        const auto passes = TRY(bench_.passes(at));
+        if (not_finite(bench_, at, passes))
             result_.not_finite.push_back(at);
         return {};
     }
@@ -341,8 +327,7 @@ private:
             SearchPoint there = point;
             SearchSpace::set(there, axis, value);
             ++steps_;
-            if (auto seen = look(there, coarse()); !seen)
-                return fail(std::move(seen.error()));
+            TRY(look(there, coarse()));
             return last_.rooms[start.objective].least;
         };
         double left = high - k_ratio * (high - low), right = low + k_ratio * (high - low);
@@ -405,11 +390,9 @@ private:
                 whole_picture() > k_longest_picture)
                 return {};
             const FrameState at = state_at(time, k_asked);
-            const auto passes = bench_.passes(at);
-            if (!passes)
-                return fail(passes.error());
+            const auto passes = TRY(bench_.passes(at));
             ++pictures_;
-            if (not_finite(bench_, at, *passes))
+            if (not_finite(bench_, at, passes))
                 result_.not_finite.push_back(at);
         }
         return {};
@@ -485,10 +468,8 @@ private:
 
 Result<const Explored*> explore(ProbeBench& bench) {
     if (!bench.explored()) {
-        auto found = Explorer(bench).run();
-        if (!found)
-            return fail(std::move(found.error()));
-        bench.explored() = *std::move(found);
+        auto found = TRY(Explorer(bench).run());
+        bench.explored() = std::move(found);
     }
     return &*bench.explored();
 }

@@ -1,5 +1,6 @@
 #include "lab/check/finite_look.hpp"
 
+#include "base/try.hpp"
 #include "image/census.hpp"
 
 #include <fmt/format.h>
@@ -41,10 +42,8 @@ std::string kinds(const image::FiniteCensus& census) {
 
 /// Nothing when the scene as it stands is finite; otherwise what `times` has said already.
 Result<std::optional<Answer>> known_before(ProbeBench& bench) {
-    const auto passes = bench.passes(plain_state());
-    if (!passes)
-        return fail(passes.error());
-    if (not_finite(bench, plain_state(), *passes))
+    const auto passes = TRY(bench.passes(plain_state()));
+    if (not_finite(bench, plain_state(), passes))
         return Answer{Verdict::not_applicable, "not finite as the scene stands: see times"};
     return std::optional<Answer>{};
 }
@@ -73,15 +72,13 @@ Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states) {
     Answer answer;
     size_t bad = 0, subnormal = 0, beyond_half = 0;
     for (const FrameState& state : states) {
-        const auto passes = bench.passes(state);
-        if (!passes)
-            return fail(passes.error());
-        for (const PassPicture& pass : *passes) {
+        const auto passes = TRY(bench.passes(state));
+        for (const PassPicture& pass : passes) {
             const image::FiniteCensus census = image::census(pass.picture);
             subnormal += census.subnormal > 0;
             beyond_half += census.beyond_half > 0;
         }
-        auto fault = not_finite(bench, state, *passes);
+        auto fault = not_finite(bench, state, passes);
         bad += fault.has_value();
         if (fault && !answer.where)
             answer = *std::move(fault);
@@ -96,10 +93,8 @@ Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states) {
 }
 
 Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& states) {
-    auto known = known_before(bench);
-    if (!known)
-        return fail(std::move(known.error()));
-    return *known ? **std::move(known) : look(bench, states);
+    auto known = TRY(known_before(bench));
+    return known ? *std::move(known) : look(bench, states);
 }
 
 } // namespace tidemark::lab

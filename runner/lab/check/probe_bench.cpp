@@ -1,5 +1,6 @@
 #include "lab/check/probe_bench.hpp"
 
+#include "base/try.hpp"
 #include "glsl/hit.hpp"
 
 #include <fmt/format.h>
@@ -21,18 +22,16 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
         key += " " + channel;
     for (const Setting& setting : state.definitions)
         key += fmt::format(" {}={}", setting.name, setting.value);
-    auto set = in_state(entry == Entry::hit ? *hit_scene_ : scene_, state);
-    if (!set)
-        return fail(std::move(set.error()));
-    std::vector<scene::Knob> knobs = set->knobs;
+    auto set = TRY(in_state(entry == Entry::hit ? *hit_scene_ : scene_, state));
+    std::vector<scene::Knob> knobs = set.knobs;
     auto found = renderers_.find(key);
     if (found == renderers_.end()) {
         auto made = render::Renderer::create(
-            *std::move(set), {.extent = state.extent,
-                              .samples = image::SampleType::f32,
-                              .precision = precision,
-                              .specialise = glsl::Specialise::unreachable,
-                              .extras = {.unchanged = true}}); // a probe asks whether a drawing repeats
+            std::move(set), {.extent = state.extent,
+                             .samples = image::SampleType::f32,
+                             .precision = precision,
+                             .specialise = glsl::Specialise::unreachable,
+                             .extras = {.unchanged = true}}); // a probe asks whether a drawing repeats
         if (!made)
             return fail(std::move(made.error()));
         found = renderers_.emplace(std::move(key), *std::move(made)).first;
@@ -40,16 +39,13 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
     render::Renderer& renderer = found->second;
     renderer.turn(std::move(knobs));
     if (renderer.extent() != state.extent)
-        if (auto resized = renderer.resize(state.extent); !resized)
-            return fail(std::move(resized.error()));
+        TRY(renderer.resize(state.extent));
     return &renderer;
 }
 
 Result<render::PassPreview> ProbeBench::preview(const FrameState& state, size_t pass) {
-    auto made = renderer(state, Entry::picture, glsl::Precision::single);
-    if (!made)
-        return fail(std::move(made.error()));
-    return render::FrameStepper(**made, state, first_frame_of(state)).preview(state.frame, pass);
+    auto made = TRY(renderer(state, Entry::picture, glsl::Precision::single));
+    return render::FrameStepper(*made, state, first_frame_of(state)).preview(state.frame, pass);
 }
 
 Result<const render::Renderer*> ProbeBench::compiled() {
@@ -64,10 +60,8 @@ Result<render::Renderer*> ProbeBench::drawn(const FrameState& state, Entry entry
 }
 
 Result<image::Image> ProbeBench::picture(const FrameState& state, glsl::Precision precision) {
-    auto renderer = drawn(state, Entry::picture, precision);
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    return image::without_alpha((*renderer)->read_back());
+    auto renderer = TRY(drawn(state, Entry::picture, precision));
+    return image::without_alpha((renderer)->read_back());
 }
 
 Result<image::Image> ProbeBench::fresh_picture(const FrameState& state) {
@@ -76,10 +70,8 @@ Result<image::Image> ProbeBench::fresh_picture(const FrameState& state) {
 }
 
 Result<std::vector<PassPicture>> ProbeBench::passes(const FrameState& state) {
-    auto renderer = drawn(state, Entry::picture, glsl::Precision::single);
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    return read_back(**renderer);
+    auto renderer = TRY(drawn(state, Entry::picture, glsl::Precision::single));
+    return read_back(*renderer);
 }
 
 std::vector<PassPicture> ProbeBench::read_back(render::Renderer& renderer) const {
@@ -93,20 +85,16 @@ std::vector<PassPicture> ProbeBench::read_back(render::Renderer& renderer) const
 }
 
 Result<bool> ProbeBench::has_feedback() {
-    const auto made = compiled();
-    if (!made)
-        return fail(made.error());
-    return (*made)->plan().feedback;
+    const auto made = TRY(compiled());
+    return (made)->plan().feedback;
 }
 
 Result<void> ProbeBench::step(const See& see) {
-    const auto made = renderer(plain_state(), Entry::picture, glsl::Precision::single);
-    if (!made)
-        return fail(made.error());
+    const auto made = TRY(renderer(plain_state(), Entry::picture, glsl::Precision::single));
     FrameState at{.extent = k_probe_extent};
-    for (render::FrameStepper stepper(**made, at);; ++at.frame) {
+    for (render::FrameStepper stepper(*made, at);; ++at.frame) {
         stepper.draw(at.frame);
-        if (!see(at, read_back(**made)))
+        if (!see(at, read_back(*made)))
             return {};
     }
 }
@@ -133,19 +121,15 @@ std::string ProbeBench::see_bounds() const {
 }
 
 Result<Hits> ProbeBench::hits(const FrameState& state, glsl::Precision precision) {
-    auto renderer = drawn(state, Entry::hit, precision);
-    if (!renderer)
-        return fail(std::move(renderer.error()));
-    return hits_of((*renderer)->read_back());
+    auto renderer = TRY(drawn(state, Entry::hit, precision));
+    return hits_of((renderer)->read_back());
 }
 
 Result<std::vector<glsl::KeptHash>> ProbeBench::hashes() {
-    auto made = renderer(plain_state(), Entry::picture, glsl::Precision::promoted);
-    if (!made)
-        return fail(std::move(made.error()));
+    auto made = TRY(renderer(plain_state(), Entry::picture, glsl::Precision::promoted));
     std::vector<glsl::KeptHash> all;
-    for (const render::PlannedPass& planned : (*made)->plan().passes)
-        for (const glsl::KeptHash& hash : (*made)->kept_hashes(planned.pass))
+    for (const render::PlannedPass& planned : (made)->plan().passes)
+        for (const glsl::KeptHash& hash : (made)->kept_hashes(planned.pass))
             all.push_back(hash);
     return all;
 }

@@ -1,5 +1,6 @@
 #include "lab/check/probe_state.hpp"
 
+#include "base/try.hpp"
 #include "scene/overrides.hpp"
 
 #include <algorithm>
@@ -26,8 +27,7 @@ int first_frame_of(const FrameState& state) {
 
 Result<scene::Scene> in_state(scene::Scene scene, const FrameState& state) {
     for (const std::string& channel : state.channels)
-        if (auto set = scene::override_channel(scene, channel); !set)
-            return fail(std::move(set.error()));
+        TRY(scene::override_channel(scene, channel));
     auto turned = with(std::move(scene), state.knobs);
     return turned ? with(*std::move(turned), state.definitions) : turned;
 }

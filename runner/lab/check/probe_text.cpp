@@ -1,5 +1,6 @@
 #include "lab/check/probe_text.hpp"
 
+#include "base/try.hpp"
 #include "lab/trace/watched_run.hpp"
 
 #include <fmt/format.h>
@@ -7,18 +8,14 @@
 namespace tidemark::lab {
 
 Result<std::vector<PassText>> read_texts(ProbeBench& bench, bool as_written) {
-    const auto renderer = bench.compiled();
-    if (!renderer)
-        return fail(renderer.error());
+    const auto renderer = TRY(bench.compiled());
     std::vector<PassText> texts;
-    for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
+    for (const render::PlannedPass& planned : (renderer)->plan().passes) {
         if (bench.scene().passes[planned.pass].kind == scene::PassKind::cubemap)
             continue;
-        auto text = read_text(**renderer, planned.pass, as_written);
-        if (!text)
-            return fail(std::move(text.error()));
-        glsl::TreeFacts facts = glsl::find_facts(**text);
-        texts.push_back({planned.pass, *std::move(text), std::move(facts)});
+        auto text = TRY(read_text(*renderer, planned.pass, as_written));
+        glsl::TreeFacts facts = glsl::find_facts(*text);
+        texts.push_back({planned.pass, std::move(text), std::move(facts)});
     }
     return texts;
 }

@@ -1,4 +1,5 @@
 // Non-finite numbers: drawn in many situations, counted by bits on the CPU.
+#include "base/try.hpp"
 #include "gl/capabilities.hpp"
 #include "lab/check/exploration.hpp"
 #include "lab/check/finite_look.hpp"
@@ -35,10 +36,8 @@ Result<Answer> ask_times(ProbeBench& bench) {
 Result<Answer> ask_frames(ProbeBench& bench) {
     constexpr int k_frames = 600; // ten seconds of the clock
     constexpr std::chrono::seconds k_patience(5);
-    const auto feedback = bench.has_feedback();
+    const auto feedback = TRY(bench.has_feedback());
     if (!feedback)
-        return fail(feedback.error());
-    if (!*feedback)
         return Answer{Verdict::not_applicable, "no frame depends on the one before it"};
     std::optional<Answer> fault;
     int seen = 0;
@@ -100,21 +99,17 @@ Result<Answer> ask_search(ProbeBench& bench) {
     auto plain = look_anew(bench, {});
     if (!plain || plain->verdict == Verdict::not_applicable)
         return plain;
-    const auto explored = explore(bench);
-    if (!explored)
-        return fail(explored.error());
+    const auto explored = TRY(explore(bench));
     const std::string unread =
-        (*explored)->left_out.empty() ? "" : "; not guided by the text: " + (*explored)->left_out;
-    if ((*explored)->not_finite.empty())
-        return Answer{Verdict::pass, "all numbers finite; " + (*explored)->sentence + unread};
-    const FrameState& where = (*explored)->not_finite.front();
-    const auto passes = bench.passes(where);
-    if (!passes)
-        return fail(passes.error());
-    auto fault = not_finite(bench, where, *passes);
+        (explored)->left_out.empty() ? "" : "; not guided by the text: " + (explored)->left_out;
+    if ((explored)->not_finite.empty())
+        return Answer{Verdict::pass, "all numbers finite; " + (explored)->sentence + unread};
+    const FrameState& where = (explored)->not_finite.front();
+    const auto passes = TRY(bench.passes(where));
+    auto fault = not_finite(bench, where, passes);
     if (!fault)
         return Answer{Verdict::warn, "a pixel was not finite, and is when it is drawn again", where};
-    fault->sentence += "; " + (*explored)->sentence + unread;
+    fault->sentence += "; " + (explored)->sentence + unread;
     return *std::move(fault);
 }
 

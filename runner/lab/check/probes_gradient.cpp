@@ -1,5 +1,6 @@
 // The bound of slopes that a solver's steps rely on, held against the largest slope that is to be found: of
 // scenes with mainHit whose field is the march_field of shaders/lib/march.glsl.
+#include "base/try.hpp"
 #include "lab/check/field_bench.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -68,10 +69,8 @@ public:
                                      {{.name = "tidemark_pixels", .type = scene::KnobType::vec4},
                                       {.name = "tidemark_distances", .type = scene::KnobType::vec2},
                                       {.name = "tidemark_step"}}};
-        auto field = FieldBench::create(bench.scene(), question, precision);
-        if (!field)
-            return fail(std::move(field.error()));
-        return SlopeSearch(*std::move(field), furthest);
+        auto field = TRY(FieldBench::create(bench.scene(), question, precision));
+        return SlopeSearch(std::move(field), furthest);
     }
 
     /// Climbs from the best of all samples of several views.
@@ -131,22 +130,18 @@ std::vector<FrameState> views_over_time() {
 Result<double> furthest_of(ProbeBench& bench, const std::vector<FrameState>& views) {
     double furthest = 0;
     for (const FrameState& view : views) {
-        const auto hits = bench.hits(view);
-        if (!hits)
-            return fail(hits.error());
-        for (const double distance : hits->distance)
+        const auto hits = TRY(bench.hits(view));
+        for (const double distance : hits.distance)
             furthest = std::max(furthest, distance); // never a NaN, which compares as false
     }
     return furthest;
 }
 
 Result<image::Image> map_of(ProbeBench& bench, const Steep& place) {
-    const auto hits = bench.hits(place.view);
-    if (!hits)
-        return fail(hits.error());
+    const auto hits = TRY(bench.hits(place.view));
     const auto pixel = size_t(std::min(place.pixel.y, k_ray_extent.height - 1.0)) * k_ray_extent.width +
                        size_t(std::min(place.pixel.x, k_ray_extent.width - 1.0));
-    return ray_map(*hits, k_ray_extent, [pixel](size_t i) { return i == pixel; });
+    return ray_map(hits, k_ray_extent, [pixel](size_t i) { return i == pixel; });
 }
 
 } // namespace
@@ -157,19 +152,17 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
     if (!has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take slopes of"};
     const std::vector<FrameState> views = views_over_time();
-    const auto furthest = furthest_of(bench, views);
-    if (!furthest)
-        return fail(furthest.error());
-    if (*furthest == 0 || std::isinf(*furthest))
+    const auto furthest = TRY(furthest_of(bench, views));
+    if (furthest == 0 || std::isinf(furthest))
         return Answer{Verdict::not_applicable, "no ray meets the surface"};
-    auto search = SlopeSearch::create(bench, *furthest, glsl::Precision::single);
+    auto search = SlopeSearch::create(bench, furthest, glsl::Precision::single);
     if (!search)
         return Answer{Verdict::not_applicable, "not to be asked: " + to_string(search.error())};
     Steep found = search->steepest(views);
     const double stated = bench.promises().largest_slope;
     double slack = 1.05; // over so short a step the roundings of a field in floats are slopes, too
     if (found.slope > stated)
-        if (auto exact = SlopeSearch::create(bench, *furthest, glsl::Precision::promoted)) {
+        if (auto exact = SlopeSearch::create(bench, furthest, glsl::Precision::promoted)) {
             found.slope = -1;
             found = exact->climbed(found);
             slack = 1.001;
@@ -183,10 +176,8 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
         answer.verdict = Verdict::fail;
         answer.sentence += ": steps that trust it are too long";
         answer.where = found.view;
-        auto map = map_of(bench, found);
-        if (!map)
-            return fail(std::move(map.error()));
-        answer.picture = *std::move(map);
+        auto map = TRY(map_of(bench, found));
+        answer.picture = std::move(map);
     }
     return answer;
 }

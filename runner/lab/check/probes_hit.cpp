@@ -1,4 +1,5 @@
 // What rays met, of scenes with mainHit: steps that were too long, and too many of them.
+#include "base/try.hpp"
 #include "lab/check/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -20,13 +21,11 @@ Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promis
     FrameState where;
     image::Image map;
     for (const FrameState& view : usual_views()) {
-        const auto hits = bench.hits(view);
-        if (!hits)
-            return fail(hits.error());
-        if (const double share = flagged(*hits, flag); share > most) {
+        const auto hits = TRY(bench.hits(view));
+        if (const double share = flagged(hits, flag); share > most) {
             most = share;
             where = view;
-            map = ray_map(*hits, view.extent, [&](size_t i) { return (hits->flags[i] & flag) != 0; });
+            map = ray_map(hits, view.extent, [&](size_t i) { return (hits.flags[i] & flag) != 0; });
         }
     }
     Answer answer{most > promised ? Verdict::fail : Verdict::pass,
@@ -128,20 +127,18 @@ Result<Answer> ask_stiffness(ProbeBench& bench) {
     double most = -1;
     for (const FrameState& state : stiff_states(bench)) {
         const std::string set = to_string(merged(state.knobs.empty() ? state.definitions : state.knobs));
-        const auto hits = bench.hits(state);
-        if (!hits)
-            return fail(hits.error());
-        if (const double nothing = unanswered(*hits); nothing > 0)
+        const auto hits = TRY(bench.hits(state));
+        if (const double nothing = unanswered(hits); nothing > 0)
             return Answer{Verdict::fail,
                           fmt::format("{}: {:.3g} % of the distances are no number", set, nothing), state};
-        const double witnesses = flagged(*hits, glsl::k_hit_negative);
+        const double witnesses = flagged(hits, glsl::k_hit_negative);
         if (witnesses <= most)
             continue;
         most = witnesses;
         answer = {witnesses > bench.promises().most_witness_percent ? Verdict::warn : Verdict::pass,
                   fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
                               "{:.3g} % run out of steps",
-                              set, witnesses, flagged(*hits, glsl::k_hit_exhausted)),
+                              set, witnesses, flagged(hits, glsl::k_hit_exhausted)),
                   {},
                   {}};
         if (answer.verdict == Verdict::warn)

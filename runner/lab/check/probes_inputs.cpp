@@ -1,4 +1,5 @@
 // What pictures a scene can be given.
+#include "base/try.hpp"
 #include "image/census.hpp"
 #include "lab/check/finite_look.hpp"
 #include "lab/check/probes.hpp"
@@ -23,12 +24,10 @@ bool comes_from_outside(const scene::Scene& scene, const scene::ChannelInput& in
 
 /// Of the passes that are drawn.
 Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
-    const auto renderer = bench.compiled();
-    if (!renderer)
-        return fail(renderer.error());
+    const auto renderer = TRY(bench.compiled());
     const scene::Scene& scene = bench.scene();
     std::vector<Input> inputs;
-    for (const render::PlannedPass& planned : (*renderer)->plan().passes) {
+    for (const render::PlannedPass& planned : (renderer)->plan().passes) {
         const scene::Pass& pass = scene.passes[planned.pass];
         const bool image = planned.pass == scene.image_index();
         const std::string text = scene.common.text() + pass.text.text();
@@ -47,26 +46,22 @@ Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
 Result<double> spread_of_nan(ProbeBench& bench, const Input& input) {
     FrameState state = plain_state();
     state.channels = {input.setting + "=nan"};
-    const auto picture = bench.picture(state);
-    if (!picture)
-        return fail(picture.error());
-    const auto samples = picture->f32();
+    const auto picture = TRY(bench.picture(state));
+    const auto samples = picture.f32();
     size_t bad = 0;
-    for (size_t pixel = 0; pixel < picture->extent.pixels(); ++pixel)
+    for (size_t pixel = 0; pixel < picture.extent.pixels(); ++pixel)
         bad += std::ranges::any_of(samples.subspan(3 * pixel, 3), [](float v) { return std::isnan(v); });
-    return 100.0 * double(bad) / double(picture->extent.pixels());
+    return 100.0 * double(bad) / double(picture.extent.pixels());
 }
 
 } // namespace
 
 Result<Answer> ask_inputs(ProbeBench& bench) {
-    const auto inputs = inputs_read(bench);
-    if (!inputs)
-        return fail(inputs.error());
-    if (inputs->empty())
+    const auto inputs = TRY(inputs_read(bench));
+    if (inputs.empty())
         return Answer{Verdict::not_applicable, "no pass reads a picture"};
     std::vector<FrameState> states;
-    for (const Input& input : *inputs)
+    for (const Input& input : inputs)
         for (const char* what : {"none", "noise", "black", "white", "texel"}) {
             states.push_back(plain_state());
             states.back().channels = {fmt::format("{}={}", input.setting, what)};
@@ -74,11 +69,9 @@ Result<Answer> ask_inputs(ProbeBench& bench) {
     auto answer = look_anew(bench, states);
     if (!answer || answer->verdict != Verdict::pass)
         return answer;
-    for (const Input& input : *inputs) {
-        const auto spread = spread_of_nan(bench, input);
-        if (!spread)
-            return fail(spread.error());
-        answer->sentence += fmt::format("; NaN in {} comes to {:.3g} % of the pixels", input.name, *spread);
+    for (const Input& input : inputs) {
+        const auto spread = TRY(spread_of_nan(bench, input));
+        answer->sentence += fmt::format("; NaN in {} comes to {:.3g} % of the pixels", input.name, spread);
     }
     return answer;
 }

@@ -1,4 +1,5 @@
 // The same again, and the next pixel of the mouse.
+#include "base/try.hpp"
 #include "image/census.hpp"
 #include "image/compare/metrics.hpp"
 #include "lab/check/picture_gap.hpp"
@@ -25,15 +26,11 @@ constexpr double k_alike = 60; // dB
 
 Result<Answer> ask_repeats(ProbeBench& bench) {
     const FrameState state = state_at(2);
-    const auto first = bench.picture(state);
-    if (!first)
-        return fail(first.error());
-    const auto same = [&](const Result<image::Image>& other) {
-        return other && other->bytes == first->bytes;
-    };
+    const auto first = TRY(bench.picture(state));
+    const auto same = [&](const Result<image::Image>& other) { return other && other->bytes == first.bytes; };
     const auto say_no = [&](const char* when) {
         return Answer{Verdict::fail, fmt::format("another picture {}{}", when, bench.see_bounds()), state,
-                      *first};
+                      first};
     };
     if (!same(bench.picture(state)))
         return say_no("at once again");
@@ -53,14 +50,12 @@ Result<Answer> ask_threads(ProbeBench& bench) {
     const auto alone = bench.with_one_thread()(state);
     if (!alone)
         return Answer{Verdict::not_applicable, "not to be had: " + alone.error().message};
-    auto together = bench.picture(state);
-    if (!together)
-        return fail(std::move(together.error()));
-    if (const size_t different = different_pixels(*alone, *together))
+    auto together = TRY(bench.picture(state));
+    if (const size_t different = different_pixels(*alone, together))
         return Answer{Verdict::fail,
                       fmt::format("{} of {} pixels are others when one thread draws them all{}", different,
                                   state.extent.pixels(), bench.see_bounds()),
-                      state, *std::move(together)};
+                      state, std::move(together)};
     return Answer{Verdict::pass, "the same bytes whether many threads draw or one"};
 }
 
@@ -92,14 +87,12 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
     std::vector<double> steps;
     std::optional<image::Image> last;
     for (int pixel = 1; pixel < sweep.length; ++pixel) {
-        auto picture = bench.picture(sweep.at(pixel));
-        if (!picture)
-            return fail(std::move(picture.error()));
-        if (!found.not_finite && image::census(*picture).non_finite() > 0)
+        auto picture = TRY(bench.picture(sweep.at(pixel)));
+        if (!found.not_finite && image::census(picture).non_finite() > 0)
             found.not_finite = pixel;
         if (last)
-            steps.push_back(image::compare(*last, *picture)->psnr);
-        last = *std::move(picture);
+            steps.push_back(image::compare(*last, picture)->psnr);
+        last = std::move(picture);
     }
     found.changes = !std::ranges::all_of(steps, [](double psnr) { return std::isinf(psnr); });
     for (size_t i = 1; i + 1 < steps.size(); ++i)
@@ -115,16 +108,12 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
 Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const Swept& found) {
     const auto show = [&](int pixel, std::string sentence) -> Result<std::optional<Answer>> {
         const FrameState where = sweep.at(pixel);
-        auto picture = bench.picture(where);
-        if (!picture)
-            return fail(std::move(picture.error()));
-        return Answer{Verdict::fail, std::move(sentence), where, *std::move(picture)};
+        auto picture = TRY(bench.picture(where));
+        return Answer{Verdict::fail, std::move(sentence), where, std::move(picture)};
     };
     if (found.not_finite) {
-        const auto untouched = bench.picture(plain_state(sweep.extent));
-        if (!untouched)
-            return fail(untouched.error());
-        if (image::census(*untouched).non_finite() > 0)
+        const auto untouched = TRY(bench.picture(plain_state(sweep.extent)));
+        if (image::census(untouched).non_finite() > 0)
             return Answer{Verdict::not_applicable, "not finite without the mouse either: see times"};
         return show(*found.not_finite,
                     fmt::format("the picture is not finite with the mouse at {} = {} of {}", sweep.axis,
@@ -150,16 +139,12 @@ Result<Answer> ask_camera(ProbeBench& bench) {
     bool changes = false;
     double most = 0;
     for (const Sweep& sweep : sweeps) {
-        const auto found = swept(bench, sweep);
-        if (!found)
-            return fail(found.error());
-        auto answer = fault(bench, sweep, *found);
-        if (!answer)
-            return fail(std::move(answer.error()));
-        if (*answer)
-            return **std::move(answer);
-        changes |= found->changes;
-        most = std::max(most, found->most);
+        const auto found = TRY(swept(bench, sweep));
+        auto answer = TRY(fault(bench, sweep, found));
+        if (answer)
+            return *std::move(answer);
+        changes |= found.changes;
+        most = std::max(most, found.most);
     }
     if (!changes)
         return Answer{Verdict::not_applicable, "the mouse changes nothing"};
@@ -179,10 +164,8 @@ Result<Answer> ask_clicks(ProbeBench& bench) {
         const glm::ivec2 inwards = first.x == 0 ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
         std::vector<image::Image> pictures;
         for (int pixel = 0; pixel < 3; ++pixel) {
-            auto picture = bench.picture(clicked(first + pixel * inwards));
-            if (!picture)
-                return fail(std::move(picture.error()));
-            pictures.push_back(*std::move(picture));
+            auto picture = TRY(bench.picture(clicked(first + pixel * inwards)));
+            pictures.push_back(std::move(picture));
         }
         const double edge = image::compare(pictures[0], pictures[1])->psnr;
         const double next = std::min(image::compare(pictures[1], pictures[2])->psnr, k_alike);

@@ -1,6 +1,7 @@
 // Where a camera may stand and look, of scenes with mainHit: under the surface, far away, along the horizon,
 // to the far plane. A probe moves the orbit camera of a scene that declares iCamera, or its knob
 // camera_position.
+#include "base/try.hpp"
 #include "image/census.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -63,16 +64,12 @@ std::vector<FrameState> below_and_above(const ProbeBench& bench) {
 
 /// What is wrong there with the picture or with the rays, as a sentence; empty: nothing is.
 Result<std::string> broken(ProbeBench& bench, const FrameState& state) {
-    const auto passes = bench.passes(state);
-    if (!passes)
-        return fail(passes.error());
-    for (const PassPicture& pass : *passes)
+    const auto passes = TRY(bench.passes(state));
+    for (const PassPicture& pass : passes)
         if (const size_t count = image::census(pass.picture).non_finite(); count > 0)
             return fmt::format("{} samples of {} are no number", count, pass.pass);
-    const auto hits = bench.hits(state);
-    if (!hits)
-        return fail(hits.error());
-    const double lost = unanswered(*hits);
+    const auto hits = TRY(bench.hits(state));
+    const double lost = unanswered(hits);
     return lost > 0 ? fmt::format("{:.3g} % of the distances are no number", lost) : std::string();
 }
 
@@ -87,11 +84,9 @@ Result<Answer> how_far(ProbeBench& bench) {
     double good = 0;
     for (const double distance : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const FrameState state = *away(bench, distance);
-        const auto wrong = broken(bench, state);
-        if (!wrong)
-            return fail(wrong.error());
-        if (!wrong->empty())
-            return Answer{Verdict::fail, place_of(state) + ": " + *wrong, state};
+        const auto wrong = TRY(broken(bench, state));
+        if (!wrong.empty())
+            return Answer{Verdict::fail, place_of(state) + ": " + wrong, state};
         const auto both = parting(bench, state);
         if (!both)
             return Answer{Verdict::pass,
@@ -126,10 +121,8 @@ Result<std::vector<FrameState>> views_of_the_horizon(ProbeBench& bench) {
             candidates.push_back(with_mouse(render::Mouse::clicked({k_ray_extent.width / 2, y}, false),
                                             state_at(10, k_ray_extent)));
     for (const FrameState& candidate : candidates) {
-        const auto hits = bench.hits(candidate);
-        if (!hits)
-            return fail(hits.error());
-        const double met = percent(*hits, [&](size_t i) { return hits->distance[i] >= 0; });
+        const auto hits = TRY(bench.hits(candidate));
+        const double met = percent(hits, [&](size_t i) { return hits.distance[i] >= 0; });
         if (met > 5 && met < 95)
             views.push_back(candidate);
     }
@@ -158,11 +151,9 @@ Result<Answer> ask_places(ProbeBench& bench) {
     if (!away(bench, 0))
         return Answer{Verdict::not_applicable, "no iCamera and no knob camera_position to move"};
     for (const FrameState& state : below_and_above(bench)) {
-        const auto wrong = broken(bench, state);
-        if (!wrong)
-            return fail(wrong.error());
-        if (!wrong->empty())
-            return Answer{Verdict::fail, place_of(state) + ": " + *wrong, state};
+        const auto wrong = TRY(broken(bench, state));
+        if (!wrong.empty())
+            return Answer{Verdict::fail, place_of(state) + ": " + wrong, state};
     }
     return how_far(bench);
 }
@@ -170,34 +161,29 @@ Result<Answer> ask_places(ProbeBench& bench) {
 Result<Answer> ask_grazing(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
-    auto views = views_of_the_horizon(bench);
-    if (!views)
-        return fail(std::move(views.error()));
-    const size_t turned = views->size();
+    auto views = TRY(views_of_the_horizon(bench));
+    const size_t turned = views.size();
     if (const auto level = level_view(bench.scene()))
-        views->push_back(*level);
-    if (views->empty())
+        views.push_back(*level);
+    if (views.empty())
         return Answer{Verdict::not_applicable, "the mouse never turns the horizon into sight"};
     Answer answer;
     double most = -1;
-    for (const FrameState& view : *views) {
-        const auto hits = bench.hits(view);
-        if (!hits)
-            return fail(hits.error());
-        if (const double lost = unanswered(*hits); lost > 0)
+    for (const FrameState& view : views) {
+        const auto hits = TRY(bench.hits(view));
+        if (const double lost = unanswered(hits); lost > 0)
             return Answer{Verdict::fail, fmt::format("{:.3g} % of the distances are no number", lost), view};
-        const double out = flagged(*hits, glsl::k_hit_exhausted);
+        const double out = flagged(hits, glsl::k_hit_exhausted);
         if (out <= most)
             continue;
         most = out;
-        answer.sentence =
-            fmt::format("{:.3g} % of the rays run out of steps in the worst of {} views of the "
-                        "horizon{}, {:.3g} samples a ray",
-                        out, views->size(), views->size() > turned ? ", one with level rays" : "",
-                        mean_evaluations(*hits));
+        answer.sentence = fmt::format("{:.3g} % of the rays run out of steps in the worst of {} views of the "
+                                      "horizon{}, {:.3g} samples a ray",
+                                      out, views.size(), views.size() > turned ? ", one with level rays" : "",
+                                      mean_evaluations(hits));
         answer.where = view;
-        answer.picture = ray_map(*hits, view.extent,
-                                 [&](size_t i) { return (hits->flags[i] & glsl::k_hit_exhausted) != 0; });
+        answer.picture = ray_map(hits, view.extent,
+                                 [&](size_t i) { return (hits.flags[i] & glsl::k_hit_exhausted) != 0; });
     }
     if (most > bench.promises().most_exhausted_percent) {
         answer.verdict = Verdict::fail;

@@ -1,4 +1,5 @@
 // What other GPUs, drivers and roundings would make of the picture.
+#include "base/try.hpp"
 #include "glsl/instrument/variation.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/metrics.hpp"
@@ -37,10 +38,8 @@ public:
 
     /// Fails where a text cannot be written in that manner, or the driver refuses it.
     Result<void> add(const Manner& manner) {
-        const auto texts = read_texts(bench_, false);
-        if (!texts)
-            return fail(texts.error());
-        for (const PassText& pass : *texts)
+        const auto texts = TRY(read_texts(bench_, false));
+        for (const PassText& pass : texts)
             if (const auto varied = manner.vary(*pass.text, pass.facts); varied.places > 0)
                 if (auto done = compare(pass.pass, varied, manner.modes); !done)
                     return done;
@@ -64,18 +63,14 @@ public:
 
 private:
     Result<void> compare(size_t pass, const glsl::Variation& varied, std::span<const Mode> modes) {
-        const auto preview = bench_.preview(k_state, pass);
-        if (!preview)
-            return fail(preview.error());
-        auto stand_in = StandIn::link(*preview, varied.text, "a variation of the text");
-        if (!stand_in)
-            return fail(std::move(stand_in.error()));
+        const auto preview = TRY(bench_.preview(k_state, pass));
+        auto stand_in = TRY(StandIn::link(preview, varied.text, "a variation of the text"));
         asked_ = true;
         std::vector<image::Image> others;
         for (const Mode& mode : modes)
-            others.push_back(drawn(*stand_in, *preview, varied, mode.number));
-        const image::Image plain = varied.mode_uniform.empty() ? as_drawn(*stand_in, *preview)
-                                                               : drawn(*stand_in, *preview, varied, 0);
+            others.push_back(drawn(stand_in, preview, varied, mode.number));
+        const image::Image plain =
+            varied.mode_uniform.empty() ? as_drawn(stand_in, preview) : drawn(stand_in, preview, varied, 0);
         for (size_t i = 0; i < modes.size(); ++i)
             note(pass, modes[i], plain, others[i]);
         return {};

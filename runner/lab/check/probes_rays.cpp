@@ -1,5 +1,6 @@
 // What floats lose of the rays of scenes with mainHit, held against the same scene in doubles: as time goes
 // on, near the surface, far out on the lattice of a noise, in waves that fold over.
+#include "base/try.hpp"
 #include "lab/check/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -183,9 +184,7 @@ Result<Answer> ask_folds(ProbeBench& bench) {
     // A factor of another name, like a foam's, is not told from waves' where it alone moves no ray.
     if (sum == 0)
         return Answer{Verdict::not_applicable, "no knob is a steepness of waves"};
-    const auto as_is = bench.hits(typical_view());
-    if (!as_is)
-        return fail(as_is.error());
+    const auto as_is = TRY(bench.hits(typical_view()));
     bool moves = false;
     double calm = 0;
     for (const double steepness : {0.75, 0.99, 1.0, 1.5}) {
@@ -200,7 +199,7 @@ Result<Answer> ask_folds(ProbeBench& bench) {
         const auto both = parting(bench, state);
         if (!both)
             return without_doubles(both.error());
-        moves |= both->in_float.distance != as_is->distance;
+        moves |= both->in_float.distance != as_is.distance;
         const double lost = unanswered(both->in_float);
         if (lost == 0 && both->parted <= k_same) {
             calm = steepness;

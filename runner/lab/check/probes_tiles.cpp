@@ -1,4 +1,5 @@
 // Large pictures are drawn in tiles (render/tile_grid.hpp): whether their seams would show.
+#include "base/try.hpp"
 #include "lab/check/picture_gap.hpp"
 #include "lab/check/probes.hpp"
 #include "render/bands.hpp"
@@ -24,21 +25,17 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
             renderer->draw(inputs);
         return renderer;
     };
-    const auto cut = drawn(k_tile);
-    if (!cut)
-        return fail(cut.error());
-    if (!cut->tiles())
+    const auto cut = TRY(drawn(k_tile));
+    if (!cut.tiles())
         return Answer{Verdict::not_applicable, "a pass reads the picture, which is drawn whole at any size"};
-    const image::Image tiled = render::draw_in_tiles(*cut, inputs);
-    const auto whole = drawn(std::nullopt);
-    if (!whole)
-        return fail(whole.error());
-    if (const size_t different = different_pixels(tiled, whole->read_back()))
+    const image::Image tiled = render::draw_in_tiles(cut, inputs);
+    const auto whole = TRY(drawn(std::nullopt));
+    if (const size_t different = different_pixels(tiled, whole.read_back()))
         return Answer{Verdict::fail,
                       fmt::format("{} of {} pixels differ when drawn in {}x{} tiles{}", different,
                                   tiled.extent.pixels(), k_tile.width, k_tile.height, bench.see_bounds()),
                       state, image::without_alpha(tiled)};
-    return Answer{Verdict::pass, fmt::format("the same bytes in {} tiles", cut->tiles()->count())};
+    return Answer{Verdict::pass, fmt::format("the same bytes in {} tiles", cut.tiles()->count())};
 }
 
 } // namespace tidemark::lab

@@ -1,4 +1,5 @@
 // What becomes of a scene as its clock runs: rounding, cuts, and random numbers that hang on roundings.
+#include "base/try.hpp"
 #include "image/compare/metrics.hpp"
 #include "lab/check/defined_numbers.hpp"
 #include "lab/check/picture_gap.hpp"
@@ -51,10 +52,8 @@ Result<Jump> jump_at(ProbeBench& bench, double moment) {
     std::vector<image::Image> frames;
     const double step = instant(moment);
     for (const double offset : {-1.5, -0.5, 0.5, 1.5}) {
-        auto frame = bench.picture(state_at(moment + offset * step));
-        if (!frame)
-            return fail(std::move(frame.error()));
-        frames.push_back(*std::move(frame));
+        auto frame = TRY(bench.picture(state_at(moment + offset * step)));
+        frames.push_back(std::move(frame));
     }
     const auto psnr = [&](const image::Image& left, const image::Image& right) {
         return image::compare(left, right)->psnr;
@@ -62,10 +61,8 @@ Result<Jump> jump_at(ProbeBench& bench, double moment) {
     Jump jump{frames[2], psnr(frames[1], frames[2]),
               std::min(psnr(frames[0], frames[1]), psnr(frames[2], frames[3]))};
     if (jump.psnr <= k_close_psnr && std::isfinite(jump.elsewhere)) {
-        const auto start = bench.picture(state_at(0.5 * step));
-        if (!start)
-            return fail(start.error());
-        jump.wraps = psnr(frames[2], *start) > k_close_psnr;
+        const auto start = TRY(bench.picture(state_at(0.5 * step)));
+        jump.wraps = psnr(frames[2], start) > k_close_psnr;
     }
     return jump;
 }
@@ -79,13 +76,11 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
     double good = 0;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const FrameState state = state_at(time + k_third);
-        const auto as_is = bench.picture(state);
-        if (!as_is)
-            return fail(as_is.error());
+        const auto as_is = TRY(bench.picture(state));
         auto truth = bench.picture(state, glsl::Precision::promoted);
         if (!truth)
             return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(truth.error())};
-        const double difference = p99_difference(*as_is, *truth);
+        const double difference = p99_difference(as_is, *truth);
         if (difference <= k_visible_gap) {
             good = time;
             continue;
@@ -101,7 +96,7 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                               "the pixels are off by {:.3g} or more",
                               good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
                               difference);
-        return Answer{kept ? Verdict::pass : good == 0 ? Verdict::warn : Verdict::fail, found, state, *as_is};
+        return Answer{kept ? Verdict::pass : good == 0 ? Verdict::warn : Verdict::fail, found, state, as_is};
     }
     return Answer{Verdict::pass, "float and double show the same up to 1e6 s"};
 }
@@ -131,14 +126,12 @@ Result<Answer> ask_jumps(ProbeBench& bench) {
     Answer answer;
     double worst = 0; // of those with the answer's verdict
     for (const double period : periods) {
-        const auto jump = jump_at(bench, period);
-        if (!jump)
-            return fail(jump.error());
-        if (!(jump->drop() > promises.smoothest_jump) || jump->psnr > k_close_psnr)
+        const auto jump = TRY(jump_at(bench, period));
+        if (!(jump.drop() > promises.smoothest_jump) || jump.psnr > k_close_psnr)
             continue;
-        Answer found = told(*jump, period, promises.stated.contains("smoothest_jump"));
-        if (std::pair(found.verdict, jump->drop()) > std::pair(answer.verdict, worst)) {
-            worst = jump->drop();
+        Answer found = told(jump, period, promises.stated.contains("smoothest_jump"));
+        if (std::pair(found.verdict, jump.drop()) > std::pair(answer.verdict, worst)) {
+            worst = jump.drop();
             answer = std::move(found);
         }
     }

@@ -1,5 +1,6 @@
 // What GLSL leaves undefined: functions outside of their domain, whose value is another thing on every GPU,
 // and indices, shifts, divisions, fetches and conversions beyond their bounds.
+#include "base/try.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/metrics.hpp"
 #include "lab/check/domain_fault.hpp"
@@ -39,10 +40,8 @@ Result<std::vector<View>> views(ProbeBench& bench) {
         {plain_state()},
         {state_at(0)},
         {with_mouse(render::Mouse::clicked({size.width / 3, size.height / 4}, false), state_at(10))}};
-    const auto explored = explore(bench);
-    if (!explored)
-        return fail(explored.error());
-    for (const Outside& outside : (*explored)->outside) {
+    const auto explored = TRY(explore(bench));
+    for (const Outside& outside : (explored)->outside) {
         if (outside.bound || all.size() >= 3 + k_most_explored)
             continue;
         // As many pixels as those of everyday, in the same place.
@@ -73,16 +72,12 @@ public:
     Result<std::vector<Undefined>> run(const std::vector<View>& views) {
         std::vector<Undefined> found;
         for (const View& view : views) {
-            const auto preview = bench_.preview(view.state, pass_.pass);
-            if (!preview)
-                return fail(preview.error());
+            const auto preview = TRY(bench_.preview(view.state, pass_.pass));
             if (!watched_) {
-                auto linked = WatchedDomains::link(*preview, pass_, k_probe_extent);
-                if (!linked)
-                    return fail(std::move(linked.error()));
-                watched_ = *std::move(linked);
+                auto linked = TRY(WatchedDomains::link(preview, pass_, k_probe_extent));
+                watched_ = std::move(linked);
             }
-            look(*preview, view, found);
+            look(preview, view, found);
         }
         return found;
     }
@@ -127,15 +122,13 @@ private:
 } // namespace
 
 Result<Answer> ask_undefined(ProbeBench& bench) {
-    const auto where = views(bench);
-    if (!where)
-        return fail(where.error());
+    const auto where = TRY(views(bench));
     const auto texts = read_texts(bench, false);
     if (!texts)
         return Answer{Verdict::not_applicable, "not to be followed: " + to_string(texts.error())};
     std::vector<Undefined> all;
     for (const PassText& pass : *texts) {
-        auto found = DomainProbe(bench, pass).run(*where);
+        auto found = DomainProbe(bench, pass).run(where);
         if (!found)
             return Answer{Verdict::not_applicable, to_string(found.error())};
         std::ranges::move(*found, std::back_inserter(all));
@@ -156,21 +149,19 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
 }
 
 Result<Answer> ask_bounds(ProbeBench& bench) {
-    const auto explored = explore(bench);
-    if (!explored)
-        return fail(explored.error());
-    if (!(*explored)->left_out.empty())
-        return Answer{Verdict::not_applicable, "not to be followed: " + (*explored)->left_out};
+    const auto explored = TRY(explore(bench));
+    if (!(explored)->left_out.empty())
+        return Answer{Verdict::not_applicable, "not to be followed: " + (explored)->left_out};
     std::vector<std::string> told;
     std::optional<FrameState> where;
-    for (const Outside& outside : (*explored)->outside)
+    for (const Outside& outside : (explored)->outside)
         if (outside.bound) {
             told.push_back(outside.sentence);
             where = where ? where : outside.where;
         }
     if (told.empty())
         return Answer{Verdict::pass, "no index, shift, divisor, texel or conversion is out of bounds; " +
-                                         (*explored)->sentence};
+                                         (explored)->sentence};
     return Answer{Verdict::warn, listed(told), where};
 }
 

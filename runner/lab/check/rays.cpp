@@ -1,5 +1,7 @@
 #include "lab/check/rays.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -75,13 +77,9 @@ Answer without_hits(const ProbeBench& bench, bool warns) {
 }
 
 Result<Parting> parting(ProbeBench& bench, const FrameState& state) {
-    auto in_float = bench.hits(state);
-    if (!in_float)
-        return fail(std::move(in_float.error()));
-    auto in_double = bench.hits(state, glsl::Precision::promoted);
-    if (!in_double)
-        return fail(std::move(in_double.error()));
-    Parting both{*std::move(in_float), *std::move(in_double), {}, 0, {}};
+    auto in_float = TRY(bench.hits(state));
+    auto in_double = TRY(bench.hits(state, glsl::Precision::promoted));
+    Parting both{std::move(in_float), std::move(in_double), {}, 0, {}};
     for (size_t i = 0; i < both.in_float.size(); ++i)
         both.parts.push_back(parts(both.in_float.distance[i], both.in_double.distance[i], state.extent));
     const auto marks = [&](size_t i) { return both.parts[i]; };

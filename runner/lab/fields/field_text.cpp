@@ -1,6 +1,7 @@
 #include "lab/fields/field_text.hpp"
 
 #include "base/hash.hpp"
+#include "base/try.hpp"
 #include "glsl/hit.hpp"
 #include "glsl/specialise/globals.hpp"
 #include "glsl/syntax/parsed_text.hpp"
@@ -49,10 +50,8 @@ bool acts(const ParsedText& text, const glsl::Global& global) {
 Result<std::string> field_hash(const scene::Scene& scene) {
     if (!glsl::hit_scene(scene))
         return fail(ErrorCode::load, "the scene has no mainHit");
-    const auto read_text = read(scene, scene.image());
-    if (!read_text)
-        return fail(read_text.error());
-    const ParsedText& text = **read_text;
+    const auto read_text = TRY(read(scene, scene.image()));
+    const ParsedText& text = *read_text;
     const std::vector<glsl::Global> globals = glsl::find_globals(text);
     std::vector<bool> solver(text.words().size(), false), kept(globals.size());
     for (size_t i = 0; i < globals.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "lab/fields/reference.hpp"
 
+#include "base/try.hpp"
 #include "glsl/overrides.hpp"
 #include "lab/fields/field_text.hpp"
 #include "lab/fields/gerstner_waves_field.hpp"
@@ -100,17 +101,15 @@ Result<std::vector<int>> values_of(const scene::Scene& scene, const std::vector<
 
 /// What of `scene` is not in the hash: the free definitions must mean what they seem to, everywhere.
 Result<FoundReference> bind(const scene::Scene& scene, const KnownField& field, const KnownText& text) {
-    const auto values = values_of(scene, field.free);
-    if (!values)
-        return fail(values.error());
-    const auto as_it_is = field_hash(scene), as_read = field_hash(with_values(scene, field.free, *values));
+    const auto values = TRY(values_of(scene, field.free));
+    const auto as_it_is = field_hash(scene), as_read = field_hash(with_values(scene, field.free, values));
     if (!as_it_is || !as_read || *as_it_is != *as_read)
         return fail(ErrorCode::load, "a definition that the reference reads has several values");
     FoundReference found{field.make, std::string(text.hash), text.sine_lattice, text.turning_poles,
                          text.drift_wraps};
     for (size_t i = 0; i < field.free.size(); ++i)
         if (field.free[i].octaves)
-            found.octaves = (*values)[i];
+            found.octaves = values[i];
     return found;
 }
 
@@ -122,13 +121,11 @@ Result<FoundReference> find_reference(const scene::Scene& scene) {
         std::vector<int> hashed;
         for (const FreeDefinition& definition : field.free)
             hashed.push_back(definition.hashed);
-        const auto hash = field_hash(with_values(scene, field.free, hashed));
-        if (!hash)
-            return fail(hash.error());
-        const auto known = std::ranges::find(field.texts, *hash, &KnownText::hash);
+        const auto hash = TRY(field_hash(with_values(scene, field.free, hashed)));
+        const auto known = std::ranges::find(field.texts, hash, &KnownText::hash);
         if (known != field.texts.end())
             return bind(scene, field, *known);
-        last = *hash;
+        last = hash;
     }
     return fail(ErrorCode::load,
                 fmt::format("no reference was written for the text of this field (SHA-256 {}...)",

@@ -1,5 +1,6 @@
 #include "lab/study/baseline.hpp"
 
+#include "base/try.hpp"
 #include "lab/study/report_data.hpp"
 #include "lab/study/verdict.hpp"
 #include "scene/json_text.hpp"
@@ -73,26 +74,24 @@ bool same_views(const Json& old, const Study& study) {
 
 Result<Comparison> compare_with(std::string_view old_study, const std::string& file,
                                 const WorkPrecisionSet& set) {
-    auto old = scene::parse_json(old_study, file);
-    if (!old)
-        return fail(std::move(old.error()));
+    auto old = TRY(scene::parse_json(old_study, file));
     const auto refuse = [&](std::string_view why) {
         return fail(ErrorCode::load, fmt::format("--baseline '{}': {}", file, why));
     };
-    if (!old->is_object() || !old->contains("schema") || (*old)["schema"] != k_study_schema ||
-        !(*old)["points"].is_array())
+    if (!old.is_object() || !old.contains("schema") || old["schema"] != k_study_schema ||
+        !old["points"].is_array())
         return refuse(
             fmt::format("no study of schema \"{}\"; give the study.json of a report", k_study_schema));
-    if (!same_views(*old, set.study))
+    if (!same_views(old, set.study))
         return refuse("that study has other views or another size");
     Comparison found;
     const Json::json_pointer renderer("/machine/renderer");
-    const bool same_machine = old->contains(renderer) && (*old)[renderer] == set.circumstances.renderer &&
-                              number_at(*old, "/machine/cores") == set.circumstances.cores;
+    const bool same_machine = old.contains(renderer) && old[renderer] == set.circumstances.renderer &&
+                              number_at(old, "/machine/cores") == set.circumstances.cores;
     if (!same_machine)
         found.notes.emplace_back("times are not compared: the baseline is of another machine");
     for (const WorkPrecision& point : set.points) {
-        const Json& points = (*old)["points"];
+        const Json& points = old["points"];
         const auto before = std::ranges::find_if(points, [&](const Json& json) {
             return json.is_object() && json.contains("all") && json.contains("label") &&
                    json["label"] == point.point.label;

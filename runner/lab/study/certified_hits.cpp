@@ -1,4 +1,5 @@
 #include "base/hash.hpp"
+#include "base/try.hpp"
 #include "lab/fields/certified_march.hpp"
 #include "lab/study/stricter.hpp"
 #include "lab/study/truth.hpp"
@@ -51,12 +52,10 @@ struct NamedLattice {
 Result<NamedLattice> lattice_of(const FoundReference& found) {
     if (!found.sine_lattice)
         return NamedLattice{IntegerLattice{}, "integer lattice, the same on every device"};
-    auto lattice = read_sine_lattice();
-    if (!lattice)
-        return fail(std::move(lattice.error()));
-    const std::string digest = sha256(std::as_bytes(std::span(lattice->values)));
+    auto lattice = TRY(read_sine_lattice());
+    const std::string digest = sha256(std::as_bytes(std::span(lattice.values)));
     return NamedLattice{
-        *std::move(lattice),
+        std::move(lattice),
         fmt::format("lattice of sines read back from this device (SHA-256 {}...)", digest.substr(0, 12))};
 }
 
@@ -175,19 +174,15 @@ Standard standard_of(const FoundReference& found, const std::vector<Setting>& se
 Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& study,
                                      const KeepGoing& keep_going) {
     const std::vector<Setting> settings = strictest(study, 0);
-    const auto set = with(scene, settings);
-    if (!set)
-        return fail(set.error());
-    const auto found = find_reference(*set);
+    const auto set = TRY(with(scene, settings));
+    const auto found = find_reference(set);
     if (!found)
         return CertifiedHits{{}, found.error().message};
-    const auto lattice = lattice_of(*found);
-    if (!lattice)
-        return fail(lattice.error());
+    const auto lattice = TRY(lattice_of(*found));
     HitTruth truth;
     SelfCheck check;
     for (const View& view : study.views) {
-        auto reference = reference_of(*found, *set, view, study.extent, lattice->lattice);
+        auto reference = reference_of(*found, set, view, study.extent, lattice.lattice);
         if (!reference)
             return CertifiedHits{{}, reference.error().message};
         Hits hits, stricter;
@@ -207,7 +202,7 @@ Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& stu
     if (double(blind) > k_most_blind * double(rays))
         return CertifiedHits{{}, fmt::format("its field is NaN on {} of {} rays", blind, rays)};
     const double lipschitz = truth.references.empty() ? 0 : truth.references.front().field.lipschitz;
-    truth.standard = standard_of(*found, settings, lipschitz, lattice->name, check);
+    truth.standard = standard_of(*found, settings, lipschitz, lattice.name, check);
     truth.standard.blind = blind;
     return CertifiedHits{std::move(truth), {}};
 }

@@ -1,5 +1,6 @@
 #include "lab/study/conduct.hpp"
 
+#include "base/try.hpp"
 #include "gl/capabilities.hpp"
 #include "glsl/overrides.hpp"
 #include "lab/study/curves.hpp"
@@ -41,11 +42,9 @@ public:
     }
 
     Result<Findings> run() {
-        if (auto named = check_settings(); !named)
-            return fail(std::move(named.error()));
+        TRY(check_settings());
         for (const auto part : {&Conductor::look, &Conductor::find_truth})
-            if (auto done = (this->*part)(); !done)
-                return fail(std::move(done.error()));
+            TRY((this->*part)());
         hold_against_truth();
         take_sources_away();
         const bool complete = time_points(
@@ -87,8 +86,7 @@ private:
         for (const WorkPrecision& point : set().points)
             all.push_back(point.point.settings);
         for (const auto& settings : all)
-            if (auto good = with(scene_, settings); !good)
-                return fail(std::move(good.error()));
+            TRY(with(scene_, settings));
         const std::vector<std::string> names = set_names(set());
         for (const std::string& name : names)
             set().scene_values.push_back({name, value_of(scene_, name)});
@@ -109,10 +107,8 @@ private:
         if (known != known_sights_.end())
             return &known->second;
         auto specimen = Specimen::create(scene_, recipe, study().extent);
-        auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
-        if (!sight)
-            return fail(std::move(sight.error()));
-        return &(known_sights_[name] = *std::move(sight));
+        auto sight = TRY(specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error())));
+        return &(known_sights_[name] = std::move(sight));
     }
 
     Result<Sight> sight_of(Specimen& specimen) {
@@ -121,10 +117,8 @@ private:
             sight.pictures.push_back(specimen.picture(view));
             if (!specimen.has_hits())
                 continue;
-            auto hits = specimen.hits(view);
-            if (!hits)
-                return fail(std::move(hits.error()));
-            sight.hits.push_back(*std::move(hits));
+            auto hits = TRY(specimen.hits(view));
+            sight.hits.push_back(std::move(hits));
         }
         return sight;
     }

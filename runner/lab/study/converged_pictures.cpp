@@ -1,3 +1,4 @@
+#include "base/try.hpp"
 #include "lab/stopwatch.hpp"
 #include "lab/study/convergence.hpp"
 #include "lab/study/stricter.hpp"
@@ -82,8 +83,7 @@ public:
         : scene_(scene), study_(study), keep_going_(keep_going), precision_(study.precision) {}
 
     Result<PictureTruth> climb() {
-        if (auto begun = begin(); !begun)
-            return fail(std::move(begun.error()));
+        TRY(begin());
         while (step_up())
             ;
         return truth();
@@ -97,20 +97,16 @@ private:
 
     Result<std::optional<Shown>> show(std::vector<Setting> settings) {
         const Stopwatch watch;
-        auto specimen = Specimen::create(scene_, {settings, precision_}, study_.extent);
-        if (!specimen)
-            return fail(std::move(specimen.error()));
-        Shown shown{std::move(settings), {}, {}, specimen->kept_hashes()};
+        auto specimen = TRY(Specimen::create(scene_, {settings, precision_}, study_.extent));
+        Shown shown{std::move(settings), {}, {}, specimen.kept_hashes()};
         for (const View& view : study_.views) {
             if (!keep_going_())
                 return std::optional<Shown>{};
-            shown.pictures.push_back(specimen->picture(view));
-            if (!specimen->has_hits())
+            shown.pictures.push_back(specimen.picture(view));
+            if (!specimen.has_hits())
                 continue;
-            auto hits = specimen->hits(view);
-            if (!hits)
-                return fail(std::move(hits.error()));
-            shown.hits.push_back(*std::move(hits));
+            auto hits = TRY(specimen.hits(view));
+            shown.hits.push_back(std::move(hits));
         }
         shown.seconds = watch.elapsed().wall * 1e-3;
         return std::optional<Shown>(std::move(shown));
@@ -131,12 +127,10 @@ private:
                                          : fmt::format("in double it took {:.0f} s", (*promoted)->seconds);
             precision_ = glsl::Precision::single;
         }
-        auto first = show(strictest(study_, 0));
+        auto first = TRY(show(strictest(study_, 0)));
         if (!first)
-            return fail(std::move(first.error()));
-        if (!*first)
             return fail(ErrorCode::check_failed, "interrupted before there was a reference");
-        take_first(**std::move(first));
+        take_first(*std::move(first));
         return {};
     }
 

@@ -3,6 +3,7 @@
 #include "base/base64.hpp"
 #include "base/file.hpp"
 #include "base/scratch_folder.hpp"
+#include "base/try.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/flip.hpp"
 #include "image/files/child_process.hpp"
@@ -45,12 +46,10 @@ private:
             if (auto made = make_folder(name.has_parent_path() ? folder_ / name.parent_path() : folder_);
                 !made)
                 return made;
-            auto file = StagedFile::create(folder_ / name);
-            if (!file)
-                return fail(std::move(file.error()));
-            if (auto done = file->write(std::as_bytes(std::span(bytes))); !done)
+            auto file = TRY(StagedFile::create(folder_ / name));
+            if (auto done = file.write(std::as_bytes(std::span(bytes))); !done)
                 return done;
-            staged.push_back(*std::move(file));
+            staged.push_back(std::move(file));
         }
         for (StagedFile& file : staged)
             if (auto done = file.commit(); !done)
@@ -112,21 +111,16 @@ private:
     /// Keeps a picture, and returns it for the page.
     Result<std::string> keep(const std::string& name, const image::Image& picture) {
         const fs::path file = scratch_.path() / (name + ".png");
-        if (auto done = image::write_picture(file, picture); !done)
-            return fail(std::move(done.error()));
-        auto bytes = read_file(file, size_t{1} << 30);
-        if (!bytes)
-            return fail(bytes.error());
-        std::string source = "data:image/png;base64," + base64(*bytes);
-        add(fs::path("maps") / (name + ".png"), *std::move(bytes));
+        TRY(image::write_picture(file, picture));
+        auto bytes = TRY(read_file(file, size_t{1} << 30));
+        std::string source = "data:image/png;base64," + base64(bytes);
+        add(fs::path("maps") / (name + ".png"), std::move(bytes));
         return source;
     }
 
     Result<void> show(const std::string& label, const std::string& name, const image::Image& picture) {
-        auto source = keep(name, picture);
-        if (!source)
-            return fail(std::move(source.error()));
-        media_.pictures.push_back({label, *std::move(source)});
+        auto source = TRY(keep(name, picture));
+        media_.pictures.push_back({label, std::move(source)});
         return {};
     }
 
@@ -147,16 +141,12 @@ private:
             if (auto done = show(label, fmt::format("{:02}-picture", i), picture); !done)
                 return done;
             auto flip =
-                keep(fmt::format("{:02}-flip", i), image::heat_map(image::flip(reference, picture).map));
-            if (!flip)
-                return fail(std::move(flip.error()));
-            maps.push_back({"FLIP: " + label, *std::move(flip)});
+                TRY(keep(fmt::format("{:02}-flip", i), image::heat_map(image::flip(reference, picture).map)));
+            maps.push_back({"FLIP: " + label, std::move(flip)});
             if (evidence_.causes[i].empty())
                 continue;
-            auto causes = keep(fmt::format("{:02}-causes", i), evidence_.causes[i][view]);
-            if (!causes)
-                return fail(std::move(causes.error()));
-            maps.push_back({"causes: " + label, *std::move(causes)});
+            auto causes = TRY(keep(fmt::format("{:02}-causes", i), evidence_.causes[i][view]));
+            maps.push_back({"causes: " + label, std::move(causes)});
         }
         std::ranges::move(maps, std::back_inserter(media_.pictures));
         return {};

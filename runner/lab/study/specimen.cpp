@@ -1,5 +1,6 @@
 #include "lab/study/specimen.hpp"
 
+#include "base/try.hpp"
 #include "gl/elapsed_time.hpp"
 #include "glsl/hit.hpp"
 
@@ -20,20 +21,18 @@ void draw(render::Renderer& renderer, const View& view) {
 } // namespace
 
 Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recipe, Extent extent) {
-    auto set = with(scene, recipe.settings);
-    if (!set)
-        return fail(std::move(set.error()));
+    auto set = TRY(with(scene, recipe.settings));
     Specimen specimen;
     specimen.extent_ = extent;
     specimen.precision_ = recipe.precision;
-    specimen.hit_scene_ = glsl::hit_scene(*set);
+    specimen.hit_scene_ = glsl::hit_scene(set);
     const Stopwatch watch;
     auto renderer = render::Renderer::create(
-        *std::move(set), {.extent = extent,
-                          .samples = image::SampleType::f32,
-                          .precision = recipe.precision,
-                          .specialise = glsl::Specialise::unreachable,
-                          .extras = {.unchanged = true}}); // what drawing costs is the question
+        std::move(set), {.extent = extent,
+                         .samples = image::SampleType::f32,
+                         .precision = recipe.precision,
+                         .specialise = glsl::Specialise::unreachable,
+                         .extras = {.unchanged = true}}); // what drawing costs is the question
     if (!renderer)
         return fail(std::move(renderer.error()));
     specimen.compile_milliseconds_ = watch.elapsed().wall;
@@ -53,11 +52,9 @@ image::Image Specimen::picture(const View& view) {
 
 Result<Hits> Specimen::hits(const View& view) {
     if (!hit_renderer_) {
-        auto renderer = render::Renderer::create(
-            *hit_scene_, {extent_, image::SampleType::f32, "", precision_, glsl::Specialise::unreachable});
-        if (!renderer)
-            return fail(std::move(renderer.error()));
-        hit_renderer_ = *std::move(renderer);
+        auto renderer = TRY(render::Renderer::create(
+            *hit_scene_, {extent_, image::SampleType::f32, "", precision_, glsl::Specialise::unreachable}));
+        hit_renderer_ = std::move(renderer);
     }
     draw(*hit_renderer_, view);
     return hits_of(hit_renderer_->read_back());

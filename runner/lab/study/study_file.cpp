@@ -1,3 +1,4 @@
+#include "base/try.hpp"
 #include "lab/study/study.hpp"
 #include "scene/json_text.hpp"
 
@@ -239,10 +240,8 @@ private:
 } // namespace
 
 Result<Study> parse_study(std::string_view text, const std::string& file) {
-    const auto json = scene::parse_json(text, file);
-    if (!json)
-        return fail(json.error());
-    return Reader(file, text).read(*json);
+    const auto json = TRY(scene::parse_json(text, file));
+    return Reader(file, text).read(json);
 }
 
 } // namespace tidemark::lab

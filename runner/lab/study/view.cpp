@@ -1,5 +1,7 @@
 #include "lab/study/view.hpp"
 
+#include "base/try.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,8 +70,7 @@ Result<std::vector<View>> parse_views(std::string_view text) {
                 fmt::format("--views {}: give times and places of the mouse, as in 0;10@0.75,0.4, or a "
                             ".json file",
                             text));
-        if (auto checked = check(view); !checked)
-            return fail(checked.error());
+        TRY(check(view));
         if (std::ranges::find(views, view.name, &View::name) != views.end())
             return fail(ErrorCode::usage,
                         fmt::format("--views {}: '{}' stands there twice", text, view.name));

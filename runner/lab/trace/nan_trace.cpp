@@ -1,5 +1,6 @@
 #include "lab/trace/nan_trace.hpp"
 
+#include "base/try.hpp"
 #include "image/census.hpp"
 #include "lab/trace/birth.hpp"
 
@@ -49,14 +50,12 @@ public:
 
     Result<void> run(bool nan_only) {
         nan_only_ = nan_only;
-        auto reading = locate();
-        if (!reading)
-            return fail(std::move(reading.error()));
-        compare(*reading);
-        if (reading->hit() == k_no_node) {
+        auto reading = TRY(locate());
+        compare(reading);
+        if (reading.hit() == k_no_node) {
             return {};
         }
-        return follow(reading->hit());
+        return follow(reading.hit());
     }
 
 private:
@@ -101,10 +100,8 @@ private:
             return statement;
         WatchRequest inside = watch_request(Reach::operations);
         inside.within = statement;
-        const auto reading = read(inside);
-        if (!reading)
-            return fail(reading.error());
-        return reading->hit() != k_no_node ? reading->hit() : statement;
+        const auto reading = TRY(read(inside));
+        return reading.hit() != k_no_node ? reading.hit() : statement;
     }
 
     Result<Birth> captured(NodeId statement, NodeId operation) const {
@@ -113,11 +110,9 @@ private:
         request.within = statement;
         request.capture = operation;
         const glsl::Watch watch = glsl::watch(watched_.text, watched_.facts, request);
-        auto reading = read_pixel(preview_, watch, trace_.pixel);
-        if (!reading)
-            return fail(std::move(reading.error()));
-        if (reading->hit() == operation)
-            add_reading(birth, watched_, operation, watch, *reading, preview_.scene(), preview_.pass());
+        auto reading = TRY(read_pixel(preview_, watch, trace_.pixel));
+        if (reading.hit() == operation)
+            add_reading(birth, watched_, operation, watch, reading, preview_.scene(), preview_.pass());
         return birth;
     }
 
@@ -132,28 +127,22 @@ private:
         tell();
         NodeId operation = k_no_node;
         for (;;) {
-            const auto narrowed = narrow(statement);
-            if (!narrowed)
-                return fail(narrowed.error());
-            operation = *narrowed;
+            const auto narrowed = TRY(narrow(statement));
+            operation = narrowed;
             if (repaired_.empty()) {
-                auto birth = captured(everything_ ? operation : statement, operation);
-                if (!birth)
-                    return fail(std::move(birth.error()));
-                trace_.first = *std::move(birth);
+                auto birth = TRY(captured(everything_ ? operation : statement, operation));
+                trace_.first = std::move(birth);
                 tell();
                 if (trace_.washed)
                     return {};
             }
             repaired_.push_back(operation);
-            auto reading = locate();
-            if (!reading)
-                return fail(std::move(reading.error()));
-            if (is_finite(reading->colour))
+            auto reading = TRY(locate());
+            if (is_finite(reading.colour))
                 return cured(statement, operation);
-            if (reading->hit() == k_no_node || repaired_.size() == k_most_repairs)
+            if (reading.hit() == k_no_node || repaired_.size() == k_most_repairs)
                 break;
-            statement = reading->hit();
+            statement = reading.hit();
         }
         trace_.notes.push_back(
             fmt::format("mending {} operations does not mend the pixel", repaired_.size()));
@@ -167,10 +156,8 @@ private:
             return {};
         }
         repaired_.pop_back();
-        auto birth = captured(everything_ ? operation : statement, operation);
-        if (!birth)
-            return fail(std::move(birth.error()));
-        trace_.cure = *std::move(birth);
+        auto birth = TRY(captured(everything_ ? operation : statement, operation));
+        trace_.cure = std::move(birth);
         return {};
     }
 
@@ -245,11 +232,9 @@ private:
         if (request_.progress && !trace.washed)
             request_.progress(trace);
         const PassPreview preview = stepper_.preview(bad.frame, bad.pass, tell_of_steps());
-        auto text = read_text(renderer_, bad.pass);
-        if (!text)
-            return fail(std::move(text.error()));
-        const glsl::TreeFacts facts = glsl::find_facts(**text);
-        const WatchedText watched{**text, facts};
+        auto text = TRY(read_text(renderer_, bad.pass));
+        const glsl::TreeFacts facts = glsl::find_facts(*text);
+        const WatchedText watched{*text, facts};
         if (auto done = PixelTracer(preview, watched, trace, request_).run(nan_only); !done)
             trace.notes.push_back(to_string(done.error()));
         if (trace.washed && !trace.first)
@@ -262,11 +247,9 @@ private:
         for (const render::PlannedPass& planned : renderer_.plan().passes) {
             if (renderer_.scene().passes[planned.pass].kind == scene::PassKind::cubemap)
                 continue;
-            const auto pixel = first_hidden(planned.pass);
-            if (!pixel)
-                return fail(pixel.error());
-            if (*pixel)
-                return trace({planned.pass, request_.frame, **pixel}, true);
+            const auto pixel = TRY(first_hidden(planned.pass));
+            if (pixel)
+                return trace({planned.pass, request_.frame, *pixel}, true);
         }
         return std::optional<NanTrace>();
     }
@@ -274,20 +257,17 @@ private:
     /// The first pixel of the pass in which an operation gives NaN.
     Result<std::optional<PixelPlace>> first_hidden(size_t pass) {
         const PassPreview preview = stepper_.preview(request_.frame, pass, tell_of_steps());
-        auto text = read_text(renderer_, pass);
-        if (!text)
-            return fail(std::move(text.error()));
+        auto text = TRY(read_text(renderer_, pass));
         WatchRequest watch_request;
         watch_request.reach = Reach::everything;
         watch_request.nan_only = true;
         watch_request.map_width = preview.extent().width;
-        const auto hits = read_map(preview, glsl::watch(**text, glsl::find_facts(**text), watch_request), 0);
-        if (!hits)
-            return fail(hits.error());
-        const auto hit = std::find_if(hits->begin(), hits->end(), [](NodeId id) { return id != 0; });
-        if (hit == hits->end())
+        const auto hits =
+            TRY(read_map(preview, glsl::watch(*text, glsl::find_facts(*text), watch_request), 0));
+        const auto hit = std::find_if(hits.begin(), hits.end(), [](NodeId id) { return id != 0; });
+        if (hit == hits.end())
             return std::optional<PixelPlace>();
-        const int index = int(hit - hits->begin());
+        const int index = int(hit - hits.begin());
         const int width = watch_request.map_width;
         return PixelPlace{index % width, index / width, 0};
     }

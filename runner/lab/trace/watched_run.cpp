@@ -1,5 +1,6 @@
 #include "lab/trace/watched_run.hpp"
 
+#include "base/try.hpp"
 #include "gl/capabilities.hpp"
 #include "glsl/assemble.hpp"
 #include "lab/trace/shader_words.hpp"
@@ -16,12 +17,10 @@ struct Drawn {
 };
 
 Result<Drawn> draw(const PassPreview& preview, const glsl::Watch& watch, size_t words, int face) {
-    auto stand_in = StandIn::link(preview, watch.text, "the watched text");
-    if (!stand_in)
-        return fail(std::move(stand_in.error()));
+    auto stand_in = TRY(StandIn::link(preview, watch.text, "the watched text"));
     const ShaderWords buffer(words);
-    stand_in->draw(preview, face);
-    return Drawn{*std::move(stand_in), buffer.read()};
+    stand_in.draw(preview, face);
+    return Drawn{std::move(stand_in), buffer.read()};
 }
 
 } // namespace
@@ -70,10 +69,8 @@ Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& w
 }
 
 Result<std::vector<glsl::NodeId>> read_map(const PassPreview& preview, const glsl::Watch& watch, int face) {
-    auto drawn = draw(preview, watch, preview.extent().pixels(), face);
-    if (!drawn)
-        return fail(std::move(drawn.error()));
-    return std::move(drawn->words);
+    auto drawn = TRY(draw(preview, watch, preview.extent().pixels(), face));
+    return std::move(drawn.words);
 }
 
 } // namespace tidemark::lab

@@ -21,12 +21,12 @@ std::string refusal(const FrameOptions& options) {
 TEST(Resolve, defaults) {
     const auto request = resolve({});
     ASSERT_TRUE(request);
-    EXPECT_EQ(request->extent, (Extent{640, 360}));
-    EXPECT_EQ(request->fps, 60);
+    EXPECT_EQ(request->state.extent, (Extent{640, 360}));
+    EXPECT_EQ(request->state.fps, 60);
     EXPECT_THAT(request->frames, ElementsAre(0));
-    EXPECT_FALSE(request->time);
-    EXPECT_EQ(request->mouse, glm::vec4(0));
-    EXPECT_EQ(request->date, render::Date{});
+    EXPECT_FALSE(request->state.time);
+    EXPECT_EQ(request->state.mouse.uniform(), glm::vec4(0));
+    EXPECT_EQ(request->state.date, render::Date{});
 }
 
 TEST(Resolve, everything) {
@@ -39,12 +39,12 @@ TEST(Resolve, everything) {
     options.camera = "10,20,30";
     const auto request = resolve(options);
     ASSERT_TRUE(request);
-    EXPECT_EQ(request->extent, (Extent{8, 4}));
-    EXPECT_EQ(request->fps, 29.97);
+    EXPECT_EQ(request->state.extent, (Extent{8, 4}));
+    EXPECT_EQ(request->state.fps, 29.97);
     EXPECT_THAT(request->frames, ElementsAre(1, 2));
-    EXPECT_EQ(request->mouse, glm::vec4(3, 4, -3, -4));
-    EXPECT_EQ(request->date, (render::Date{2020, 1, 3, 0}));
-    EXPECT_EQ(request->camera.distance, 30);
+    EXPECT_EQ(request->state.mouse.uniform(), glm::vec4(3, 4, -3, -4));
+    EXPECT_EQ(request->state.date, (render::Date{2020, 1, 3, 0}));
+    EXPECT_EQ(request->state.camera.distance, 30);
 }
 
 TEST(Resolve, one_frame_or_one_time) {
@@ -53,7 +53,7 @@ TEST(Resolve, one_frame_or_one_time) {
     EXPECT_THAT(resolve(options)->frames, ElementsAre(7));
     options.frame.reset();
     options.time = -1.5;
-    EXPECT_EQ(resolve(options)->time, -1.5);
+    EXPECT_EQ(resolve(options)->state.time, -1.5);
     EXPECT_THAT(resolve(options)->frames, ElementsAre(0));
     options.time = 2;
     EXPECT_THAT(resolve(options)->frames, ElementsAre(120));

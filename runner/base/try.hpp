@@ -1,0 +1,27 @@
+// Handing an error on, in one word: `const auto scene = TRY(load_scene(path));`.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <type_traits>
+#include <utility>
+
+namespace tidemark {
+
+template <class T>
+T value_of(Result<T>&& result) {
+    if constexpr (!std::is_void_v<T>)
+        return *std::move(result);
+}
+
+} // namespace tidemark
+
+/// The value of a Result; where it is an error, the function around returns that. A statement expression,
+/// which GCC and clang have.
+#define TRY(...)                                                                                             \
+    __extension__({                                                                                          \
+        auto tidemark_result = (__VA_ARGS__);                                                                \
+        if (!tidemark_result)                                                                                \
+            return ::tidemark::fail(std::move(tidemark_result).error());                                     \
+        ::tidemark::value_of(std::move(tidemark_result));                                                    \
+    })
