@@ -85,10 +85,10 @@ void say_what_is_not_finite(const std::vector<FrameRecord>& records, const Captu
         return;
     const auto others = std::ranges::count_if(first + 1, records.end(), bad);
     say(fmt::format("warning: {} not finite{}; where from: {}",
-                    pixels_are(first->not_finite, fmt::format("of frame {}", first->state.frame)),
+                    pixels_are(first->not_finite, fmt::format("of frame {}", first->frame)),
                     others > 0 ? fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")
                                : "",
-                    plan.trace_command(first->state)));
+                    plan.trace_command(states_of(plan.frames)(first->frame))));
 }
 
 /// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong

@@ -91,7 +91,7 @@ void Capture::prepare(Interrupt& interrupt) {
 bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
     record.file = plan_.output.of_frame(frame).string();
-    record.state = states_(frame);
+    record.frame = frame;
     const auto begun = Clock::now(); // the limit is on the frame and on all that lead to it
     const auto steps_drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
@@ -142,7 +142,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
         return !interrupt.requested();
     };
-    auto drawn = render::draw_bands(renderer_, inputs_of(record.state), before_tile,
+    auto drawn = render::draw_bands(renderer_, inputs_of(states_(frame)), before_tile,
                                     [&](image::Image band) { return bands.take(std::move(band)); });
     if (drawn && *drawn) {
         progress.advance();
@@ -164,8 +164,8 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     if (!plan_.output.standard_output()) {
         // Image's alpha is 1.
         const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
-        auto made = TRY(image::PictureStream::create(plan_.output.of_frame(record.state.frame),
-                                                     renderer_.extent(), alpha, format_of(record)));
+        auto made = TRY(image::PictureStream::create(plan_.output.of_frame(record.frame), renderer_.extent(),
+                                                     alpha, format_of(record)));
         stream.emplace(std::move(made));
     }
     return std::make_unique<BandOutput>(std::move(stream), plan_.json);
@@ -194,18 +194,18 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     if (!writer_)
         return put_raw(image).map([] { return true; });
     if (!plan_.output.six_faces())
-        return writer_->push({record.state.frame, plan_.output.of_frame(record.state.frame), std::move(image),
-                              format_of(record)});
+        return writer_->push(
+            {record.frame, plan_.output.of_frame(record.frame), std::move(image), format_of(record)});
     const auto faces = image::cube_of_picture(image);
     bool wanted = faces.has_value();
     for (size_t i = 0; wanted && i < faces->size(); ++i)
-        wanted = writer_->push({record.state.frame, plan_.output.of_face(record.state.frame, i),
+        wanted = writer_->push({record.frame, plan_.output.of_face(record.frame, i),
                                 image::flipped((*faces)[i]), format_of(record)});
     return wanted;
 }
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
-    image::PictureFormat format{plan_.depth, metadata_of(renderer_.scene(), record.state)};
+    image::PictureFormat format{plan_.depth, metadata_of(renderer_.scene(), states_(record.frame))};
     const Extent extent = renderer_.extent();
     format.metadata.insert(format.metadata.end(),
                            {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
@@ -236,11 +236,12 @@ nlohmann::ordered_json Capture::report() const {
     report["left_out"] = facts_of(renderer_).left_out;
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records_) {
-        const glm::vec4 mouse = record.state.mouse.uniform();
-        report["frames"].push_back({{"frame", record.state.frame},
-                                    {"iTime", record.state.seconds()},
+        const render::FrameState state = states_(record.frame);
+        const glm::vec4 mouse = state.mouse.uniform();
+        report["frames"].push_back({{"frame", record.frame},
+                                    {"iTime", state.seconds()},
                                     {"iMouse", {mouse.x, mouse.y, mouse.z, mouse.w}},
-                                    {"camera", camera_fact(record.state.camera)},
+                                    {"camera", camera_fact(state.camera)},
                                     {"file", record.file},
                                     {"sha256", record.sha256},
                                     {"not_finite", record.not_finite},
