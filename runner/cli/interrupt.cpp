@@ -13,7 +13,10 @@ Interrupt::Interrupt() {
     if (hang_up.sa_handler != SIG_IGN) // as under nohup
         sigaddset(&signals_, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals_, &previous_mask_);
+    // Whoever forks after this finds no thread half started, which may hold a lock that the child then waits
+    // for.
     listener_ = std::thread([this] {
+        started_.count_down();
         int signal = 0;
         while (sigwait(&signals_, &signal) == 0) {
             if (ending_)
@@ -26,6 +29,7 @@ Interrupt::Interrupt() {
                 wake_();
         }
     });
+    started_.wait();
 }
 
 void Interrupt::wake_by(void (*wake)()) {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <latch>
 #include <mutex>
 #include <thread>
 
@@ -57,6 +58,7 @@ private:
     std::atomic<bool> ending_ = false;
     std::mutex mutex_;
     void (*wake_)() = nullptr; ///< under the mutex
+    std::latch started_{1};
     std::thread listener_;
 };
 

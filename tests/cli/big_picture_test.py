@@ -8,7 +8,7 @@ import subprocess
 import time
 
 from support import png
-from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
+from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main, not_sanitized
 
 # Each pixel says where it is; the blue ones by a derivative over two pixels.
 PLACES = """void mainImage(out vec4 c, in vec2 p) {
@@ -134,6 +134,7 @@ class Refusals(BigPicture):
         self.assertEqual(self.files(), {"places.glsl", "slow.glsl"})
 
 
+@not_sanitized
 class Memory(BigPicture):
     def peak(self, *options: str) -> int:
         """KiB."""

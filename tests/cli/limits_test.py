@@ -2,7 +2,7 @@
 import os
 import resource
 
-from support.program import PROGRAM, ProgramTest, environment, main
+from support.program import PROGRAM, ProgramTest, environment, main, not_sanitized
 
 SCENE = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / 8.0, sin(iTime), 1.0); }\n"
 MEBIBYTE = 1 << 20
@@ -10,6 +10,7 @@ DOCUMENTED = {0, 3, 4, 5, 77}
 NOBODY = 61234  # a user of no other process: limits of processes count them all, and root has none
 
 
+@not_sanitized
 class Limits(ProgramTest):
     def run_under(self, limit: int, value: int, *arguments: str, user: int | None = None):
         def prepare() -> None:

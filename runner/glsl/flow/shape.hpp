@@ -21,7 +21,7 @@ struct Shape {
     std::string_view type{}; ///< its name; of an array that of its elements; empty: a structure without one
     size_t length = 0;       ///< of a vector, an array, a matrix (columns); 0: an array's is not known
     const Shape* part = nullptr; ///< element of an array, column of a matrix, component of a vector
-    std::vector<Member> members{};
+    std::vector<Member> members;
     unsigned slots =
         1; ///< numbers that are told apart; where they would be too many, the whole counts as one
     bool whole = false; ///< its parts are not told apart
