@@ -145,7 +145,7 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
         const std::string_view words = error.what();
         return report(
             {ErrorCode::usage,
-             fmt::format("{}: this is no number", words.substr(std::min(words.find("--"), words.size()))),
+             fmt::format("{}: not a number", words.substr(std::min(words.find("--"), words.size()))),
              {}});
     } catch (const CLI::Error& error) {
         return report({ErrorCode::usage, error.what(), {}});

@@ -39,7 +39,7 @@ public:
             else
                 local(variable);
         for (const NodeId function : all.without_return)
-            give_back(function);
+            add_return(function);
         for (NodeId id = tree_[0].first_child; id != k_no_node; id = tree_[id].next)
             if (tree_[id].kind == NodeKind::function)
                 name_parameters(id);
@@ -82,7 +82,7 @@ private:
                             variable.needs_value());
     }
 
-    void give_back(NodeId function) {
+    void add_return(NodeId function) {
         const Shape& shape = shapes_.of(tree_.child(function, 0), k_no_node);
         if (!shape.can_be_zero() || shape.type.empty())
             return;

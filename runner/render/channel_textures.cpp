@@ -295,7 +295,7 @@ Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& ch
 void ChannelTextures::update(const FrameInputs& inputs) {
     for (Entry& entry : entries_)
         if (entry.update && entry.update(entry.texture, inputs))
-            ++entry.edition;
+            ++entry.generation;
 }
 
 bool ChannelTextures::follow_clock() const {

@@ -46,7 +46,7 @@ public:
     void update(const FrameInputs& inputs);
 
     const gl::Texture& texture(Index index) const { return entries_[size_t(index)].texture; }
-    Edition edition(Index index) const { return entries_[size_t(index)].edition; }
+    Generation generation(Index index) const { return entries_[size_t(index)].generation; }
     /// Whether `update` may change something although nobody did anything: music and videos play.
     bool follow_clock() const;
     ChannelFact fact(Index index, const FrameInputs& inputs) const;
@@ -60,7 +60,7 @@ private:
         gl::Texture texture;
         TextureUpdate update;
         std::optional<Playback> playback;
-        Edition edition = 0;
+        Generation generation = 0;
     };
 
     std::vector<Entry> entries_;

@@ -15,6 +15,8 @@ struct FrameField {
     T FrameState::*member;
     std::string_view option{}; ///< of `tidemark capture`; empty: no option says it
 };
+template <class T>
+FrameField(std::string_view, T FrameState::*, std::string_view = {}) -> FrameField<T>; // for clang 14
 
 inline constexpr auto k_frame_fields = std::tuple{
     FrameField{"frame", &FrameState::frame, "--frame"},

@@ -32,7 +32,7 @@ public:
     size_t bytes() const;
     GLenum internal_format() const { return latest().texture.internal_format; }
     /// Of the picture in `latest`.
-    Edition edition() const { return edition_; }
+    Generation generation() const { return edition_; }
     /// Shows what `other` shows, as far as it reaches; of the same format.
     void continue_from(const PassTarget& other);
     /// A target of another size with the overlap of the old picture in its bottom left corner.
@@ -43,7 +43,7 @@ private:
 
     std::vector<gl::RenderTarget> surfaces_;
     size_t latest_ = 0;
-    Edition edition_ = 0;
+    Generation edition_ = 0;
     TargetPlan plan_;
 };
 

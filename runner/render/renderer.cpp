@@ -217,10 +217,10 @@ void Renderer::draw_before(size_t pass, const FrameInputs& inputs) {
     }
 }
 
-Edition Renderer::edition_of(const BoundChannel& channel) const {
+Generation Renderer::edition_of(const BoundChannel& channel) const {
     const auto* output = std::get_if<scene::PassOutput>(&channel.source);
-    return output ? passes_[output->pass].target.edition()
-                  : textures_.edition(std::get<ChannelTextures::Index>(channel.source));
+    return output ? passes_[output->pass].target.generation()
+                  : textures_.generation(std::get<ChannelTextures::Index>(channel.source));
 }
 
 UniformValues Renderer::uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
@@ -247,8 +247,8 @@ void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
     for (const BoundChannel& channel : pass.channels)
         reads.channels.push_back(edition_of(channel));
     if (linked.discards && &into != &pass.target.latest()) // else what is discarded stays as it is shown
-        reads.channels.push_back(pass.target.edition());
-    if (!compiled_.options().extras.unchanged && pass.drawn.holds(reads, pass.target.edition()))
+        reads.channels.push_back(pass.target.generation());
+    if (!compiled_.options().extras.unchanged && pass.drawn.holds(reads, pass.target.generation()))
         return;
     uniforms.upload(linked.program, reads.uniforms);
     bind_textures(index);
@@ -260,7 +260,7 @@ void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
         draw_face(linked.program, into, into.extent());
     }
     pass.target.flip();
-    pass.drawn.drew(std::move(reads), pass.target.edition());
+    pass.drawn.drew(std::move(reads), pass.target.generation());
     ++passes_drawn_;
     draws_in_frame_ += size_t(faces);
 }

@@ -132,7 +132,7 @@ private:
     ChannelFacts facts_of(size_t pass, const FrameInputs& inputs) const;
     void bind_textures(size_t pass) const;
     const gl::Texture& texture_of(const BoundChannel& channel) const;
-    Edition edition_of(const BoundChannel& channel) const;
+    Generation edition_of(const BoundChannel& channel) const;
 
     CompiledScene compiled_;
     Extent extent_;

@@ -1,21 +1,8 @@
 #include "scene/channel_input.hpp"
 
+#include <utility>
+
 namespace tidemark::scene {
-namespace {
-
-template <class Input>
-auto* pass_of(Input& input) {
-    return std::visit(
-        [](auto& kind) -> decltype(source_pass(input)) {
-            if constexpr (k_traits<std::decay_t<decltype(kind)>>.from == ReadsFrom::pass)
-                return &kind.pass;
-            else
-                return nullptr;
-        },
-        input);
-}
-
-} // namespace
 
 std::span<const std::filesystem::path> input_files(const ChannelInput& input) {
     return std::visit(
@@ -31,11 +18,18 @@ std::span<const std::filesystem::path> input_files(const ChannelInput& input) {
 }
 
 const size_t* source_pass(const ChannelInput& input) {
-    return pass_of(input);
+    return std::visit(
+        []<class Kind>(const Kind& kind) -> const size_t* {
+            if constexpr (k_traits<Kind>.from == ReadsFrom::pass)
+                return &kind.pass;
+            else
+                return nullptr;
+        },
+        input);
 }
 
 size_t* source_pass(ChannelInput& input) {
-    return pass_of(input);
+    return const_cast<size_t*>(source_pass(std::as_const(input))); // `input` is not const
 }
 
 } // namespace tidemark::scene

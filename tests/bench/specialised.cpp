@@ -39,7 +39,7 @@ struct Level {
 };
 constexpr Level k_levels[] = {{Specialise::nothing, "plain"},
                               {Specialise::unreachable, "unreachable"},
-                              {Specialise::settled, "settled"},
+                              {Specialise::invariant_uniforms, "settled"},
                               {Specialise::constants, "constants"}};
 
 double cpu_milliseconds() {
@@ -77,7 +77,7 @@ Json json_of(const render::Renderer& renderer) {
         const glsl::LeftOut& left_out = renderer.left_out(planned.pass);
         json["lines"] = json["lines"].get<int>() + left_out.lines;
         json["branches"] = json["branches"].get<int>() + left_out.branches;
-        json["hoisted"] = json["hoisted"].get<int>() + left_out.hoisted;
+        json["hoisted"] = json["hoisted"].get<int>() + left_out.loop_invariants;
         json["constants"] = json["constants"].get<int>() + left_out.constants;
         if (!left_out.anything())
             json["kept_whole"] = left_out.kept_whole;

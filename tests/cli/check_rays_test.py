@@ -40,13 +40,13 @@ SOUND = {
 }
 # The probe, and what of the sound marcher is otherwise.
 FAULTS = {
-    "clicks": {"turned": "(iMouse.x == 0.0 ? vec2(0.5, 0.1) : iMouse.xy / iResolution.xy)"},
+    "mouse_edge": {"turned": "(iMouse.x == 0.0 ? vec2(0.5, 0.1) : iMouse.xy / iResolution.xy)"},
     "grazing": {"steps": "24.0"},
     "far": {"step": "far_distance / 50.0", "field": "abs(cos(60.0 * (p.x + p.z)))", "epsilon": "0.05"},
     "epsilon": {"field": "p.y + 1000.0", "knobs": SOUND["knobs"].replace("40.0", "9000.0"), "epsilon": "1e-9"},
     "rays": {"field": "p.y - 0.2 * sin(2.0 * p.x) * sin(p.z + 4000.0 * iTime)"},
     "places": {"step": "0.8 * f * sqrt(min(1.0, 2.0 - 0.0001 * camera_position.y))"},
-    "folds": {"knobs": SOUND["knobs"] + "\n#iUniform float wave_steepness = 0.4 in { 0.0, 2.0 }\n"
+    "self_intersection": {"knobs": SOUND["knobs"] + "\n#iUniform float wave_steepness = 0.4 in { 0.0, 2.0 }\n"
                        "float height(float x) {\n"
                        "    float rest = x;\n"
                        "    for (int i = 0; i < 12; ++i)\n"
@@ -77,14 +77,14 @@ class CheckRays(ProgramTest):
         entries = self.verdicts(marcher({}))
         for probe, entry in entries.items():
             self.assertIn(entry["verdict"], ("pass", "n/a"), probe + ": " + entry["found"])
-        for probe in (FAULTS.keys() | {"gradient"}) - {"folds", "octaves"}:
+        for probe in (FAULTS.keys() | {"gradient"}) - {"self_intersection", "octaves"}:
             self.assertEqual(entries[probe]["verdict"], "pass", probe + ": " + entries[probe]["found"])
 
     def test_sound_waves_neither_fold_over_nor_lose_their_octaves(self):
-        waves = FAULTS["folds"] | {"knobs": FAULTS["folds"]["knobs"].replace(
+        waves = FAULTS["self_intersection"] | {"knobs": FAULTS["self_intersection"]["knobs"].replace(
             "rest -=", "rest -= min(1.0, 0.9 / wave_steepness) * 0.0 +").replace(
             "float height(float x) {", "float height(float x) {\n    float wave_steepness = min(wave_steepness, 0.9);")}
-        self.assertEqual(self.verdicts(marcher(waves), "--probe", "folds")["folds"]["verdict"], "pass")
+        self.assertEqual(self.verdicts(marcher(waves), "--probe", "self_intersection")["self_intersection"]["verdict"], "pass")
         octaves = FAULTS["octaves"] | {"knobs": FAULTS["octaves"]["knobs"].replace("{ 1, 30 }", "{ 1, 6 }")}
         self.assertEqual(self.verdicts(marcher(octaves), "--probe", "octaves")["octaves"]["verdict"], "pass")
 

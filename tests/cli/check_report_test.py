@@ -32,7 +32,7 @@ class Report(CheckTest):
         lines = self.check(SOUND).stdout.decode().splitlines()
         hits = [line for line in lines if line.endswith("  the scene has no mainHit")]
         self.assertEqual(len(hits), 1, lines)
-        self.assertRegex(hits[0], r"^n/a   witnesses, budget, .*rays")
+        self.assertRegex(hits[0], r"^n/a   overstep, budget, .*rays")
         passed = [line for line in lines if line.startswith("pass")]
         for line in passed:
             self.assertRegex(line, r"^pass  [a-z]{4,10} +\S")
@@ -48,10 +48,10 @@ class Report(CheckTest):
         result = self.check("#ifdef TIDEMARK_HITS\nvoid mainHit(out vec4 hit, in vec2 p) { hit = vec4(1.0); }\n#endif\n" + SOUND)
         lines = result.stdout.decode().splitlines()
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("warn  witnesses   mainHit cannot be asked: " + str(self.folder / "scene.glsl") +
+        self.assertIn("warn  overstep    mainHit cannot be asked: " + str(self.folder / "scene.glsl") +
                       ":1: error: `#ifdef TIDEMARK_HITS` leaves mainHit out; did you mean TIDEMARK_HIT?", lines)
         self.assertTrue(any(line.startswith("pass  horizon") for line in lines), lines)
-        self.assertTrue(any(line.endswith("mainHit cannot be asked: see witnesses") for line in lines), lines)
+        self.assertTrue(any(line.endswith("mainHit cannot be asked: see overstep") for line in lines), lines)
 
     def test_a_broken_main_hit_is_told_and_the_rest_goes_on(self):
         result = self.check("#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) { hit = nothing; }\n#endif\n" + SOUND)
@@ -150,20 +150,20 @@ class Jumps(CheckTest):
     CUT = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(0.37 * floor(iTime / 8.0) + 0.01 * iTime)); }\n"
 
     def test_a_cut_may_be_meant(self):
-        entry = self.entry(self.CUT, "jumps")
+        entry = self.entry(self.CUT, "time_discontinuity")
         self.assertEqual(entry["verdict"], "warn", entry["found"])
         self.assertRegex(entry["found"], r"^the picture jumps at 8 s \(PSNR \d+\.\d dB between neighbouring instants, "
                                          r'\d+\.\d dB elsewhere\); a scene that cuts may say so: "skip" in its ')
 
     def test_a_scene_that_promises_none_is_held_to_it(self):
         self.write("scene.check.json", '{"smoothest_jump": 10}')
-        self.assertEqual(self.entry(self.CUT, "jumps")["verdict"], "fail")
+        self.assertEqual(self.entry(self.CUT, "time_discontinuity")["verdict"], "fail")
 
     def test_a_clock_that_starts_again_is_a_fault(self):
         entry = self.entry("void mainImage(out vec4 c, in vec2 p) {\n"
-                           "    c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x));\n}\n", "jumps", "-o", "pictures")
+                           "    c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x));\n}\n", "time_discontinuity", "-o", "pictures")
         self.assertEqual(entry["verdict"], "fail")
-        self.assertTrue((self.folder / "pictures/jumps.png").exists())
+        self.assertTrue((self.folder / "pictures/time_discontinuity.png").exists())
         self.assertIn("and is there what it was at 0 s", entry["found"])
 
 

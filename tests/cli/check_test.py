@@ -28,9 +28,9 @@ FAULTS = {
     "camera": "void mainImage(out vec4 c, in vec2 p) {\n"
               "    float side = iMouse.y > 90.0 ? -1.0 : 1.0;\n"
               "    c = vec4(0.5 + 0.5 * side * sin(0.1 * p.y + 0.01 * iMouse.y));\n}\n",
-    "jumps": "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x)); }\n",
+    "time_discontinuity": "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x)); }\n",
     "horizon": "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5 + 0.5 * sin(4000.0 * iTime + p.x)); }\n",
-    "witnesses": "float field(vec3 p) { return p.y - 2.0 * sin(8.0 * p.x); }\n"
+    "overstep": "float field(vec3 p) { return p.y - 2.0 * sin(8.0 * p.x); }\n"
                  "void mainHit(out vec4 hit, in vec2 fragCoord) {\n"
                  "    vec3 at = vec3(fragCoord.x / 10.0, 3.0, 0.0);\n"
                  "    float t = 0.0, f = field(at), flags = 0.0;\n"
@@ -289,15 +289,15 @@ class Check(ProgramTest):
 
     def test_halves_are_drawn_where_the_text_asks_for_them(self):
         text = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract((p.x + 2048.0) * 0.5)); }\n"
-        entry = self.verdicts(self.write("high.glsl", text), "--probe", "halves")["halves"]
+        entry = self.verdicts(self.write("high.glsl", text), "--probe", "mediump")["mediump"]
         self.assertEqual(entry["verdict"], "n/a")
         scene = self.write("medium.glsl", "precision mediump float;\n" + text)
-        entry = self.verdicts(scene, "--probe", "halves")["halves"]
+        entry = self.verdicts(scene, "--probe", "mediump")["mediump"]
         self.assertEqual(entry["verdict"], "warn", entry["found"])
         self.assertIn("sums and products in halves", entry["found"])
 
     def test_sound_shaders_stay_silent(self):
-        probes = [word for name in ("unassigned", "undefined", "sine", "rounding", "divergence", "halves")
+        probes = [word for name in ("unassigned", "undefined", "sine", "rounding", "divergence", "mediump")
                   for word in ("--probe", name)]
         for scene in sorted((ROOT / "tests/cases/trace/sound").glob("*.glsl")):
             if scene.stem == "golf":  # counts on variables that begin at zero, and is told so
@@ -342,9 +342,9 @@ class Check(ProgramTest):
 
     def test_the_documents_own_marching_has_its_known_faults(self):
         entries = self.verdicts(ROOT / "shaders" / "water_surface.glsl", "--define", "DOCUMENT=1")
-        for probe in ("jumps", "camera", "witnesses", "horizon", "budget"):
+        for probe in ("time_discontinuity", "camera", "overstep", "horizon", "budget"):
             self.assertEqual(entries[probe]["verdict"], "fail", entries[probe]["found"])
-        self.assertIn("62.83 s", entries["jumps"]["found"])
+        self.assertIn("62.83 s", entries["time_discontinuity"]["found"])
         self.assertEqual(entries["hashes"]["verdict"], "warn")
 
     def test_an_unknown_probe_names_those_there_are(self):
@@ -352,8 +352,12 @@ class Check(ProgramTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn("--probe luck: there are times, frames", result.stderr)
 
+    def test_a_probe_answers_to_its_name_of_version_0_1(self):
+        found = self.verdicts(self.write("sound.glsl", SOUND), "--probe", "jumps", "--probe", "witnesses")
+        self.assertEqual(set(found), {"time_discontinuity", "overstep"})
+
     def test_list_needs_no_scene(self):
-        self.assertIn(b"witnesses", self.succeed("check", "--list").stdout)
+        self.assertIn(b"overstep", self.succeed("check", "--list").stdout)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""tidemark check --trace: where a NaN is born, as people and as scripts read it."""
+"""tidemark check --trace: where a NaN has its origin, as people and as scripts read it."""
 import json
 
 from support.program import ProgramTest, main
@@ -34,12 +34,12 @@ class CheckTrace(ProgramTest):
         first = trace["first"]
         self.assertEqual((first["file"], first["line"], first["column"]), ("waves.glsl", 2, 46))
         self.assertEqual(first["operands"], [{"text": "none", "value": "0"}])
-        self.assertEqual(trace["cure"]["line"], 2)
+        self.assertEqual(trace["fix"]["line"], 2)
 
     def test_a_finite_scene(self):
         run = self.check(SOUND)
         self.assertEqual((run.returncode, run.stdout), (0, "every pixel is finite; --hidden looks for a NaN "
-                                                               "that was swallowed on the way\n"))
+                                                               "that was masked on the way\n"))
         run = self.check(SOUND, "--hidden", "--json")
         self.assertEqual(run.returncode, 0)
         self.assertTrue(json.loads(run.stdout)["finite"])

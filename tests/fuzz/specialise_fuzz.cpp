@@ -17,7 +17,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     source.append(text_of(data, size), "a.glsl", 1);
     const bool followed = glsl::ParsedText::read(source, {}, false).has_value();
     for (const auto how :
-         {glsl::Specialise::unreachable, glsl::Specialise::settled, glsl::Specialise::constants}) {
+         {glsl::Specialise::unreachable, glsl::Specialise::invariant_uniforms, glsl::Specialise::constants}) {
         const glsl::Specialised result = glsl::specialise(source, knobs, how);
         REQUIRE(result.left_out.anything() ? followed : result.source.text() == source.text());
         REQUIRE(std::count(source.text().begin(), source.text().end(), '\n') ==

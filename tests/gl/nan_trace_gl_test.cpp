@@ -31,7 +31,7 @@ std::string name_of(const testing::TestParamInfo<fs::path>& info) {
 struct Mark {
     int line = 0;
     std::string words; ///< behind `// born `
-    int cure = 0;      ///< the line of `// cures`
+    int fix = 0;       ///< the line of `// cures`
 
     bool has(const std::string& text) const { return words.find(text) != std::string::npos; }
     /// The number behind `text`.
@@ -50,7 +50,7 @@ Mark read_mark(const fs::path& file) {
             mark.words = text.substr(at + 8);
         }
         if (text.find("// cures") != std::string::npos)
-            mark.cure = line;
+            mark.fix = line;
     }
     return mark;
 }
@@ -79,7 +79,7 @@ TEST_P(Faults, AreNamedWithTheirLine) {
     ASSERT_TRUE(*found) << "nothing was found";
     const NanTrace& trace = **found;
     ASSERT_TRUE(trace.first);
-    const Birth& first = *trace.first;
+    const NanOrigin& first = *trace.first;
     EXPECT_EQ(first.where.line, mark.line) << first.statement;
     ASSERT_TRUE(first.value);
     EXPECT_TRUE(mark.words.starts_with(worst_of(*first.value))) << worst_of(*first.value);
@@ -90,7 +90,7 @@ TEST_P(Faults, AreNamedWithTheirLine) {
         EXPECT_EQ(first.where.column, mark.number("; column "));
     }
     if (mark.has("cures column ")) {
-        EXPECT_EQ(trace.cure->where.column, mark.number("cures column "));
+        EXPECT_EQ(trace.fix->where.column, mark.number("cures column "));
     }
     if (mark.has("iteration ")) {
         EXPECT_EQ(first.loops.at(0).iteration, unsigned(mark.number("iteration ")));
@@ -99,12 +99,12 @@ TEST_P(Faults, AreNamedWithTheirLine) {
         EXPECT_EQ(first.calls.back().where.line, mark.number("called from "));
     }
     if (mark.has("origin ")) {
-        EXPECT_TRUE(mark.has("origin " + first.origin)) << first.origin;
+        EXPECT_TRUE(mark.has("origin " + first.source)) << first.source;
     }
-    EXPECT_EQ(trace.washed, mark.has("hidden"));
-    if (!trace.washed) {
-        ASSERT_TRUE(trace.cure);
-        EXPECT_EQ(trace.cure->where.line, mark.cure > 0 ? mark.cure : mark.line);
+    EXPECT_EQ(trace.masked, mark.has("hidden"));
+    if (!trace.masked) {
+        ASSERT_TRUE(trace.fix);
+        EXPECT_EQ(trace.fix->where.line, mark.fix > 0 ? mark.fix : mark.line);
     }
     EXPECT_THAT(trace.notes, testing::IsEmpty());
 }
@@ -128,9 +128,9 @@ TEST(Feedback, ThePixelIsLookedAtInItsOwnFrame) {
     ASSERT_TRUE(*found) << "nothing was found";
     const NanTrace& trace = **found;
     EXPECT_EQ(trace.frame, 2);
-    EXPECT_FALSE(trace.washed);
-    ASSERT_TRUE(trace.cure);
-    EXPECT_EQ(trace.cure->where.line, 4);
+    EXPECT_FALSE(trace.masked);
+    ASSERT_TRUE(trace.fix);
+    EXPECT_EQ(trace.fix->where.line, 4);
     EXPECT_THAT(trace.notes, testing::IsEmpty());
 }
 

@@ -43,7 +43,7 @@ protected:
     }
     static void expect_same_bytes(const scene::Scene& scene) {
         const auto plain = drawn(scene, Specialise::nothing);
-        for (const Specialise how : {Specialise::unreachable, Specialise::settled}) {
+        for (const Specialise how : {Specialise::unreachable, Specialise::invariant_uniforms}) {
             Renderer special = made(scene, how);
             for (const PlannedPass& planned : special.plan().passes)
                 EXPECT_NE(special.left_out(planned.pass).kept_whole,
@@ -100,11 +100,11 @@ void mainImage(out vec4 colour, vec2 at) {
     colour = vec4(t, fwidth(t), direction.xy);
 }
 )");
-    const glsl::LeftOut left = left_out(scene, Specialise::settled);
+    const glsl::LeftOut left = left_out(scene, Specialise::invariant_uniforms);
     EXPECT_EQ(left.branches, 3);
-    EXPECT_EQ(left.hoisted, 3);
+    EXPECT_EQ(left.loop_invariants, 3);
     EXPECT_GE(left.lines, 2);
-    EXPECT_FALSE(made(scene, Specialise::settled).program(0).reflection().has("iChannel0"));
+    EXPECT_FALSE(made(scene, Specialise::invariant_uniforms).program(0).reflection().has("iChannel0"));
     expect_same_bytes(scene);
 }
 
@@ -149,7 +149,8 @@ TEST_F(SpecialiseTest, unreachable_code_that_does_not_compile_hurts_only_the_pla
 TEST_F(SpecialiseTest, errors_are_those_of_the_plain_text) {
     const scene::Scene scene = scene_of("float unused() { return 1.0; }\n\n"
                                         "void mainImage(out vec4 c, vec2 p) {\n    c = undeclared; }");
-    const auto special = Renderer::create(scene, {.extent = k_extent, .specialise = Specialise::settled});
+    const auto special =
+        Renderer::create(scene, {.extent = k_extent, .specialise = Specialise::invariant_uniforms});
     const auto plain = Renderer::create(scene, {.extent = k_extent});
     ASSERT_FALSE(special);
     ASSERT_FALSE(plain);
@@ -178,7 +179,7 @@ TEST_F(SpecialiseTest, a_trial_gives_the_plain_bytes_unless_a_difference_is_allo
     Renderer plain = made(scene, Specialise::nothing);
     const image::Image expected = frame(plain, plan.last);
 
-    options.specialise = Specialise::settled;
+    options.specialise = Specialise::invariant_uniforms;
     auto trial = cli::choose_program(scene, options, plan);
     ASSERT_TRUE(trial);
     EXPECT_EQ(trial->said, "");
@@ -203,10 +204,11 @@ void mainImage(out vec4 c, vec2 p) {
 })");
     const cli::TrialPlan plan{inputs_of_frame(0, 60), inputs_of_frame(100, 60), 1'000'000};
     auto trial = cli::choose_program(
-        scene, {.extent = k_extent, .samples = image::SampleType::f32, .specialise = Specialise::settled},
+        scene,
+        {.extent = k_extent, .samples = image::SampleType::f32, .specialise = Specialise::invariant_uniforms},
         plan);
     ASSERT_TRUE(trial);
-    EXPECT_EQ(trial->renderer.left_out(0).hoisted, 3);
+    EXPECT_EQ(trial->renderer.left_out(0).loop_invariants, 3);
     Renderer plain = made(scene, Specialise::nothing);
     EXPECT_TRUE(frame(trial->renderer, plan.last) == frame(plain, plan.last));
 }

@@ -91,7 +91,7 @@ lab::Study plan() {
         "way, in radii; hits are nodes of the grid in the water, evaluations thousands of local solutions; "
         "a pixel is the spacing of the nodes.";
     for (const bake::KnownCase& known : bake::known_cases())
-        study.views.push_back({std::string(known.description), 0, {}, {}});
+        study.views.push_back({std::string(known.description)});
     lab::Axis sides{"nodes a side", {}};
     for (const int side : k_study_sides)
         sides.values.push_back(fmt::format("{}", side));

@@ -150,7 +150,8 @@ std::optional<PlannedTrial> plan_trial(const CaptureOptions& options, const Capt
         return std::nullopt;
     const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
     const render::FrameStates states = states_of(plan.frames);
-    return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants : glsl::Specialise::settled,
+    return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants
+                                                   : glsl::Specialise::invariant_uniforms,
                         {inputs_of(states(first)), inputs_of(states(frames.back())), frames.size(),
                          options.allowed_difference}};
 }

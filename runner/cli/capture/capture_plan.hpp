@@ -33,7 +33,7 @@ struct CaptureOptions {
 
 /// A trial of a program that is specialised further than `CapturePlan::drawing` says.
 struct PlannedTrial {
-    glsl::Specialise as_far_as = glsl::Specialise::settled;
+    glsl::Specialise as_far_as = glsl::Specialise::invariant_uniforms;
     TrialPlan frames;
 };
 

@@ -31,7 +31,7 @@ void add_trace_options(CLI::App& command, TraceOptions& options) {
         .add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
         ->type_name("X,Y");
     command.add_flag("--hidden", options.hidden,
-                     "Where all pixels are finite, trace a NaN that a clamp or a condition swallowed");
+                     "Where all pixels are finite, trace a NaN that a clamp or a condition masked");
     command.add_option("--timeout", options.timeout, "Give up the trace after so long")
         ->type_name("SECONDS")
         ->capture_default_str();
@@ -74,7 +74,8 @@ void add_check(CLI::App& app, Action& chosen) {
         ->add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
         ->excludes(list);
     command
-        ->add_flag("--trace", options->traced, "Instead: where a NaN or an infinity in the picture is born")
+        ->add_flag("--trace", options->traced,
+                   "Instead: where a NaN or an infinity in the picture has its origin")
         ->excludes(list)
         ->excludes("--portable");
     add_trace_options(*command, options->trace);

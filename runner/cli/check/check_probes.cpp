@@ -2,8 +2,8 @@
 
 #include "base/file.hpp"
 #include "base/try.hpp"
-#include "cli/check/asked.hpp"
 #include "cli/check/one_thread.hpp"
+#include "cli/check/probe_result.hpp"
 #include "cli/check/verdicts.hpp"
 #include "cli/console.hpp"
 #include "cli/forked.hpp"
@@ -49,12 +49,13 @@ std::string probe_names() {
 }
 
 Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::string>& names) {
-    std::vector<const lab::Probe*> chosen;
     for (const std::string& name : names)
-        if (std::ranges::find(lab::all_probes(), name, &lab::Probe::name) == lab::all_probes().end())
+        if (std::ranges::find(lab::all_probes(), lab::probe_name(name), &lab::Probe::name) ==
+            lab::all_probes().end())
             return fail(ErrorCode::usage, fmt::format("--probe {}: there are {}", name, probe_names()));
+    std::vector<const lab::Probe*> chosen;
     for (const lab::Probe& probe : lab::all_probes())
-        if (names.empty() || std::ranges::find(names, probe.name) != names.end())
+        if (names.empty() || std::ranges::find(names, probe.name, lab::probe_name) != names.end())
             chosen.push_back(&probe);
     return chosen;
 }
@@ -69,8 +70,8 @@ Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scen
                                [&](const std::string& name) { return glsl::definition_of(scene, name); });
 }
 
-Result<void> keep_picture(const OutputPath& folder, Asked& asked) {
-    if (folder.empty() || !asked.answer.picture || !accuses(asked.answer))
+Result<void> keep_picture(const OutputPath& folder, ProbeResult& asked) {
+    if (folder.empty() || !asked.answer.picture || !is_finding(asked.answer))
         return {};
     if (auto made = make_folder(folder); !made)
         return made;
@@ -80,8 +81,8 @@ Result<void> keep_picture(const OutputPath& folder, Asked& asked) {
 }
 
 /// Asks one probe, unless the scene leaves it out and nobody named it.
-Result<Asked> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name, bool time_left) {
-    Asked asked{&probe, {}};
+Result<ProbeResult> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name, bool time_left) {
+    ProbeResult asked{&probe, {}};
     const auto skipped = bench.promises().skip.find(std::string(probe.name));
     if (!by_name && skipped != bench.promises().skip.end()) {
         asked.answer = {Verdict::not_applicable, "left out by the scene: " + skipped->second};
@@ -114,13 +115,13 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
         if (auto kept = keep_picture(OutputPath::typed(request.output).sparing(files_read(scene)), asked);
             !kept)
             return kept;
-        tell(dump(told(asked)));
+        tell(dump(to_json(asked)));
     }
     return {};
 }
 
 /// Called with each answer as it comes.
-using Take = std::function<Result<void>(Asked)>;
+using Take = std::function<Result<void>(ProbeResult)>;
 
 /// Answers of all probes, in their order. The driver may hang or crash on the way: then the probe it was
 /// asked for has that as its answer.
@@ -151,7 +152,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
                     heard = fail(*std::move(error));
                 if (!heard)
                     return;
-                Asked asked = told_answer(json);
+                ProbeResult asked = result_of(json);
                 asked.seconds = std::max(asked.seconds - taking, 0.0);
                 const double spent = asked.seconds;
                 probes = probes.subspan(1);
@@ -166,7 +167,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             return heard;
         if (probes.empty())
             break;
-        Asked last{probes.front(), {Verdict::cut, k_not_finished}};
+        ProbeResult last{probes.front(), {Verdict::cut, k_not_finished}};
         if (run->signal != 0)
             last.answer = {Verdict::fail, crash_text(run->signal, run->doing)};
         last.seconds = seconds_since(began) - seconds;
@@ -177,8 +178,8 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
     return {};
 }
 
-/// What gave birth to what a probe found not finite.
-void trace(const ProbesRequest& request, const scene::Scene& scene, Asked& asked, double seconds) {
+/// The origin of what a probe found not finite.
+void trace(const ProbesRequest& request, const scene::Scene& scene, ProbeResult& asked, double seconds) {
     const render::FrameState& where = *asked.answer.where;
     const auto set = lab::in_state(scene, where);
     TraceJob job{request.device, {}};
@@ -218,21 +219,22 @@ Result<int> check_probes(const ProbesRequest& request) {
     const auto promises = TRY(promises_of(request.scene, scene));
     const bool verdicts_tell = !request.json && ::isatty(STDERR_FILENO) != 1;
     Progress progress("probes", verdicts_tell ? 0 : probes.size(), {.limit = request.budget});
-    std::vector<Asked> all;
-    const auto done = answer_all(request, scene, promises, probes, start, [&](Asked asked) -> Result<void> {
-        if (asked.answer.non_finite) // before the next probe: a finding wants its reason first
-            trace(request, scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
-        progress.step_aside();
-        if (auto shown = put(request.json ? "" : row(request, asked)); !shown)
-            return shown;
-        all.push_back(std::move(asked));
-        progress.advance();
-        return {};
-    });
+    std::vector<ProbeResult> all;
+    const auto done =
+        answer_all(request, scene, promises, probes, start, [&](ProbeResult asked) -> Result<void> {
+            if (asked.answer.non_finite) // before the next probe: a finding wants its reason first
+                trace(request, scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
+            progress.step_aside();
+            if (auto shown = put(request.json ? "" : row(request, asked)); !shown)
+                return shown;
+            all.push_back(std::move(asked));
+            progress.advance();
+            return {};
+        });
     if (!done)
         return fail(done.error());
     progress.step_aside();
-    return put(request.json ? report(request, all) : rest(all, seconds_since(start))).map([&all] {
+    return put(request.json ? report(request, all) : summary(all, seconds_since(start))).map([&all] {
         return exit_code(all);
     });
 }

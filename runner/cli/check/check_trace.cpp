@@ -35,7 +35,7 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
     std::string text = run.found ? run.text
                        : options.hidden
                            ? "every pixel is finite, and no operation gave NaN\n"
-                           : "every pixel is finite; --hidden looks for a NaN that was swallowed on "
+                           : "every pixel is finite; --hidden looks for a NaN that was masked on "
                              "the way\n";
     if (!run.ended.empty())
         text += fmt::format("  note: {}: what is said above is not the whole\n", run.ended);

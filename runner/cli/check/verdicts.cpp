@@ -19,12 +19,13 @@ using lab::Verdict;
 /// Where sentences begin.
 constexpr int k_margin = 18;
 
-bool waits(const Asked& asked) {
+bool waits(const ProbeResult& asked) {
     return asked.answer.verdict == Verdict::not_applicable || asked.answer.verdict == Verdict::cut;
 }
 
-size_t count(std::span<const Asked> all, Verdict verdict) {
-    return size_t(std::ranges::count(all, verdict, [](const Asked& asked) { return asked.answer.verdict; }));
+size_t count(std::span<const ProbeResult> all, Verdict verdict) {
+    return size_t(
+        std::ranges::count(all, verdict, [](const ProbeResult& asked) { return asked.answer.verdict; }));
 }
 
 std::string reproduction(const ProbesRequest& request, const render::FrameState& state) {
@@ -50,7 +51,7 @@ std::string indented(const std::string& text) {
 }
 
 /// `2 fail, 1 warn, 14 pass, 12 n/a`.
-std::string counted(std::span<const Asked> all) {
+std::string counted(std::span<const ProbeResult> all) {
     std::string text;
     for (const Verdict verdict :
          {Verdict::fail, Verdict::warn, Verdict::pass, Verdict::not_applicable, Verdict::cut})
@@ -60,11 +61,11 @@ std::string counted(std::span<const Asked> all) {
 }
 
 /// `: horizon 40 %, rays 22 %`: the shares of the time that are a percent or more, the largest first.
-std::string shares(std::span<const Asked> all, double seconds) {
-    std::vector<Asked> dear(all.begin(), all.end());
-    std::ranges::stable_sort(dear, std::greater(), &Asked::seconds);
+std::string shares(std::span<const ProbeResult> all, double seconds) {
+    std::vector<ProbeResult> dear(all.begin(), all.end());
+    std::ranges::stable_sort(dear, std::greater(), &ProbeResult::seconds);
     std::string text;
-    for (const Asked& asked : dear)
+    for (const ProbeResult& asked : dear)
         if (const double share = 100 * asked.seconds / seconds; share >= 1)
             text += fmt::format("{} {} {:.0f} %", text.empty() ? ":" : ",", asked.probe->name, share);
     return text;
@@ -72,29 +73,29 @@ std::string shares(std::span<const Asked> all, double seconds) {
 
 } // namespace
 
-bool accuses(const lab::Answer& answer) {
+bool is_finding(const lab::Answer& answer) {
     return answer.verdict == Verdict::fail || answer.verdict == Verdict::warn;
 }
 
-std::string row(const ProbesRequest& request, const Asked& asked) {
+std::string row(const ProbesRequest& request, const ProbeResult& asked) {
     if (waits(asked))
         return {};
     std::string text = line(asked.answer.verdict, std::string(asked.probe->name), asked.answer.sentence) +
                        indented(asked.trace);
-    if (accuses(asked.answer) && asked.answer.where)
+    if (is_finding(asked.answer) && asked.answer.where)
         text += indented(reproduction(request, *asked.answer.where));
     if (!asked.picture.empty())
         text += indented(asked.picture.string());
     return text;
 }
 
-std::string rest(std::span<const Asked> all, double seconds) {
+std::string summary(std::span<const ProbeResult> all, double seconds) {
     struct Group {
         const lab::Answer* answer;
         std::string probes;
     };
     std::vector<Group> groups;
-    for (const Asked& asked : all)
+    for (const ProbeResult& asked : all)
         if (waits(asked)) {
             const auto same = std::ranges::find(groups, asked.answer.sentence,
                                                 [](const Group& group) { return group.answer->sentence; });
@@ -109,15 +110,15 @@ std::string rest(std::span<const Asked> all, double seconds) {
     return text + fmt::format("{}; {:.1f} s{}\n", counted(all), seconds, shares(all, seconds));
 }
 
-std::string report(const ProbesRequest& request, std::span<const Asked> all) {
+std::string report(const ProbesRequest& request, std::span<const ProbeResult> all) {
     Json json = {{"tidemark", k_version}, {"scene", request.scene.path.string()}};
     json["probes"] = Json::array();
-    for (const Asked& asked : all) {
+    for (const ProbeResult& asked : all) {
         Json entry = {{"probe", asked.probe->name},
                       {"verdict", lab::to_string(asked.answer.verdict)},
                       {"found", asked.answer.sentence},
                       {"seconds", asked.seconds}};
-        if (accuses(asked.answer) && asked.answer.where)
+        if (is_finding(asked.answer) && asked.answer.where)
             entry["reproduction"] = reproduction(request, *asked.answer.where);
         if (!asked.picture.empty())
             entry["picture"] = asked.picture.string();
@@ -130,7 +131,7 @@ std::string report(const ProbesRequest& request, std::span<const Asked> all) {
     return dump(json, 2) + "\n";
 }
 
-int exit_code(std::span<const Asked> all) {
+int exit_code(std::span<const ProbeResult> all) {
     return count(all, Verdict::fail) > 0  ? exit_code(ErrorCode::check_failed)
            : count(all, Verdict::cut) > 0 ? exit_code(ErrorCode::timed_out)
                                           : 0;

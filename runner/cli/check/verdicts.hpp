@@ -1,8 +1,8 @@
 // What probes answered, as people and as scripts read it.
 #pragma once
 
-#include "cli/check/asked.hpp"
 #include "cli/check/check_probes.hpp"
+#include "cli/check/probe_result.hpp"
 
 #include <span>
 #include <string>
@@ -10,19 +10,19 @@
 namespace tidemark::cli {
 
 /// Whether there is something to show.
-bool accuses(const lab::Answer& answer);
+bool is_finding(const lab::Answer& answer);
 
 /// A verdict with all that belongs to it. Empty for those that wait for `rest`.
-std::string row(const ProbesRequest& request, const Asked& asked);
+std::string row(const ProbesRequest& request, const ProbeResult& asked);
 
 /// Those that did not apply or were cut, one line for each reason, and the sum of it all, which took so many
 /// `seconds`.
-std::string rest(std::span<const Asked> all, double seconds);
+std::string summary(std::span<const ProbeResult> all, double seconds);
 
 /// All of it as JSON.
-std::string report(const ProbesRequest& request, std::span<const Asked> all);
+std::string report(const ProbesRequest& request, std::span<const ProbeResult> all);
 
 /// Of the command. A failure is one even where other probes were cut.
-int exit_code(std::span<const Asked> all);
+int exit_code(std::span<const ProbeResult> all);
 
 } // namespace tidemark::cli

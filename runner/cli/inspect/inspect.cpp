@@ -83,8 +83,9 @@ Result<int> inspect_devices(bool as_json) {
 }
 
 Json to_json(const glsl::LeftOut& left_out) {
-    Json json = {
-        {"lines", left_out.lines}, {"branches", left_out.branches}, {"out_of_loops", left_out.hoisted}};
+    Json json = {{"lines", left_out.lines},
+                 {"branches", left_out.branches},
+                 {"out_of_loops", left_out.loop_invariants}};
     if (!left_out.anything())
         json["none_because"] = left_out.kept_whole;
     return json;
@@ -96,7 +97,7 @@ std::string to_line(const glsl::LeftOut& left_out) {
     std::string text = fmt::format("  code removed: {} lines", left_out.lines);
     if (left_out.in_doubt())
         text += fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops",
-                            left_out.branches, left_out.hoisted);
+                            left_out.branches, left_out.loop_invariants);
     return text + '\n';
 }
 
@@ -119,10 +120,11 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver, c
         Json channels = Json::object();
         for (const int channel : facts_of_pass.channels)
             channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
-        Json& json_of_pass = json["passes"].emplace_back(Json{
-            {"name", pass.name},
-            {"channels", channels},
-            {"code_removed", to_json(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::settled))}});
+        Json& json_of_pass = json["passes"].emplace_back(
+            Json{{"name", pass.name},
+                 {"channels", channels},
+                 {"code_removed",
+                  to_json(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))}});
         if (const auto& size = sizes[facts_of_pass.pass])
             json_of_pass["program"] = to_json(*size);
     }
@@ -146,7 +148,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
         for (const int channel : facts_of_pass.channels)
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
-        text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::settled));
+        text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms));
         if (const auto& size = sizes[facts_of_pass.pass])
             text += to_lines(*size);
     }
@@ -176,7 +178,8 @@ Result<int> inspect_scene(const InspectOptions& options) {
     auto scene = TRY(load(options.scene));
     if (options.source)
         return put_source(scene, options.pass, precision_of(options.scene),
-                          options.specialised ? glsl::Specialise::settled : glsl::Specialise::nothing);
+                          options.specialised ? glsl::Specialise::invariant_uniforms
+                                              : glsl::Specialise::nothing);
     if (options.device == "none")
         return put(options.json ? dump(what_files_say(scene), 2) + "\n" : lines_of_files(scene)).map([] {
             return 0;

@@ -10,7 +10,7 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr auto k_settled = glsl::Specialise::settled;
+constexpr auto k_settled = glsl::Specialise::invariant_uniforms;
 
 /// Whoever is at work on a scene saves and drags more often.
 constexpr double k_shortest_rest_seconds = 2;

@@ -34,12 +34,12 @@ public:
     }
 
     /// What parts pixels on their way to the node.
-    std::optional<Parting> before(NodeId node) const {
+    std::optional<DivergentBranch> before(NodeId node) const {
         const NodeId function = tree_.around(node, NodeKind::function);
         if (const NodeId condition = condition_within(function, node); condition != k_no_node)
-            return Parting{condition};
+            return DivergentBranch{condition};
         if (const NodeId exit = exit_before(function, node); exit != k_no_node)
-            return Parting{exit, true};
+            return DivergentBranch{exit, true};
         const auto parted = parted_functions_.find(function == k_no_node ? "" : text_.word_of(function));
         return parted == parted_functions_.end() ? std::nullopt : std::optional(parted->second);
     }
@@ -101,7 +101,7 @@ private:
             return from == tree_.child(common, 0);
         for (NodeId between = tree_[from].next; between != k_no_node && !tree_.is_within(node, between);
              between = tree_[between].next)
-            if (tree_[between].kind == NodeKind::jump || tree_[between].kind == NodeKind::give_back)
+            if (tree_[between].kind == NodeKind::jump || tree_[between].kind == NodeKind::return_statement)
                 return false;
         return true;
     }
@@ -153,7 +153,7 @@ private:
                 add(names_, text_.word_of(id));
             return;
         case NodeKind::call: call(id); return;
-        case NodeKind::give_back:
+        case NodeKind::return_statement:
         case NodeKind::jump: leave(id); return;
         default: return;
         }
@@ -209,7 +209,7 @@ private:
         const NodeId function = tree_.around(id, NodeKind::function);
         if (function == k_no_node)
             return;
-        const bool returns = tree_[id].kind == NodeKind::give_back;
+        const bool returns = tree_[id].kind == NodeKind::return_statement;
         const bool discards = tree_[id].kind == NodeKind::call || text_.word_of(id) == "discard";
         const bool continues = tree_[id].kind == NodeKind::jump && text_.word_of(id) == "continue";
         if (discards)
@@ -237,7 +237,7 @@ private:
         ++found_;
         if (scope != function)
             return;
-        if (tree_[id].kind != NodeKind::give_back)
+        if (tree_[id].kind != NodeKind::return_statement)
             add(partly_, text_.word_of(function));
         for (NodeId around = tree_[id].parent; around != function; around = tree_[around].parent)
             if (is_loop(tree_[around].kind))
@@ -274,9 +274,9 @@ private:
     Names functions_;           ///< by what they give back
     Names discarding_;          ///< functions that may
     Names partly_;              ///< functions in which some pixels are discarded
-    std::unordered_map<std::string_view, Parting> parted_functions_; ///< by where they are called
-    std::unordered_map<NodeId, std::vector<Exit>> exits_;            ///< of a function, as they stand in it
-    std::unordered_map<NodeId, Names> locals_;                       ///< of a function
+    std::unordered_map<std::string_view, DivergentBranch> parted_functions_; ///< by where they are called
+    std::unordered_map<NodeId, std::vector<Exit>> exits_; ///< of a function, as they stand in it
+    std::unordered_map<NodeId, Names> locals_;            ///< of a function
     std::unordered_set<NodeId> parted_loops_;
 };
 

@@ -12,7 +12,7 @@
 namespace tidemark::glsl {
 
 /// What divides the pixels that come to a place from their neighbours.
-struct Parting {
+struct DivergentBranch {
     NodeId at =
         k_no_node;       ///< a condition; with `exit` a return, discard or continue, or a call that discards
     bool exit = false;   ///< the place is behind it, and some pixels left there
@@ -21,7 +21,7 @@ struct Parting {
 
 struct Divergent {
     NodeId call = k_no_node;
-    Parting parting;
+    DivergentBranch branch;
 };
 
 /// In functions that `main` comes to, in the order of the text. A value may differ between pixels if it is

@@ -414,7 +414,7 @@ private:
             open();
             each(id);
             return close();
-        case NodeKind::give_back:
+        case NodeKind::return_statement:
             each(id);
             returns_ = true;
             return exit(id);

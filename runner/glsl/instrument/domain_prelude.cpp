@@ -226,7 +226,7 @@ std::string conversions(std::string_view prefix) {
                                     prefix, part_of("x", size, part), low, high);
             text += "return x;}\n";
         }
-        const auto same = [&](const std::string& type) {
+        const auto same = [&, name = name](const std::string& type) {
             return fmt::format("{0} {1}{2}({0} x,int i,inout float m){{return x;}}\n", type, prefix, name);
         };
         text += for_whole_types([&](const std::string& type, int) { return same(type); }) + same("bool");

@@ -1,8 +1,8 @@
 #include "glsl/specialise/specialise.hpp"
 
-#include "glsl/specialise/constant_conditions.hpp"
+#include "glsl/specialise/constant_folding.hpp"
 #include "glsl/specialise/globals.hpp"
-#include "glsl/specialise/hoist.hpp"
+#include "glsl/specialise/loop_invariant_code_motion.hpp"
 #include "glsl/specialise/value_types.hpp"
 #include "glsl/syntax/tree_facts.hpp"
 #include "glsl/syntax/word_edits.hpp"
@@ -39,11 +39,11 @@ public:
         LeftOut done;
         if (how_ == Specialise::constants)
             done.constants = settle_knobs();
-        if (how_ >= Specialise::settled)
-            done.branches = close_branches();
+        if (how_ >= Specialise::invariant_uniforms)
+            done.branches = eliminate_dead_branches();
         const std::vector<bool> reached = remove_unreached();
-        if (how_ >= Specialise::settled && may_compute_first())
-            done.hoisted = hoist(text_, globals_, reached, gone_, edits_);
+        if (how_ >= Specialise::invariant_uniforms && may_compute_first())
+            done.loop_invariants = move_loop_invariants(text_, globals_, reached, gone_, edits_);
         done.lines = edits_.emptied_lines();
         done.kept_whole = edits_.empty() ? "there is nothing to leave out" : "";
         return {edits_.empty() ? text_.source() : edits_.apply(), std::move(done)};
@@ -82,9 +82,9 @@ private:
         return count;
     }
 
-    int close_branches() {
+    int eliminate_dead_branches() {
         const Variables variables = find_variables(text_, 1, NodeId(tree_.nodes.size() - 1));
-        const ConstantConditions conditions(text_, variables, knobs_);
+        const ConstantFolding conditions(text_, variables, knobs_);
         int count = 0;
         for (NodeId id = NodeId(tree_.nodes.size()); id-- > 1;) { // parents first
             const bool branch =

@@ -13,9 +13,10 @@ namespace tidemark::glsl {
 /// How much is left out. Each does what those before it do.
 enum class Specialise : unsigned char {
     nothing,
-    unreachable, ///< functions, variables and structures: the driver makes the same code of what stays
-    settled,  ///< knobs stand still: what they decide, and what loops work out in vain. The language promises
-              ///< the same values; a driver that rearranges sums may round them differently
+    unreachable,        ///< functions, variables and structures: the driver makes the same code of what stays
+    invariant_uniforms, ///< knobs stand still: what they decide, and what loops work out in vain. The
+                        ///< language promises the same values; a driver that rearranges sums may round them
+                        ///< differently
     constants ///< and knobs are constants, which the driver folds into its arithmetic: other roundings
 };
 
@@ -23,13 +24,13 @@ enum class Specialise : unsigned char {
 struct LeftOut {
     int lines = 0;                            ///< of the author's that are empty now
     int branches = 0;                         ///< closed by knobs or constants
-    int hoisted = 0;                          ///< expressions out of loops
+    int loop_invariants = 0;                  ///< expressions out of loops
     int constants = 0;                        ///< knobs
     std::string kept_whole = "not asked for"; ///< why nothing was done; empty where something was
 
     bool anything() const { return kept_whole.empty(); }
     /// Whether a driver may round differently.
-    bool in_doubt() const { return branches + hoisted + constants > 0; }
+    bool in_doubt() const { return branches + loop_invariants + constants > 0; }
 };
 
 struct Specialised {

@@ -55,7 +55,7 @@ NodeId Parser::keyword_statement() {
     if (take("return")) {
         const NodeId value = at(";") ? absent() : expression();
         expect(";");
-        return make(NodeKind::give_back, begin, begin, {value});
+        return make(NodeKind::return_statement, begin, begin, {value});
     }
     if (at("else"))
         give_up("expected a statement");

@@ -37,16 +37,16 @@ enum class NodeKind : unsigned char {
     function,    ///< type, parameters, [body]; `word` is its name
     other,       ///< `precision …;`, `layout(…) in;`: only words
     // Statements. `word` is the keyword.
-    block,      ///< statements
-    expression, ///< expression
-    if_else,    ///< condition, yes, [no]
-    loop_for,   ///< first statement, [condition], [step], body
-    loop_while, ///< condition, body
-    loop_do,    ///< body, condition
-    switch_on,  ///< selector, body
-    label,      ///< [value]: case, default
-    give_back,  ///< [value]: return
-    jump,       ///< break, continue, discard
+    block,            ///< statements
+    expression,       ///< expression
+    if_else,          ///< condition, yes, [no]
+    loop_for,         ///< first statement, [condition], [step], body
+    loop_while,       ///< condition, body
+    loop_do,          ///< body, condition
+    switch_on,        ///< selector, body
+    label,            ///< [value]: case, default
+    return_statement, ///< [value]: return
+    jump,             ///< break, continue, discard
     // All of it.
     text,
 };

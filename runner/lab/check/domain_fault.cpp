@@ -1,7 +1,7 @@
 #include "lab/check/domain_fault.hpp"
 
 #include "lab/check/probe_text.hpp"
-#include "lab/trace/birth.hpp"
+#include "lab/trace/nan_origin.hpp"
 #include "lab/trace/operation.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,8 @@
 
 #include "lab/check/probes.hpp"
 
+#include <utility>
+
 namespace tidemark::lab {
 
 std::string_view to_string(Verdict verdict) {
@@ -45,39 +47,39 @@ std::span<const Probe> all_probes() {
         {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
          ask_tiles},
         {"threads", "one thread draws the same bytes as many", ask_threads},
-        {"witnesses", "rays with a sample below the surface: proof that a step was too long (mainHit)",
-         ask_witnesses},
+        {"overstep", "rays with a sample below the surface: proof that a step was too long (mainHit)",
+         ask_overstep},
         {"budget", "rays that run out of steps (mainHit)", ask_budget},
         {"gradient",
          "the largest slope of the field along a ray, sampled and climbed to, beside the bound that the "
          "scene states (mainHit, march_field)",
          ask_gradient},
-        {"stiffness",
+        {"lipschitz_sweep",
          "the same, and distances that are no number, with each knob at both ends, at 0, 1/2, 2 and 4 times "
          "its value within its range, and with defined heights and scales so (mainHit)",
-         ask_stiffness},
+         ask_lipschitz_sweep},
         {"grazing",
          "rays that run out of steps along the horizon, at all mouse heights that show it, and in exactly "
          "level rays (mainHit)",
          ask_grazing},
         {"far", "flicker before a far plane that moves by a thousandth (mainHit, knob far_distance)",
          ask_far},
-        {"folds",
+        {"self_intersection",
          "waves whose steepness adds up to 0.75, 0.99, 1 and 1.5: from 1 on crests fold over (mainHit, knob "
          "of a steepness)",
-         ask_folds},
+         ask_self_intersection},
         {"octaves",
          "as few and as many octaves as the scene allows: coordinates beyond what floats hold (mainHit)",
          ask_octaves},
-        {"clicks",
+        {"mouse_edge",
          "a click in the first column or row that is taken for none, and shows another view than the next",
-         ask_clicks},
+         ask_mouse_edge},
         {"camera",
          "turns of the picture under a one-pixel step of the mouse, up and across; no number at a pole",
          ask_camera},
-        {"jumps",
+        {"time_discontinuity",
          "cuts: an instant that is less like the next than before and after, at every number in the text",
-         ask_jumps},
+         ask_time_discontinuity},
         {"horizon", "until when float and double show the same, to 1/255 in 99 % of the pixels", ask_horizon},
         {"rays", "until when rays meet the same in float and double, to a pixel's width in 99 % (mainHit)",
          ask_rays},
@@ -118,12 +120,22 @@ std::span<const Probe> all_probes() {
          "products that go into sums unrounded, with sums added up from the other end, and with quotients, "
          "roots, powers and logarithms a unit off: apart by as much",
          ask_rounding},
-        {"halves",
+        {"mediump",
          "the picture with every + - * / in half floats, where the text says `mediump` or `lowp`: apart by "
          "as much",
-         ask_halves},
+         ask_mediump},
     };
     return probes;
+}
+
+std::string_view probe_name(std::string_view name) {
+    static constexpr std::pair<std::string_view, std::string_view> old_names[] = {
+        {"witnesses", "overstep"}, {"stiffness", "lipschitz_sweep"}, {"folds", "self_intersection"},
+        {"clicks", "mouse_edge"},  {"jumps", "time_discontinuity"},  {"halves", "mediump"}};
+    for (const auto& [old_name, now] : old_names)
+        if (name == old_name)
+            return now;
+    return name;
 }
 
 } // namespace tidemark::lab

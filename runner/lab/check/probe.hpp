@@ -35,4 +35,7 @@ struct Probe {
 /// In the order they are asked: the cheap ones first.
 std::span<const Probe> all_probes();
 
+/// Today's name of a probe that version 0.1 called so; of any other word the word itself.
+std::string_view probe_name(std::string_view name);
+
 } // namespace tidemark::lab

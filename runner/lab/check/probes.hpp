@@ -26,7 +26,7 @@ Result<Answer> ask_divergence(ProbeBench& bench);
 
 // probes_time.cpp
 Result<Answer> ask_horizon(ProbeBench& bench);
-Result<Answer> ask_jumps(ProbeBench& bench);
+Result<Answer> ask_time_discontinuity(ProbeBench& bench);
 Result<Answer> ask_hashes(ProbeBench& bench);
 
 // probes_tiles.cpp
@@ -36,23 +36,23 @@ Result<Answer> ask_tiles(ProbeBench& bench);
 Result<Answer> ask_repeats(ProbeBench& bench);
 Result<Answer> ask_threads(ProbeBench& bench);
 Result<Answer> ask_camera(ProbeBench& bench);
-Result<Answer> ask_clicks(ProbeBench& bench);
+Result<Answer> ask_mouse_edge(ProbeBench& bench);
 
 // probes_portable.cpp
 Result<Answer> ask_sine(ProbeBench& bench);
 Result<Answer> ask_rounding(ProbeBench& bench);
-Result<Answer> ask_halves(ProbeBench& bench);
+Result<Answer> ask_mediump(ProbeBench& bench);
 
 // probes_hit.cpp
-Result<Answer> ask_witnesses(ProbeBench& bench);
+Result<Answer> ask_overstep(ProbeBench& bench);
 Result<Answer> ask_budget(ProbeBench& bench);
-Result<Answer> ask_stiffness(ProbeBench& bench);
+Result<Answer> ask_lipschitz_sweep(ProbeBench& bench);
 
 // probes_rays.cpp
 Result<Answer> ask_rays(ProbeBench& bench);
 Result<Answer> ask_epsilon(ProbeBench& bench);
 Result<Answer> ask_octaves(ProbeBench& bench);
-Result<Answer> ask_folds(ProbeBench& bench);
+Result<Answer> ask_self_intersection(ProbeBench& bench);
 
 // probes_place.cpp
 Result<Answer> ask_grazing(ProbeBench& bench);

@@ -33,7 +33,7 @@ Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promis
                   {},
                   {}};
     if (answer.verdict == Verdict::fail) {
-        answer.sentence += fmt::format("; promised are at most {:g} %", promised);
+        answer.sentence += fmt::format("; allowed: {:g} %", promised);
         answer.where = where;
         answer.picture = std::move(map);
     }
@@ -108,7 +108,7 @@ std::vector<FrameState> stiff_states(const ProbeBench& bench) {
 
 } // namespace
 
-Result<Answer> ask_witnesses(ProbeBench& bench) {
+Result<Answer> ask_overstep(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench, true);
     return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_witness_percent,
@@ -120,7 +120,7 @@ Result<Answer> ask_budget(ProbeBench& bench) {
                         "run out of steps");
 }
 
-Result<Answer> ask_stiffness(ProbeBench& bench) {
+Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
     Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};

@@ -155,7 +155,7 @@ Result<Answer> ask_camera(ProbeBench& bench) {
                     most)};
 }
 
-Result<Answer> ask_clicks(ProbeBench& bench) {
+Result<Answer> ask_mouse_edge(ProbeBench& bench) {
     const Extent size = k_probe_extent;
     const std::pair<const char*, glm::ivec2> edges[] = {{"column", {0, size.height / 2}},
                                                         {"row", {size.width / 2, 0}}};

@@ -87,11 +87,11 @@ Result<Answer> how_far(ProbeBench& bench) {
         const auto wrong = TRY(broken(bench, state));
         if (!wrong.empty())
             return Answer{Verdict::fail, place_of(state) + ": " + wrong, state};
-        const auto both = parting(bench, state);
+        const auto both = float_mismatch(bench, state);
         if (!both)
             return Answer{Verdict::pass,
                           "finite below, above and to 1e6 units away; not to be had in double"};
-        if (both->parted <= k_same) {
+        if (both->mismatched_percent <= k_same) {
             good = distance;
             continue;
         }
@@ -100,7 +100,7 @@ Result<Answer> how_far(ProbeBench& bench) {
             kept ? Verdict::pass : Verdict::fail,
             fmt::format("good to {:g} units away; at {:g} {:.3g} % of the rays meet something else than "
                         "in double",
-                        good, distance, both->parted),
+                        good, distance, both->mismatched_percent),
             state, both->map};
     }
     return Answer{Verdict::pass,
@@ -187,8 +187,7 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
     }
     if (most > bench.promises().most_exhausted_percent) {
         answer.verdict = Verdict::fail;
-        answer.sentence +=
-            fmt::format("; promised are at most {:g} %", bench.promises().most_exhausted_percent);
+        answer.sentence += fmt::format("; allowed: {:g} %", bench.promises().most_exhausted_percent);
     } else {
         answer.where.reset();
         answer.picture.reset();

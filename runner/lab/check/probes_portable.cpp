@@ -157,7 +157,7 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
     return answer;
 }
 
-Result<Answer> ask_halves(ProbeBench& bench) {
+Result<Answer> ask_mediump(ProbeBench& bench) {
     PortabilityProbe probe(bench);
     if (auto done =
             probe.add({glsl::vary_halves, {{1, "sums and products in halves, as phones have `mediump`"}}});

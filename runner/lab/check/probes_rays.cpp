@@ -26,10 +26,10 @@ Result<Answer> ask_rays(ProbeBench& bench) {
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const FrameState state =
             render::at_time(time + 1.0 / 3, typical_view()); // a moment like most, which is no float
-        const auto both = parting(bench, state);
+        const auto both = float_mismatch(bench, state);
         if (!both)
             return without_doubles(both.error());
-        if (both->parted <= k_same) {
+        if (both->mismatched_percent <= k_same) {
             good = time;
             continue;
         }
@@ -40,7 +40,7 @@ Result<Answer> ask_rays(ProbeBench& bench) {
                       fmt::format("{}; at {:g} s {:.3g} % of the rays meet something else than in double, by "
                                   "more than a pixel's width",
                                   good == 0 ? std::string("never good") : fmt::format("good to {:g} s", good),
-                                  time, both->parted),
+                                  time, both->mismatched_percent),
                       state, both->map};
     }
     return Answer{Verdict::pass, "float and double meet the same up to 1e6 s, to a pixel's width"};
@@ -54,7 +54,7 @@ Result<Answer> ask_epsilon(ProbeBench& bench) {
     Answer answer;
     double most = -1;
     for (const FrameState& view : usual_views()) {
-        const auto both = parting(bench, view);
+        const auto both = float_mismatch(bench, view);
         if (!both)
             return without_doubles(both.error());
         const double out = flagged(both->in_float, glsl::k_hit_exhausted);
@@ -138,13 +138,13 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
                 state};
     }
     const FrameState state = with_octaves(count, extremes.most);
-    const auto both = parting(bench, state);
+    const auto both = float_mismatch(bench, state);
     if (!both)
         return without_doubles(both.error());
     Answer answer{Verdict::pass,
                   fmt::format("with {} = {:g} {:.3g} % of the rays meet something else than in double",
-                              count.name, extremes.most, both->parted)};
-    if (both->parted > k_same) {
+                              count.name, extremes.most, both->mismatched_percent)};
+    if (both->mismatched_percent > k_same) {
         answer.verdict = extremes.stated ? Verdict::fail : Verdict::warn;
         answer.sentence += ": floats do not hold the coordinates of so fine a lattice";
         answer.where = state;
@@ -172,7 +172,7 @@ Result<Answer> ask_octaves(ProbeBench& bench) {
 
 /// A train of trochoidal waves is as steep as its height times its wavenumber; trains that add up to 1 and
 /// more fold over themselves, and the water over a place is no function of the place any more.
-Result<Answer> ask_folds(ProbeBench& bench) {
+Result<Answer> ask_self_intersection(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
     const auto knob = std::ranges::find_if(
@@ -196,12 +196,12 @@ Result<Answer> ask_folds(ProbeBench& bench) {
             inside &= !knob->range || value[i] <= knob->range->high[i];
         }
         state.knobs = {{knob->name, scene::to_string(*knob, value)}};
-        const auto both = parting(bench, state);
+        const auto both = float_mismatch(bench, state);
         if (!both)
             return without_doubles(both.error());
         moves |= both->in_float.distance != as_is.distance;
         const double lost = unanswered(both->in_float);
-        if (lost == 0 && both->parted <= k_same) {
+        if (lost == 0 && both->mismatched_percent <= k_same) {
             calm = steepness;
             continue;
         }
@@ -209,7 +209,7 @@ Result<Answer> ask_folds(ProbeBench& bench) {
             inside || steepness < 1 ? Verdict::fail : Verdict::warn,
             fmt::format("steepness that adds up to {:g}: crests fold over{}: {:.3g} % of the rays meet "
                         "something else than in double, {:.3g} % of the distances are no number",
-                        steepness, inside ? "" : ", beyond the knob's range", both->parted, lost),
+                        steepness, inside ? "" : ", beyond the knob's range", both->mismatched_percent, lost),
             state, both->map};
     }
     if (!moves)

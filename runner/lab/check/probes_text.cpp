@@ -13,7 +13,7 @@ namespace tidemark::lab {
 namespace {
 
 /// `parted at a.glsl:3`, `called behind the return at a.glsl:4`.
-std::string told(const glsl::ParsedText& text, const glsl::Parting& parting) {
+std::string told(const glsl::ParsedText& text, const glsl::DivergentBranch& parting) {
     const glsl::Node& at = text.tree()[parting.at];
     const std::string place = place_of(text, at.begin);
     const std::string_view called = parting.called ? "called " : "";
@@ -81,7 +81,7 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
             const std::string place = place_of(text, text.tree()[each.call].begin);
             if (!place.empty())
                 found.push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
-                                            told(text, each.parting)));
+                                            told(text, each.branch)));
         }
     }
     if (found.empty())

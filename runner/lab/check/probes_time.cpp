@@ -120,7 +120,7 @@ Answer told(const Jump& jump, double moment, bool promised) {
 
 } // namespace
 
-Result<Answer> ask_jumps(ProbeBench& bench) {
+Result<Answer> ask_time_discontinuity(ProbeBench& bench) {
     const std::vector<double> periods = possible_periods(bench.scene());
     const Promises& promises = bench.promises();
     Answer answer;

@@ -94,10 +94,10 @@ private:
                 seen_.size() >= k_most_calls || !seen_.insert(i).second)
                 continue;
             const glm::ivec2 pixel = watched_->pixel(view.grid, reading.pixel);
-            Undefined& each = found.emplace_back(
+            Undefined& each = found.emplace_back(Undefined{
                 fmt::format("{}, first at pixel {},{}) at {}",
                             domain_sentence(*pass_.text, watch.sites[i], reading), pixel.x, pixel.y, place),
-                0, view.state, image::Image());
+                0, view.state, image::Image()});
             if (pass_.pass != bench_.scene().image_index())
                 each.where.pass = bench_.scene().passes[pass_.pass].name;
             if (!zero)

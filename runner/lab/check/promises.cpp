@@ -1,5 +1,7 @@
 #include "lab/check/promises.hpp"
 
+#include "lab/check/probe.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +39,7 @@ std::string take_reasons(Promises& promises, const Json& reasons) {
     for (const auto& [probe, reason] : reasons.items()) {
         if (!reason.is_string())
             return "'skip' takes {\"probe\": \"why\"}";
-        promises.skip[probe] = reason.get<std::string>();
+        promises.skip[std::string(probe_name(probe))] = reason.get<std::string>();
     }
     return {};
 }

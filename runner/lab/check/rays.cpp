@@ -73,17 +73,17 @@ Answer without_hits(const ProbeBench& bench, bool warns) {
     if (bench.hit_problem().empty())
         return {Verdict::not_applicable, "the scene has no mainHit"};
     return warns ? Answer{Verdict::warn, "mainHit cannot be asked: " + bench.hit_problem()}
-                 : Answer{Verdict::not_applicable, "mainHit cannot be asked: see witnesses"};
+                 : Answer{Verdict::not_applicable, "mainHit cannot be asked: see overstep"};
 }
 
-Result<Parting> parting(ProbeBench& bench, const FrameState& state) {
+Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state) {
     auto in_float = TRY(bench.hits(state));
     auto in_double = TRY(bench.hits(state, glsl::Precision::promoted));
-    Parting both{std::move(in_float), std::move(in_double), {}, 0, {}};
+    FloatMismatch both{std::move(in_float), std::move(in_double), {}, 0, {}};
     for (size_t i = 0; i < both.in_float.size(); ++i)
-        both.parts.push_back(parts(both.in_float.distance[i], both.in_double.distance[i], state.extent));
-    const auto marks = [&](size_t i) { return both.parts[i]; };
-    both.parted = percent(both.in_float, marks);
+        both.mismatched.push_back(parts(both.in_float.distance[i], both.in_double.distance[i], state.extent));
+    const auto marks = [&](size_t i) { return both.mismatched[i]; };
+    both.mismatched_percent = percent(both.in_float, marks);
     both.map = ray_map(both.in_float, state.extent, marks);
     return both;
 }

@@ -32,16 +32,16 @@ image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(s
 Answer without_hits(const ProbeBench& bench, bool warns = false);
 
 /// A view in floats and in doubles; parts of all rays, percent.
-struct Parting {
+struct FloatMismatch {
     Hits in_float;
     Hits in_double;
     /// Float meets something else: further off than a pixel is wide there.
-    std::vector<bool> parts;
-    double parted = 0; ///< how many
-    image::Image map;  ///< of them
+    std::vector<bool> mismatched;
+    double mismatched_percent = 0;
+    image::Image map; ///< of them
 };
 /// The error of a scene that cannot be promoted.
-Result<Parting> parting(ProbeBench& bench, const FrameState& state);
+Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state);
 
 /// Of the rays, that may part where float and double show the same: silhouettes hang on the last bit.
 inline constexpr double k_same = 1; // percent

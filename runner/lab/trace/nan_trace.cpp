@@ -2,7 +2,7 @@
 
 #include "base/try.hpp"
 #include "image/census.hpp"
-#include "lab/trace/birth.hpp"
+#include "lab/trace/nan_origin.hpp"
 
 #include <fmt/format.h>
 
@@ -20,8 +20,6 @@ using Reach = WatchRequest::Reach;
 
 /// Mending goes on so long: of 70 shaders all were cured in five steps.
 constexpr size_t k_most_repairs = 6;
-/// Variables that are tried one by one.
-constexpr size_t k_most_suspects = 12;
 
 /// But for rounding, which the driver does in another order where it knows less.
 bool same(const PixelBits& a, const PixelBits& b) {
@@ -76,7 +74,7 @@ private:
         if (!everything_) {
             auto reading = read(watch_request(Reach::statements));
             const bool enough =
-                !reading || reading->hit() != k_no_node || (is_finite(reading->colour) && !trace_.washed);
+                !reading || reading->hit() != k_no_node || (is_finite(reading->colour) && !trace_.masked);
             if (enough)
                 return reading;
         }
@@ -104,16 +102,16 @@ private:
         return reading.hit() != k_no_node ? reading.hit() : statement;
     }
 
-    Result<Birth> captured(NodeId statement, NodeId operation) const {
-        Birth birth = describe(watched_, operation);
+    Result<NanOrigin> captured(NodeId statement, NodeId operation) const {
+        NanOrigin origin = describe(watched_, operation);
         WatchRequest request = watch_request(Reach::operations);
         request.within = statement;
         request.capture = operation;
         const glsl::Watch watch = glsl::watch(watched_.text, watched_.facts, request);
         auto reading = TRY(read_pixel(preview_, watch, trace_.pixel));
         if (reading.hit() == operation)
-            add_reading(birth, watched_, operation, watch, reading, preview_.scene(), preview_.pass());
-        return birth;
+            add_reading(origin, watched_, operation, watch, reading, preview_.scene(), preview_.pass());
+        return origin;
     }
 
     void tell() const {
@@ -121,7 +119,7 @@ private:
             request_.progress(trace_);
     }
 
-    /// The first birth, then mending until the pixel is finite.
+    /// The first origin, then mending until the pixel is finite.
     Result<void> follow(NodeId statement) {
         trace_.first = describe(watched_, statement);
         tell();
@@ -130,34 +128,33 @@ private:
             const auto narrowed = TRY(narrow(statement));
             operation = narrowed;
             if (repaired_.empty()) {
-                auto birth = TRY(captured(everything_ ? operation : statement, operation));
-                trace_.first = std::move(birth);
+                auto origin = TRY(captured(everything_ ? operation : statement, operation));
+                trace_.first = std::move(origin);
                 tell();
-                if (trace_.washed)
+                if (trace_.masked)
                     return {};
             }
             repaired_.push_back(operation);
             auto reading = TRY(locate());
             if (is_finite(reading.colour))
-                return cured(statement, operation);
+                return fixed(statement, operation);
             if (reading.hit() == k_no_node || repaired_.size() == k_most_repairs)
                 break;
             statement = reading.hit();
         }
-        trace_.notes.push_back(
-            fmt::format("mending {} operations does not mend the pixel", repaired_.size()));
+        trace_.notes.push_back(fmt::format("fixing {} operations does not fix the pixel", repaired_.size()));
         return {};
     }
 
-    Result<void> cured(NodeId statement, NodeId operation) {
-        trace_.cure_is_first = repaired_.size() == 1;
-        if (trace_.cure_is_first) {
-            trace_.cure = trace_.first;
+    Result<void> fixed(NodeId statement, NodeId operation) {
+        trace_.fix_is_first = repaired_.size() == 1;
+        if (trace_.fix_is_first) {
+            trace_.fix = trace_.first;
             return {};
         }
         repaired_.pop_back();
-        auto birth = TRY(captured(everything_ ? operation : statement, operation));
-        trace_.cure = std::move(birth);
+        auto origin = TRY(captured(everything_ ? operation : statement, operation));
+        trace_.fix = std::move(origin);
         return {};
     }
 
@@ -228,8 +225,8 @@ private:
         trace.pixel = bad.pixel;
         stepper_.draw(bad.frame, tell_of_steps());
         trace.colour = bits_at(renderer_.read_floats(bad.pass, bad.pixel.face), bad.pixel);
-        trace.washed = is_finite(trace.colour);
-        if (request_.progress && !trace.washed)
+        trace.masked = is_finite(trace.colour);
+        if (request_.progress && !trace.masked)
             request_.progress(trace);
         const PassPreview preview = stepper_.preview(bad.frame, bad.pass, tell_of_steps());
         auto text = TRY(read_text(renderer_, bad.pass));
@@ -237,7 +234,7 @@ private:
         const WatchedText watched{*text, facts};
         if (auto done = PixelTracer(preview, watched, trace, request_).run(nan_only); !done)
             trace.notes.push_back(to_string(done.error()));
-        if (trace.washed && !trace.first)
+        if (trace.masked && !trace.first)
             return std::optional<NanTrace>();
         return std::optional(std::move(trace));
     }

@@ -1,5 +1,6 @@
-// Where a NaN or an infinity in a picture comes from: the operation that gave birth to it, with its operands,
-// the loops and the calls on the way, and whether mending it mends the pixel. A context must be current.
+// Where a NaN or an infinity in a picture comes from: the operation that gave origin to it, with its
+// operands, the loops and the calls on the way, and whether mending it mends the pixel. A context must be
+// current.
 #pragma once
 
 #include "base/result.hpp"
@@ -30,7 +31,7 @@ struct TracedLoop {
 };
 
 /// One operation and the value it gave.
-struct Birth {
+struct NanOrigin {
     SourceLocation where;               ///< in a macro's body for what a macro stands for
     std::optional<SourceLocation> used; ///< where that macro is used
     std::string operation;              ///< its text
@@ -40,7 +41,7 @@ struct Birth {
     std::optional<ShaderValue> value{}; ///< nothing: only the place is known
     std::vector<TracedOperand> operands{};
     Explanation why{};
-    std::string origin{}; ///< of what came in from outside: "iChannel0 (Buffer A)", "the uniform iMouse"
+    std::string source{}; ///< of what came in from outside: "iChannel0 (Buffer A)", "the uniform iMouse"
     std::vector<TracedCall> calls{}; ///< outermost first
     std::vector<TracedLoop> loops{}; ///< innermost first
 };
@@ -50,10 +51,10 @@ struct NanTrace {
     int frame = 0;
     PixelPlace pixel{};
     PixelBits colour{};  ///< as drawn
-    bool washed = false; ///< the pixel is finite: a clamp, a min or a condition swallowed what was born
-    std::optional<Birth> first{};
-    std::optional<Birth> cure{}; ///< the first whose mending, with those before it, makes the pixel finite
-    bool cure_is_first = false;
+    bool masked = false; ///< the pixel is finite: a clamp, a min or a condition swallowed what was born
+    std::optional<NanOrigin> first{};
+    std::optional<NanOrigin> fix{}; ///< the first whose mending, with those before it, makes the pixel finite
+    bool fix_is_first = false;
     std::vector<std::string> notes{}; ///< what could not be done, and why
 };
 

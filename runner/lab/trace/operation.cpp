@@ -98,18 +98,18 @@ public:
     Explanation run() const {
         for (size_t i = 0; i < operands_.size(); ++i)
             if (operands_[i] && !operands_[i]->finite())
-                return {BirthCause::carried, {}, i};
+                return {OriginCause::carried, {}, i};
         if (name_.starts_with("uintBits") || name_.starts_with("intBits") || name_.starts_with("unpack"))
-            return {BirthCause::born, "the bits are those of no finite number"};
+            return {OriginCause::operation, "the bits are those of no finite number"};
         if (const auto reason = of_vectors(); !reason.empty())
-            return {BirthCause::born, std::string(reason)};
+            return {OriginCause::operation, std::string(reason)};
         if (!by_number())
             return {};
         for (size_t i = 0; i < result_.size(); ++i)
             if (!is_finite_word(result_.bits[i]))
                 if (const auto reason = of_numbers(arguments(i)); !reason.empty())
-                    return {BirthCause::born, std::string(reason)};
-        return is_known_function() ? Explanation{BirthCause::undefined, "an undefined value", 0}
+                    return {OriginCause::operation, std::string(reason)};
+        return is_known_function() ? Explanation{OriginCause::undefined, "an undefined value", 0}
                                    : Explanation{};
     }
 

@@ -33,14 +33,14 @@ std::string to_string(const ShaderValue& value);
 /// "NaN", "+Inf" or "-Inf"; the worst of its numbers. Empty for a finite one.
 std::string_view worst_of(const ShaderValue& value);
 
-enum class BirthCause {
-    born,      ///< finite operands; the reason says what is wrong with them, where we know
+enum class OriginCause {
+    operation, ///< finite operands; the reason says what is wrong with them, where we know
     carried,   ///< an operand was no finite number already
     undefined, ///< these operands give a finite result: what the shader computed with had no value
 };
 
 struct Explanation {
-    BirthCause cause = BirthCause::born;
+    OriginCause cause = OriginCause::operation;
     std::string reason{}; ///< "division by zero"; may be empty
     size_t operand = 0;   ///< the one that was not finite
 };

@@ -26,8 +26,8 @@ std::string found_in(const std::string& text) {
     for (const Divergent& each :
          find_divergent(read, find_facts(read), [](std::string_view name) { return name == "iChannel0"; }))
         result += (result.empty() ? "" : " ") + std::string(called_name(read, each.call)) + "@" +
-                  line(each.call) + (each.parting.exit ? "|" : "<") + line(each.parting.at) +
-                  (each.parting.called ? " called" : "");
+                  line(each.call) + (each.branch.exit ? "|" : "<") + line(each.branch.at) +
+                  (each.branch.called ? " called" : "");
     return result;
 }
 

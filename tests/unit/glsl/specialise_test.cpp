@@ -51,7 +51,7 @@ std::string reached(std::string_view text) {
     return left_of(text, Specialise::unreachable);
 }
 std::string settled(std::string_view text) {
-    return left_of(text, Specialise::settled);
+    return left_of(text, Specialise::invariant_uniforms);
 }
 /// What is left of `if (condition) a(); else b();`: "a", "b" or "both".
 std::string branch(std::string_view condition, std::string_view before = "") {
@@ -62,7 +62,7 @@ std::string branch(std::string_view condition, std::string_view before = "") {
     return a && b ? "both" : a ? "a" : "b";
 }
 int hoisted(std::string_view text, std::string_view version = "330 core") {
-    return specialised(text, Specialise::settled, version).left_out.hoisted;
+    return specialised(text, Specialise::invariant_uniforms, version).left_out.loop_invariants;
 }
 
 TEST(Specialise, removes_functions_that_main_cannot_reach_and_what_only_they_need) {
@@ -133,13 +133,13 @@ TEST(Specialise, leaves_directives_and_lines_where_they_are) {
 TEST(Specialise, leaves_a_text_alone_that_it_cannot_follow) {
     for (const std::string_view text : {"void main() { float x = ; }", "float f( { void main() {}",
                                         "#ifdef GL_ARB_gpu_shader5\nfloat f;\n#endif\nvoid main() {}"}) {
-        const Specialised result = specialised(text, Specialise::settled);
+        const Specialised result = specialised(text, Specialise::invariant_uniforms);
         EXPECT_FALSE(result.left_out.anything());
         EXPECT_NE(result.left_out.kept_whole.find("a.glsl:"), std::string::npos)
             << result.left_out.kept_whole;
         EXPECT_NE(result.source.text().find(text), std::string::npos);
     }
-    EXPECT_EQ(specialised("void main() {}", Specialise::settled).left_out.kept_whole,
+    EXPECT_EQ(specialised("void main() {}", Specialise::invariant_uniforms).left_out.kept_whole,
               "there is nothing to leave out");
     EXPECT_FALSE(specialised("float f; void main() {}", Specialise::nothing).left_out.anything());
 }
@@ -281,7 +281,7 @@ TEST(Specialise, follows_chains_of_any_length) {
     for (int i = 1; i < 3000; ++i)
         text += fmt::format("float b{} = b{} + 1.0;\n", i, i - 1);
     text += "for (int i = 0; i < 9; ++i) f2999(sin(b2999)); }";
-    const Specialised result = specialised(text, Specialise::settled);
+    const Specialised result = specialised(text, Specialise::invariant_uniforms);
     EXPECT_EQ(result.left_out.lines, 0);
     EXPECT_EQ(count(result.source.text(), "f2999("), 2);
 }

@@ -10,13 +10,13 @@ namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
-PassInputs reads(double number, std::vector<Edition> channels = {}) {
+PassInputs reads(double number, std::vector<Generation> channels = {}) {
     return {{UniformNumbers{number}}, std::move(channels)};
 }
 
-LastDrawing drawn_from(PassInputs inputs, Edition edition) {
+LastDrawing drawn_from(PassInputs inputs, Generation generation) {
     LastDrawing last;
-    last.drew(std::move(inputs), edition);
+    last.drew(std::move(inputs), generation);
     return last;
 }
 
@@ -42,7 +42,7 @@ TEST(LastDrawing, a_target_that_was_cleared_or_made_anew_holds_nothing) {
 }
 
 TEST(LastDrawing, a_pass_that_reads_itself_is_never_done) {
-    // It reads edition 4 of its own target and makes edition 5, which it reads next.
+    // It reads generation 4 of its own target and makes generation 5, which it reads next.
     EXPECT_FALSE(drawn_from(reads(1, {4}), 5).holds(reads(1, {5}), 5));
 }
 

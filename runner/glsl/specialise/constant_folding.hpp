@@ -12,10 +12,10 @@
 
 namespace tidemark::glsl {
 
-class ConstantConditions {
+class ConstantFolding {
 public:
     /// `variables` are those of the whole text. Refers to its arguments.
-    ConstantConditions(const ParsedText& text, const Variables& variables, std::span<const scene::Knob> knobs)
+    ConstantFolding(const ParsedText& text, const Variables& variables, std::span<const scene::Knob> knobs)
         : text_(text), tree_(text.tree()), variables_(variables), knobs_(knobs) {}
 
     /// Nothing: not known.

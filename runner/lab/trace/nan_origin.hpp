@@ -15,11 +15,12 @@ struct WatchedText {
 };
 
 /// What can be said without running it.
-Birth describe(const WatchedText& watched, glsl::NodeId operation);
+NanOrigin describe(const WatchedText& watched, glsl::NodeId operation);
 
 /// Adds what the shader wrote down: values, loops and calls, and why it is so.
-void add_reading(Birth& birth, const WatchedText& watched, glsl::NodeId operation, const glsl::Watch& watch,
-                 const WatchReading& reading, const scene::Scene& scene, const scene::Pass& pass);
+void add_reading(NanOrigin& origin, const WatchedText& watched, glsl::NodeId operation,
+                 const glsl::Watch& watch, const WatchReading& reading, const scene::Scene& scene,
+                 const scene::Pass& pass);
 
 /// So much of an excerpt as a sentence takes.
 std::string shortened(std::string text);

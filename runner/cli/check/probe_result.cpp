@@ -1,4 +1,4 @@
-#include "cli/check/asked.hpp"
+#include "cli/check/probe_result.hpp"
 
 #include "cli/check/state_json.hpp"
 
@@ -6,7 +6,7 @@
 
 namespace tidemark::cli {
 
-Json told(const Asked& asked) {
+Json to_json(const ProbeResult& asked) {
     Json json = {{"probe", asked.probe->name},        {"verdict", int(asked.answer.verdict)},
                  {"sentence", asked.answer.sentence}, {"non_finite", asked.answer.non_finite},
                  {"seconds", asked.seconds},          {"picture", asked.picture.string()}};
@@ -15,9 +15,9 @@ Json told(const Asked& asked) {
     return json;
 }
 
-Asked told_answer(const Json& line) {
+ProbeResult result_of(const Json& line) {
     const auto name = line.at("probe").get<std::string>();
-    Asked asked{&*std::ranges::find(lab::all_probes(), name, &lab::Probe::name), {}};
+    ProbeResult asked{&*std::ranges::find(lab::all_probes(), name, &lab::Probe::name), {}};
     asked.answer.verdict = lab::Verdict(line.at("verdict").get<int>());
     line.at("sentence").get_to(asked.answer.sentence);
     line.at("non_finite").get_to(asked.answer.non_finite);

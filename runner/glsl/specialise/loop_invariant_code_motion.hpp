@@ -10,7 +10,7 @@
 namespace tidemark::glsl {
 
 /// Adds to `edits`; how many expressions. `gone` words and globals that are not `reached` are left alone.
-int hoist(const ParsedText& text, const std::vector<Global>& globals, const std::vector<bool>& reached,
-          const std::vector<bool>& gone, WordEdits& edits);
+int move_loop_invariants(const ParsedText& text, const std::vector<Global>& globals,
+                         const std::vector<bool>& reached, const std::vector<bool>& gone, WordEdits& edits);
 
 } // namespace tidemark::glsl

@@ -1,4 +1,4 @@
-#include "glsl/specialise/hoist.hpp"
+#include "glsl/specialise/loop_invariant_code_motion.hpp"
 
 #include "glsl/specialise/uniform_expressions.hpp"
 #include "glsl/syntax/tree_facts.hpp"
@@ -172,8 +172,8 @@ private:
 
 } // namespace
 
-int hoist(const ParsedText& text, const std::vector<Global>& globals, const std::vector<bool>& reached,
-          const std::vector<bool>& gone, WordEdits& edits) {
+int move_loop_invariants(const ParsedText& text, const std::vector<Global>& globals,
+                         const std::vector<bool>& reached, const std::vector<bool>& gone, WordEdits& edits) {
     return Hoister(text, globals, reached, gone, edits).run();
 }
 

@@ -1,4 +1,4 @@
-#include "glsl/specialise/constant_conditions.hpp"
+#include "glsl/specialise/constant_folding.hpp"
 
 #include "glsl/syntax/number.hpp"
 #include "glsl/syntax/tree_facts.hpp"
@@ -28,12 +28,12 @@ bool is_plain(double number) {
 
 } // namespace
 
-std::optional<bool> ConstantConditions::outcome(NodeId condition) const {
+std::optional<bool> ConstantFolding::outcome(NodeId condition) const {
     const Known value = evaluate(condition);
     return value && value->kind == Kind::truth ? std::optional(value->number != 0) : std::nullopt;
 }
 
-auto ConstantConditions::evaluate(NodeId expression) const -> Known {
+auto ConstantFolding::evaluate(NodeId expression) const -> Known {
     switch (tree_[expression].kind) {
     case NodeKind::literal: return literal(text_.word_of(expression));
     case NodeKind::name: return name(text_.word_of(expression));
@@ -45,7 +45,7 @@ auto ConstantConditions::evaluate(NodeId expression) const -> Known {
     }
 }
 
-auto ConstantConditions::literal(std::string_view digits) const -> Known {
+auto ConstantFolding::literal(std::string_view digits) const -> Known {
     if (digits.find_first_of(".eEfF") != std::string_view::npos && !digits.starts_with("0x") &&
         !digits.starts_with("0X")) {
         if (digits.ends_with('f') || digits.ends_with('F'))
@@ -57,14 +57,14 @@ auto ConstantConditions::literal(std::string_view digits) const -> Known {
     return number && *number == int(*number) ? Known({Kind::whole, double(*number)}) : std::nullopt;
 }
 
-const scene::Knob* ConstantConditions::find_knob(std::string_view name) const {
+const scene::Knob* ConstantFolding::find_knob(std::string_view name) const {
     for (const scene::Knob& knob : knobs_)
         if (knob.name == name)
             return &knob;
     return nullptr;
 }
 
-auto ConstantConditions::knob_value(const scene::Knob& knob, int component) -> Known {
+auto ConstantFolding::knob_value(const scene::Knob& knob, int component) -> Known {
     const double number = knob.value[size_t(component)];
     if (scene::info(knob.type).whole)
         return Value{Kind::whole, number};
@@ -72,7 +72,7 @@ auto ConstantConditions::knob_value(const scene::Knob& knob, int component) -> K
 }
 
 /// A name that is declared anywhere else, too, may mean that.
-auto ConstantConditions::name(std::string_view name) const -> Known {
+auto ConstantFolding::name(std::string_view name) const -> Known {
     if (name == "true" || name == "false")
         return Value{Kind::truth, double(name == "true")};
     const auto found = variables_.find(name);
@@ -92,7 +92,7 @@ auto ConstantConditions::name(std::string_view name) const -> Known {
     return known->second; // nothing of one that is made of itself
 }
 
-auto ConstantConditions::constant(const Variable& variable) const -> Known {
+auto ConstantFolding::constant(const Variable& variable) const -> Known {
     const bool global = tree_[tree_[variable.type].parent].parent == 0 &&
                         tree_[variable.declared].kind == NodeKind::declarator;
     const NodeId value = tree_.child(variable.declared, 0);
@@ -113,7 +113,7 @@ auto ConstantConditions::constant(const Variable& variable) const -> Known {
 }
 
 /// One component of a knob.
-auto ConstantConditions::member(NodeId member) const -> Known {
+auto ConstantFolding::member(NodeId member) const -> Known {
     const NodeId of = tree_.child(member, 0);
     const std::string_view component = text_.word_of(member);
     if (tree_[of].kind != NodeKind::name || component.size() != 1)
@@ -129,7 +129,7 @@ auto ConstantConditions::member(NodeId member) const -> Known {
     return std::nullopt;
 }
 
-auto ConstantConditions::prefix(NodeId prefix) const -> Known {
+auto ConstantFolding::prefix(NodeId prefix) const -> Known {
     Known value = evaluate(tree_.child(prefix, 0));
     const std::string_view op = text_.word_of(prefix);
     if (!value)
@@ -143,7 +143,7 @@ auto ConstantConditions::prefix(NodeId prefix) const -> Known {
     return op == "+" && value->kind != Kind::truth ? value : std::nullopt;
 }
 
-auto ConstantConditions::binary(NodeId binary) const -> Known {
+auto ConstantFolding::binary(NodeId binary) const -> Known {
     const std::string_view op = text_.word_of(binary);
     const Known a = evaluate(tree_.child(binary, 0));
     if (!a)
@@ -164,7 +164,7 @@ auto ConstantConditions::binary(NodeId binary) const -> Known {
 }
 
 /// A whole number that meets a float becomes one.
-auto ConstantConditions::compare(std::string_view op, const Value& a, const Value& b) -> Known {
+auto ConstantFolding::compare(std::string_view op, const Value& a, const Value& b) -> Known {
     if ((a.kind == Kind::truth) != (b.kind == Kind::truth))
         return std::nullopt;
     for (const Value& value : {a, b})
@@ -183,7 +183,7 @@ auto ConstantConditions::compare(std::string_view op, const Value& a, const Valu
 }
 
 /// Ints that do not overflow.
-auto ConstantConditions::compute(std::string_view op, const Value& a, const Value& b) -> Known {
+auto ConstantFolding::compute(std::string_view op, const Value& a, const Value& b) -> Known {
     if (a.kind != Kind::whole || b.kind != Kind::whole)
         return std::nullopt;
     const double result = op == "+"   ? a.number + b.number

@@ -1,4 +1,4 @@
-#include "lab/trace/birth.hpp"
+#include "lab/trace/nan_origin.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ NodeId target_of(const WatchedText& watched, NodeId id) {
     const glsl::SyntaxTree& tree = watched.text.tree();
     for (NodeId around = id; around != k_no_node; around = tree[around].parent) {
         const NodeKind kind = tree[around].kind;
-        if (kind == NodeKind::assign || kind == NodeKind::declarator || kind == NodeKind::give_back)
+        if (kind == NodeKind::assign || kind == NodeKind::declarator || kind == NodeKind::return_statement)
             return around;
         if (!glsl::is_expression(kind))
             return k_no_node;
@@ -31,7 +31,7 @@ NodeId target_of(const WatchedText& watched, NodeId id) {
 
 std::string variable_of(const WatchedText& watched, NodeId target) {
     const glsl::SyntaxTree& tree = watched.text.tree();
-    if (target == k_no_node || tree[target].kind == NodeKind::give_back)
+    if (target == k_no_node || tree[target].kind == NodeKind::return_statement)
         return {};
     if (tree[target].kind == NodeKind::declarator)
         return std::string(watched.text.word_of(target));
@@ -75,9 +75,9 @@ std::string origin_of(const WatchedText& watched, NodeId operation, const Explan
                       const std::vector<NodeId>& nodes, const scene::Scene& scene, const scene::Pass& pass) {
     const std::string name = operation_name(watched, operation);
     if (name.starts_with("tex") && !watched.facts.function(name) && !nodes.empty() &&
-        why.cause != BirthCause::carried)
+        why.cause != OriginCause::carried)
         return channel_label(scene, pass, base_name(watched, nodes[0]));
-    if (why.cause != BirthCause::carried || why.operand >= nodes.size())
+    if (why.cause != OriginCause::carried || why.operand >= nodes.size())
         return {};
     const std::string_view base = base_name(watched, nodes[why.operand]);
     const auto meanings = watched.facts.names.find(base);
@@ -99,7 +99,7 @@ bool is_spelled_out(const WatchedText& watched, NodeId id) {
     return true;
 }
 
-void add_way(Birth& birth, const WatchedText& watched, const glsl::Watch& watch,
+void add_way(NanOrigin& origin, const WatchedText& watched, const glsl::Watch& watch,
              const WatchReading& reading) {
     const auto& words = reading.words;
     const glsl::SyntaxTree& tree = watched.text.tree();
@@ -107,14 +107,14 @@ void add_way(Birth& birth, const WatchedText& watched, const glsl::Watch& watch,
     for (size_t i = 0; i < depth; ++i) {
         const NodeId call = words[WatchLayout::k_path + i];
         if (call < tree.nodes.size())
-            birth.calls.push_back(
+            origin.calls.push_back(
                 {watched.text.used(tree[call].begin), std::string(glsl::called_name(watched.text, call))});
     }
     for (size_t i = 0; i < watch.loops.size(); ++i)
-        birth.loops.push_back(
+        origin.loops.push_back(
             {watched.text.used(tree[watch.loops[i]].begin), words[WatchLayout::k_loops + i]});
     // A loop that was not entered is no loop on the way.
-    std::erase_if(birth.loops, [](const TracedLoop& loop) { return loop.iteration == 0; });
+    std::erase_if(origin.loops, [](const TracedLoop& loop) { return loop.iteration == 0; });
 }
 
 } // namespace
@@ -143,39 +143,39 @@ std::vector<NodeId> operands(const WatchedText& watched, NodeId operation) {
     return nodes;
 }
 
-Birth describe(const WatchedText& watched, NodeId operation) {
+NanOrigin describe(const WatchedText& watched, NodeId operation) {
     const glsl::SyntaxTree& tree = watched.text.tree();
     const glsl::Node& node = tree[operation];
-    Birth birth;
+    NanOrigin origin;
     // The operator says better than its first operand which line is meant, where both are far apart.
-    birth.where = watched.text.spelled(node.begin);
+    origin.where = watched.text.spelled(node.begin);
     const glsl::Word& first = watched.text.words()[node.begin];
     const glsl::Word& sign = watched.text.words()[node.word];
     if (sign.from_macro() && !first.from_macro())
-        birth.where = watched.text.spelled(node.word);
+        origin.where = watched.text.spelled(node.word);
     if (sign.from_macro())
-        birth.used = watched.text.used(node.word);
-    birth.operation = shortened(watched.text.excerpt(operation));
+        origin.used = watched.text.used(node.word);
+    origin.operation = shortened(watched.text.excerpt(operation));
     const NodeId target = target_of(watched, operation);
-    birth.statement = birth.operation;
+    origin.statement = origin.operation;
     if (target != k_no_node && watched.text.excerpt(target).size() <= k_longest_text)
-        birth.statement = watched.text.excerpt(target);
-    if (birth.statement.ends_with(';'))
-        birth.statement.pop_back();
-    birth.variable = variable_of(watched, target);
+        origin.statement = watched.text.excerpt(target);
+    if (origin.statement.ends_with(';'))
+        origin.statement.pop_back();
+    origin.variable = variable_of(watched, target);
     const NodeId function = tree.around(operation, NodeKind::function);
     if (function != k_no_node)
-        birth.function = watched.text.word_of(function);
-    return birth;
+        origin.function = watched.text.word_of(function);
+    return origin;
 }
 
-void add_reading(Birth& birth, const WatchedText& watched, NodeId operation, const glsl::Watch& watch,
+void add_reading(NanOrigin& origin, const WatchedText& watched, NodeId operation, const glsl::Watch& watch,
                  const WatchReading& reading, const scene::Scene& scene, const scene::Pass& pass) {
     const glsl::SyntaxTree& tree = watched.text.tree();
-    birth.value = read_slot(reading.words, WatchLayout::k_value);
+    origin.value = read_slot(reading.words, WatchLayout::k_value);
     const std::vector<NodeId> nodes = operands(watched, operation);
     std::vector<std::optional<ShaderValue>> values;
-    birth.operands.clear();
+    origin.operands.clear();
     for (const NodeId node : nodes) {
         std::optional<ShaderValue> value;
         const auto slot = std::find(watch.operands.begin(), watch.operands.end(), node);
@@ -189,15 +189,15 @@ void add_reading(Birth& birth, const WatchedText& watched, NodeId operation, con
         while (tree[shown].kind == NodeKind::parenthesis)
             shown = tree.child(shown, 0);
         std::string text = shortened(watched.text.excerpt(shown));
-        const bool told = std::any_of(birth.operands.begin(), birth.operands.end(),
+        const bool told = std::any_of(origin.operands.begin(), origin.operands.end(),
                                       [&](const TracedOperand& operand) { return operand.text == text; });
         if (!told && !is_spelled_out(watched, shown))
-            birth.operands.push_back({std::move(text), value});
+            origin.operands.push_back({std::move(text), value});
     }
-    if (birth.value)
-        birth.why = explain(operation_name(watched, operation), values, *birth.value);
-    birth.origin = origin_of(watched, operation, birth.why, nodes, scene, pass);
-    add_way(birth, watched, watch, reading);
+    if (origin.value)
+        origin.why = explain(operation_name(watched, operation), values, *origin.value);
+    origin.source = origin_of(watched, operation, origin.why, nodes, scene, pass);
+    add_way(origin, watched, watch, reading);
 }
 
 } // namespace tidemark::lab

@@ -10,17 +10,17 @@
 
 namespace tidemark::cli {
 
-struct Asked {
+struct ProbeResult {
     const lab::Probe* probe;
     lab::Answer answer; ///< its picture does not come along: it is in a file
     double seconds = 0;
     std::filesystem::path picture{}; ///< empty: none was written
-    /// Where what is not finite is born, or why that is not known. For people, whole lines; for scripts.
+    /// The origin of what is not finite, or why that is not known. For people, whole lines; for scripts.
     std::string trace{};
     Json trace_json{};
 };
 
-Json told(const Asked& asked);
-Asked told_answer(const Json& line);
+Json to_json(const ProbeResult& asked);
+ProbeResult result_of(const Json& line);
 
 } // namespace tidemark::cli
