@@ -1,4 +1,4 @@
-// `tidemark check --trace`: names the statement where a NaN or an infinity is born.
+// `tidemark check --trace`: names the statement where a NaN or an infinity has its origin.
 #pragma once
 
 #include "cli/options.hpp"

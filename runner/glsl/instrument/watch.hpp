@@ -1,6 +1,6 @@
-// A shader that watches itself: the author's text with every operation that can give birth to a NaN or an
-// infinity led through a function of ours, which remembers the first that did. Text in, text out; what is
-// remembered goes into a buffer of words whose layout stands here.
+// An instrumented shader that finds the origin of a NaN or an infinity: every operation of the author's text
+// that can make one goes through a function of ours, which remembers the first that did. Text in, text out;
+// what is remembered goes into a buffer of words whose layout stands here.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"

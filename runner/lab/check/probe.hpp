@@ -22,7 +22,7 @@ struct Answer {
     /// Where it shows first, and what it looks like there, with the pixels or rays in question in magenta.
     std::optional<FrameState> where{};
     std::optional<image::Image> picture{};
-    bool non_finite = false; ///< a NaN or an infinity is there, which can be traced to its birth
+    bool non_finite = false; ///< a NaN or an infinity is there, which can be traced to its origin
 };
 
 struct Probe {

@@ -18,7 +18,7 @@ using glsl::NodeId;
 using glsl::WatchRequest;
 using Reach = WatchRequest::Reach;
 
-/// Mending goes on so long: of 70 shaders all were cured in five steps.
+/// Fixing goes on so long: of 70 shaders all were fixed in five steps.
 constexpr size_t k_most_repairs = 6;
 
 /// But for rounding, which the driver does in another order where it knows less.

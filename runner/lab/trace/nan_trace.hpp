@@ -1,5 +1,5 @@
 // Where a NaN or an infinity in a picture comes from: the operation that gave origin to it, with its
-// operands, the loops and the calls on the way, and whether mending it mends the pixel. A context must be
+// operands, the loops and the calls on the way, and whether fixing it fixes the pixel. A context must be
 // current.
 #pragma once
 
@@ -51,7 +51,7 @@ struct NanTrace {
     int frame = 0;
     PixelPlace pixel{};
     PixelBits colour{};  ///< as drawn
-    bool masked = false; ///< the pixel is finite: a clamp, a min or a condition swallowed what was born
+    bool masked = false; ///< the pixel is finite: a clamp, a min or a condition masked the NaN
     std::optional<NanOrigin> first{};
     std::optional<NanOrigin> fix{}; ///< the first whose mending, with those before it, makes the pixel finite
     bool fix_is_first = false;
