@@ -70,7 +70,10 @@ bool GapEdits::fits(size_t word, size_t gap, const std::string& insertion) const
     };
     if (!whole(word) || !means_itself(insertion, token))
         return false;
-    const auto [begin, end] = std::ranges::equal_range(uses_, token, {}, &Use::token);
+    const auto before = [](const Use& use, uint32_t wanted) { return use.token < wanted; };
+    const auto behind = [](uint32_t wanted, const Use& use) { return wanted < use.token; };
+    const auto begin = std::lower_bound(uses_.begin(), uses_.end(), token, before);
+    const auto end = std::upper_bound(begin, uses_.end(), token, behind);
     return std::all_of(begin, end, [&](const Use& use) {
         const auto offer = offers_.find(use.word + (gap - word));
         return whole(use.word) && offer != offers_.end() && offer->second.text == insertion;
