@@ -126,8 +126,7 @@ Result<OutputPath::Place> OutputPath::place() const {
     TRY(check_links());
     Place place{whole_};
     if (chosen_parts_ == 0) {
-        auto behind = TRY(behind_links(whole_));
-        place.path = std::move(behind);
+        place.path = TRY(behind_links(whole_));
         place.descriptor = descriptor_named(place.path);
     }
     place.stream = place.descriptor || is_stream(place.path);

@@ -190,8 +190,7 @@ Result<int> compare(const CompareOptions& options) {
         if (options.output == "-")
             return fail(ErrorCode::usage, "-o: the picture of the difference needs a file");
         TRY(image::check_picture_name(options.output));
-        auto parsed = TRY(OutputName::parse(options.output, pairs.size()));
-        output = std::move(parsed);
+        output = TRY(OutputName::parse(options.output, pairs.size()));
         output->spare(pictures_of(pairs));
         for (const Pair& pair : pairs)
             TRY(output->of_frame(pair.frame.value_or(0)).place());

@@ -76,8 +76,7 @@ public:
     Result<Elapsed> start() {
         renderer_.reset();
         const Stopwatch watch;
-        auto renderer = TRY(render::Renderer::create(scene_, way_.options));
-        renderer_ = std::move(renderer);
+        renderer_ = TRY(render::Renderer::create(scene_, way_.options));
         renderer_->draw(inputs_of(k_frame));
         glFinish();
         return watch.elapsed();

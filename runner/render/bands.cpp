@@ -21,8 +21,7 @@ Result<bool> draw_bands(const Renderer& renderer, const FrameInputs& inputs, con
                 return false;
             renderer.draw_tile(inputs, grid.at(column, number), band);
         }
-        auto other = TRY(take(std::move(band)));
-        band = std::move(other);
+        band = TRY(take(std::move(band)));
     }
     return true;
 }

@@ -24,8 +24,7 @@ Result<BoundChannel> make_channel(const gl::Program& program, int unit, const sc
     if (const size_t* pass = source_pass(channel.input)) {
         bound.source = scene::PassOutput{*pass};
     } else {
-        const auto texture = TRY(textures.require(channel));
-        bound.source = texture;
+        bound.source = TRY(textures.require(channel));
     }
     point_samplers(program, unit);
     return bound;

@@ -61,10 +61,9 @@ Result<bool> Capture::run(Interrupt& interrupt) {
 Result<void> Capture::open_output() {
     if (plan_.output.video()) {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
-        auto video = TRY(image::VideoWriter::create(
+        video_.emplace(TRY(image::VideoWriter::create(
             plan_.output.of_frame(0),
-            {cube ? image::k_panorama : renderer_.extent(), plan_.pace.fps, sound_}));
-        video_.emplace(std::move(video));
+            {cube ? image::k_panorama : renderer_.extent(), plan_.pace.fps, sound_})));
     } else if (!plan_.output.standard_output() && !renderer_.tiles()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
         writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
@@ -154,8 +153,8 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     if (!*drawn)
         return Outcome::interrupted;
     record.milliseconds = milliseconds_since(work.start);
-    record.sha256 = (output)->sha256();
-    record.not_finite = (output)->not_finite();
+    record.sha256 = bands.sha256();
+    record.not_finite = bands.not_finite();
     return Outcome::made;
 }
 
@@ -164,9 +163,8 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     if (!plan_.output.standard_output()) {
         // Image's alpha is 1.
         const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
-        auto made = TRY(image::PictureStream::create(plan_.output.of_frame(record.frame), renderer_.extent(),
-                                                     alpha, format_of(record)));
-        stream.emplace(std::move(made));
+        stream.emplace(TRY(image::PictureStream::create(plan_.output.of_frame(record.frame),
+                                                        renderer_.extent(), alpha, format_of(record))));
     }
     return std::make_unique<BandOutput>(std::move(stream), plan_.json);
 }

@@ -1,4 +1,3 @@
-#include "base/hint.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/help/pages.hpp"

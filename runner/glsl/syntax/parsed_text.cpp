@@ -12,10 +12,8 @@ ParsedText::read(text::MappedText source, std::span<const KnownMacro> known, boo
     const text::LineMap& lines = result->source_.lines();
     result->tokens_ = text::tokenize(result->source_.text());
     result->preprocessed_ = preprocess(result->tokens_, known, all_known);
-    auto expansion = TRY(expand(result->tokens_, result->preprocessed_, lines));
-    result->expansion_ = std::move(expansion);
-    auto tree = TRY(parse(result->expansion_.words, result->tokens_, lines));
-    result->tree_ = std::move(tree);
+    result->expansion_ = TRY(expand(result->tokens_, result->preprocessed_, lines));
+    result->tree_ = TRY(parse(result->expansion_.words, result->tokens_, lines));
     return result;
 }
 

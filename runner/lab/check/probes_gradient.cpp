@@ -176,8 +176,7 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
         answer.verdict = Verdict::fail;
         answer.sentence += ": steps that trust it are too long";
         answer.where = found.view;
-        auto map = TRY(map_of(bench, found));
-        answer.picture = std::move(map);
+        answer.picture = TRY(map_of(bench, found));
     }
     return answer;
 }

@@ -131,14 +131,14 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
         if (const double nothing = unanswered(hits); nothing > 0)
             return Answer{Verdict::fail,
                           fmt::format("{}: {:.3g} % of the distances are no number", set, nothing), state};
-        const double witnesses = flagged(hits, glsl::k_hit_negative);
-        if (witnesses <= most)
+        const double overstepping = flagged(hits, glsl::k_hit_negative);
+        if (overstepping <= most)
             continue;
-        most = witnesses;
-        answer = {witnesses > bench.promises().most_witness_percent ? Verdict::warn : Verdict::pass,
+        most = overstepping;
+        answer = {overstepping > bench.promises().most_witness_percent ? Verdict::warn : Verdict::pass,
                   fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
                               "{:.3g} % run out of steps",
-                              set, witnesses, flagged(hits, glsl::k_hit_exhausted)),
+                              set, overstepping, flagged(hits, glsl::k_hit_exhausted)),
                   {},
                   {}};
         if (answer.verdict == Verdict::warn)

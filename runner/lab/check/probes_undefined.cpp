@@ -74,8 +74,7 @@ public:
         for (const View& view : views) {
             const auto preview = TRY(bench_.preview(view.state, pass_.pass));
             if (!watched_) {
-                auto linked = TRY(WatchedDomains::link(preview, pass_, k_probe_extent));
-                watched_ = std::move(linked);
+                watched_ = TRY(WatchedDomains::link(preview, pass_, k_probe_extent));
             }
             look(preview, view, found);
         }

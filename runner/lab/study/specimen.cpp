@@ -52,9 +52,8 @@ image::Image Specimen::picture(const View& view) {
 
 Result<Hits> Specimen::hits(const View& view) {
     if (!hit_renderer_) {
-        auto renderer = TRY(render::Renderer::create(
+        hit_renderer_ = TRY(render::Renderer::create(
             *hit_scene_, {extent_, image::SampleType::f32, "", precision_, glsl::Specialise::unreachable}));
-        hit_renderer_ = std::move(renderer);
     }
     draw(*hit_renderer_, view);
     return hits_of(hit_renderer_->read_back());

@@ -125,8 +125,7 @@ private:
         tell();
         NodeId operation = k_no_node;
         for (;;) {
-            const auto narrowed = TRY(narrow(statement));
-            operation = narrowed;
+            operation = TRY(narrow(statement));
             if (repaired_.empty()) {
                 auto origin = TRY(captured(everything_ ? operation : statement, operation));
                 trace_.first = std::move(origin);
@@ -153,8 +152,7 @@ private:
             return {};
         }
         repaired_.pop_back();
-        auto origin = TRY(captured(everything_ ? operation : statement, operation));
-        trace_.fix = std::move(origin);
+        trace_.fix = TRY(captured(everything_ ? operation : statement, operation));
         return {};
     }
 
