@@ -26,15 +26,17 @@ using render::Renderer;
 constexpr double k_share_of_sequence = 1.0 / 20;
 /// Frames that such a trial draws, about, starting up aside.
 constexpr double k_frames_of_trial = 3;
-/// A trial in a window times so many pairs of frames at least, however long they take.
-constexpr size_t k_fewest_pairs = 3;
+/// In a window, what gains less than the clock can tell is not worth a change.
+constexpr double k_largest_share = 0.97;
+/// So long the window draws beside the two programs and is in the way of both.
+constexpr double k_longest_timing_ms = 10'000;
 
 /// Where threads of this process draw, and it does nothing else, their CPU time is the measure: other
 /// processes do not stretch it.
 using Clock = double lab::Elapsed::*;
 Clock clock_of(const TrialPlan& plan) {
     const bool in_software = gl::query_capabilities().renderer.starts_with("llvmpipe");
-    return in_software && plan.timing == 0 ? &lab::Elapsed::cpu : &lab::Elapsed::wall;
+    return in_software && !plan.in_window ? &lab::Elapsed::cpu : &lab::Elapsed::wall;
 }
 
 /// Of all that was drawn.
@@ -60,16 +62,16 @@ double politely_timed(Renderer& renderer, const render::FrameInputs& inputs) {
     return milliseconds;
 }
 
-/// What a frame takes of another program's time. Median of pairs: what else keeps the machine busy does so
-/// for both of a pair.
-double share_of(Renderer& renderer, Renderer& other, const TrialPlan& plan) {
-    std::vector<double> shares;
+/// Of the two programs drawing in turns: what else keeps the machine busy does so for both of a pair.
+std::optional<double> share_of(Renderer& renderer, Renderer& other, const TrialPlan& plan) {
     const lab::Stopwatch watch;
-    while (shares.size() < k_fewest_pairs || watch.elapsed().wall < plan.timing) {
+    const auto next_pair = [&]() -> std::optional<double> {
+        if (watch.elapsed().wall > k_longest_timing_ms)
+            return std::nullopt;
         const double others = politely_timed(other, plan.last);
-        shares.push_back(politely_timed(renderer, plan.last) / others);
-    }
-    return lab::median(std::move(shares));
+        return politely_timed(renderer, plan.last) / others;
+    };
+    return clear_share(next_pair, k_largest_share);
 }
 
 /// 0: the same bytes; infinite where one is a number and the other is none.
@@ -133,6 +135,21 @@ std::string verdict(double difference, std::optional<double> allowed, bool taken
 
 } // namespace
 
+std::optional<double> clear_share(const std::function<std::optional<double>()>& next_pair, double largest) {
+    std::vector<double> shares;
+    while (const auto share = next_pair()) {
+        shares.push_back(*share);
+        if (shares.size() < lab::k_fewest_runs)
+            continue;
+        const lab::Interval median = lab::bootstrap_median(shares);
+        if (median.high < largest)
+            return lab::median(std::move(shares));
+        if (median.low > largest)
+            return std::nullopt;
+    }
+    return std::nullopt;
+}
+
 bool worth_trying(const Renderer& renderer, glsl::Specialise how) {
     return std::ranges::any_of(renderer.plan().passes, [&](const render::PlannedPass& planned) {
         return left_out_of(renderer, planned.pass, how).in_doubt();
@@ -161,12 +178,12 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
         return blank(std::move(plain));
     special->draw(plan.first);
     double difference = difference_of(pictures_of(*special), first);
-    double share = milliseconds_of(*special, plan.last, clock) / plain_time;
+    std::optional<double> share = milliseconds_of(*special, plan.last, clock) / plain_time;
     difference = std::max(difference, difference_of(pictures_of(*special), last));
     const bool close = difference <= plan.allowed.value_or(0);
-    if (close && plan.timing > 0)
+    if (close && plan.in_window)
         share = share_of(*special, plain, plan);
-    const bool taken = close && share < 1;
+    const bool taken = close && share && *share < 1;
     Trial trial = blank(taken ? *std::move(special) : std::move(plain));
     trial.said = verdict(difference, plan.allowed, taken);
     if (taken)

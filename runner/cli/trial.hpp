@@ -6,6 +6,7 @@
 #include "base/result.hpp"
 #include "render/renderer.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -18,9 +19,8 @@ struct TrialPlan {
     size_t frames = 1; ///< of the sequence: a trial may cost a twentieth of it
     /// The largest difference of a sample (0..1 in a picture) that is consented to, whatever the trial costs.
     std::optional<double> allowed{};
-    /// For so many milliseconds the last frame is timed over and over, where something else draws meanwhile;
-    /// 0: once.
-    double timing = 0;
+    /// Something else draws meanwhile: the last frame is timed until the gain is clear, else once.
+    bool in_window = false;
 };
 
 struct Trial {
@@ -29,6 +29,10 @@ struct Trial {
     /// What a frame takes of the plain program's time, where the other one was taken.
     std::optional<double> share{};
 };
+
+/// What a frame takes of another program's time: the median of pairs, as soon as all of its 95 % interval lies
+/// below `largest`. None where it lies above, or `next_pair` has no more before that is clear.
+std::optional<double> clear_share(const std::function<std::optional<double>()>& next_pair, double largest);
 
 /// Whether specialising as far as `how` does anything to the scene that is not surely drawn alike: else there
 /// is no other program to try.

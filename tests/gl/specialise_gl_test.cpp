@@ -195,6 +195,28 @@ TEST_F(SpecialiseTest, a_trial_gives_the_plain_bytes_unless_a_difference_is_allo
     EXPECT_TRUE(frame(trial->renderer, plan.last) == expected);
 }
 
+/// A trial's clock that hands out these shares.
+auto pairs(std::vector<double> shares) {
+    return [shares, at = size_t{0}]() mutable {
+        return at < shares.size() ? std::optional(shares[at++]) : std::nullopt;
+    };
+}
+
+TEST(Trial, only_a_clear_gain_counts) {
+    EXPECT_EQ(cli::clear_share(pairs(std::vector(5, 0.5)), 0.97), 0.5);
+    EXPECT_EQ(cli::clear_share(pairs(std::vector(4, 0.5)), 0.97), std::nullopt); // too few for an interval
+    EXPECT_EQ(cli::clear_share(pairs(std::vector(100, 0.97)), 0.97), std::nullopt);
+    EXPECT_EQ(cli::clear_share(pairs({}), 0.97), std::nullopt);
+    // Every third pair was disturbed, the first ones too: a few more make it clear.
+    std::vector<double> disturbed;
+    for (int i = 0; i < 60; ++i)
+        disturbed.push_back(i % 3 == 0 ? 7.0 : 0.5);
+    EXPECT_EQ(cli::clear_share(pairs(disturbed), 0.97), 0.5);
+    for (double& share : disturbed)
+        share *= 2; // no gain at all
+    EXPECT_EQ(cli::clear_share(pairs(disturbed), 0.97), std::nullopt);
+}
+
 /// The saving is a factor beyond what a busy machine makes of a measurement.
 TEST_F(SpecialiseTest, a_trial_takes_the_program_that_saves_most_of_the_work) {
     const scene::Scene scene = scene_of(R"(

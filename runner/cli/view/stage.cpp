@@ -16,10 +16,6 @@ constexpr auto k_settled = glsl::Specialise::invariant_uniforms;
 constexpr double k_shortest_rest_seconds = 2;
 /// A trial compiles the scene twice more: that may take a tenth of the time before it.
 constexpr double k_rest_per_second_of_compiling = 20;
-/// The window draws meanwhile, and is in the way of both programs.
-constexpr double k_timing_ms = 500;
-/// What gains less than the clock can tell is not worth a change.
-constexpr double k_largest_share = 0.97;
 
 } // namespace
 
@@ -48,9 +44,9 @@ Result<Stage> Stage::settle(platform::WindowContext context, const scene::Scene&
     plan.first.frame = 0; // buffers begin there
     plan.first.time = 0;
     plan.first.date = render::later(shown.date, -shown.time);
-    plan.timing = k_timing_ms;
+    plan.in_window = true;
     auto trial = TRY(choose_program(scene, settled, plan));
-    if (!trial.share || *trial.share > k_largest_share)
+    if (!trial.share)
         return fail(ErrorCode::check_failed, "the specialised program is no better");
     context.leave();
     Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(trial.renderer)));
