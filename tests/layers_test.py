@@ -11,13 +11,14 @@ ALLOWED = {
     "text": ["base"],
     "scene": ["base", "text"],
     "glsl": ["base", "text", "scene"],
+    "ir": ["base"],
     "gl": ["base"],
     "image": ["base"],
     "sound": ["base"],
     "bake": ["base", "image"],
     "platform": ["base"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
-    "lab": ["base", "text", "scene", "glsl", "gl", "image", "render"],
+    "lab": ["base", "text", "scene", "glsl", "ir", "gl", "image", "render"],
     "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "render", "lab"],
     "main.cpp": ["cli"],
 }
@@ -27,6 +28,7 @@ ALLOWED = {
 ROOMS = {
     # The plug-in is a library of its own: image/files knows the table of functions that it hands over.
     "image": {"": [], "files": ["", "plugin"], "made": ["", "files"], "compare": [""], "plugin": ["", "files"]},
+    "ir": {"": ["plugin"], "plugin": []},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "fields": [], "study": ["", "fields"], "trace": [], "check": ["", "trace"]},
@@ -34,7 +36,7 @@ ROOMS = {
 }
 
 # Modules whose files (a .cpp and its .hpp count as one) never lead back to where they started.
-WITHOUT_CIRCLES = ["base", "text", "scene", "gl", "sound", "platform"]
+WITHOUT_CIRCLES = ["base", "text", "scene", "ir", "gl", "sound", "platform"]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/(?:([a-z_]+)/)?', re.MULTILINE)
 

@@ -57,6 +57,5 @@ struct PictureCodec {
 
 inline constexpr unsigned k_picture_codec_version = 2;
 inline constexpr const char* k_picture_codec_entry = "tidemark_picture_codec";
-using PictureCodecEntry = const PictureCodec* (*)();
 
 } // namespace tidemark::image

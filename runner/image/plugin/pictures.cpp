@@ -268,7 +268,7 @@ DecodeResult decode(FileFormat format, std::span<const std::byte> file) noexcept
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) const PictureCodec* tidemark_picture_codec() {
+extern "C" __attribute__((visibility("default"))) const void* tidemark_picture_codec() {
     static const PictureCodec codec = [] {
         // One picture at a time on the thread that asks: the other cores draw, and no pool of threads is
         // left to be ended at exit.

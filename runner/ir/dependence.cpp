@@ -1,0 +1,60 @@
+#include "ir/dependence.hpp"
+
+#include <algorithm>
+
+namespace tidemark::ir {
+
+std::vector<uint32_t> blocks_of_instructions(const Function& function) {
+    std::vector<uint32_t> blocks(function.instructions.size());
+    for (uint32_t block = 0; block < function.blocks.size(); ++block)
+        std::fill(blocks.begin() + function.blocks[block].first, blocks.begin() + function.blocks[block].last,
+                  block);
+    return blocks;
+}
+
+std::vector<bool> natural_loop(const Function& function, uint32_t header) {
+    std::vector<bool> inside(function.blocks.size());
+    inside[header] = true;
+    std::vector<uint32_t> open;
+    for (const uint32_t predecessor : function.blocks[header].predecessors)
+        if (predecessor >= header) // what leads back stands behind
+            open.push_back(predecessor);
+    while (!open.empty()) {
+        const uint32_t block = open.back();
+        open.pop_back();
+        if (inside[block])
+            continue;
+        inside[block] = true;
+        std::ranges::copy(function.blocks[block].predecessors, std::back_inserter(open));
+    }
+    return inside;
+}
+
+Cone::Cone(const Function& function, const std::vector<bool>& inside, uint32_t header,
+           std::vector<Value> stops)
+    : function_(&function), inside_(&inside), first_phi_(function.blocks[header].first),
+      last_phi_(first_phi_), stops_(std::move(stops)) {
+    while (last_phi_ < function.blocks[header].last && function.instructions[last_phi_].op == Op::phi)
+        ++last_phi_;
+}
+
+std::vector<Value> Cone::of(Value value) const {
+    std::vector<bool> seen(function_->instructions.size());
+    std::vector<Value> open{value}, cone;
+    while (!open.empty()) {
+        const Value each = open.back();
+        open.pop_back();
+        if (!(*inside_)[each] || seen[each])
+            continue;
+        seen[each] = true;
+        cone.push_back(each);
+        const bool carried = each >= first_phi_ && each < last_phi_;
+        if (!carried && std::ranges::find(stops_, each) == stops_.end())
+            std::ranges::copy(function_->operands_of(function_->instructions[each]),
+                              std::back_inserter(open));
+    }
+    std::ranges::sort(cone);
+    return cone;
+}
+
+} // namespace tidemark::ir

@@ -1,0 +1,34 @@
+// Which instructions depend on which, and what belongs to a loop.
+#pragma once
+
+#include "ir/function.hpp"
+
+#include <vector>
+
+namespace tidemark::ir {
+
+/// The block of every instruction; that of constants is 0.
+std::vector<uint32_t> blocks_of_instructions(const Function& function);
+
+/// The blocks that lie on a way from the loop's header back to it.
+std::vector<bool> natural_loop(const Function& function, uint32_t header);
+
+/// What of a loop a value is computed from.
+class Cone {
+public:
+    /// `inside` says of every instruction whether it is in the loop. Phis of the header and what `stops`
+    /// names are in the cone, and nothing beyond them.
+    Cone(const Function& function, const std::vector<bool>& inside, uint32_t header,
+         std::vector<Value> stops = {});
+
+    /// Sorted.
+    std::vector<Value> of(Value value) const;
+
+private:
+    const Function* function_;
+    const std::vector<bool>* inside_;
+    uint32_t first_phi_, last_phi_;
+    std::vector<Value> stops_;
+};
+
+} // namespace tidemark::ir

@@ -1,0 +1,231 @@
+// Evaluates a Function over a number system. A system has a Value and says what an operation makes of values;
+// where it cannot decide a condition, or where an operation jumps within its operand, the evaluator is told
+// by Decisions which way to go, and whoever wants all ways runs it once for each.
+#pragma once
+
+#include "ir/function.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace tidemark::ir {
+
+/// Ways through the undecided conditions of a run, one after the other: the first run goes the first way
+/// everywhere, `next` turns to another way at the last place that has one left.
+class Decisions {
+public:
+    explicit Decisions(size_t most) : most_(most) {}
+
+    /// No decisions are left: the run gives up.
+    bool exhausted() const { return exhausted_; }
+    bool any() const { return !ways_.empty(); }
+    void begin() { at_ = 0; }
+    bool decide() {
+        if (at_ == ways_.size()) {
+            exhausted_ = exhausted_ || ways_.size() == most_;
+            ways_.push_back(false);
+        }
+        return ways_[at_++];
+    }
+    /// Whether there is another run to make.
+    bool next() {
+        ways_.resize(std::min(ways_.size(), at_));
+        while (!ways_.empty() && ways_.back())
+            ways_.pop_back();
+        if (!ways_.empty())
+            ways_.back() = true;
+        return !ways_.empty() && !exhausted_;
+    }
+
+private:
+    std::vector<bool> ways_;
+    size_t at_ = 0;
+    size_t most_;
+    bool exhausted_ = false;
+};
+
+/// The value of a look-up, of its coordinates and levels.
+template <class Value>
+using Textures = std::function<Value(const Lookup& lookup, std::span<const Value> operands)>;
+
+enum class Ended { left, discarded, stopped, too_long, undecided };
+
+template <class System>
+class Evaluator {
+public:
+    using Number = typename System::Value;
+
+    Evaluator(const Function& function, System system = {})
+        : function_(&function), system_(std::move(system)), values_(function.instructions.size()),
+          memory_(function.cells) {
+        if (!function.blocks.empty())
+            for (uint32_t i = 0; i < function.blocks[0].first; ++i)
+                values_[i] =
+                    system_.constant(function.instructions[i].immediate, function.instructions[i].type);
+    }
+
+    const Number& value(Value of) const { return values_[of]; }
+    Number& value(Value of) { return values_[of]; }
+    std::vector<Number>& memory() { return memory_; }
+    const std::vector<Number>& memory() const { return memory_; }
+    System& system() { return system_; }
+    uint64_t steps() const { return steps_; }
+
+    void unpin() { pinned_.clear(); }
+    /// Whatever the text computes there, it is this number.
+    void pin(Value at, const Number& number) {
+        pinned_.resize(values_.size());
+        pinned_[at] = true;
+        values_[at] = number;
+    }
+
+    Textures<Number> textures{};
+    /// Derivatives along x and y of an operand; none: 0.
+    std::function<Number(Op, Value)> derivative{};
+    uint64_t most_steps = 50'000'000; ///< instructions
+    bool splits = false;              ///< asks the decisions at jumps, too
+
+    /// From `block` on, entered from its predecessor `from`. `visit` is called behind each block with its
+    /// index, and ends the run where it gives false.
+    template <class Visit>
+    Ended run(Decisions& decisions, Visit visit, uint32_t block = 0, uint32_t from = 0) {
+        decisions.begin();
+        steps_ = 0;
+        while (true) {
+            const Block& here = function_->blocks[block];
+            enter(block, from);
+            for (uint32_t i = here.first; i < here.last; ++i)
+                if (!is_pinned(i))
+                    execute(i, decisions);
+            steps_ += here.last - here.first + 1;
+            if (decisions.exhausted())
+                return Ended::undecided;
+            if (!visit(block))
+                return Ended::stopped;
+            if (here.end == Block::End::leave || here.end == Block::End::discard)
+                return here.end == Block::End::leave ? Ended::left : Ended::discarded;
+            if (steps_ > most_steps)
+                return Ended::too_long;
+            from = std::exchange(block, here.successors[way(here, decisions)]);
+        }
+    }
+
+    /// The phis of `block` as entered from `from`, all at once.
+    void enter(uint32_t block, uint32_t from) {
+        const Block& here = function_->blocks[block];
+        const auto& predecessors = here.predecessors;
+        const auto slot = size_t(std::ranges::find(predecessors, from) - predecessors.begin());
+        entering_.clear();
+        for (uint32_t i = here.first; i < here.last; ++i) {
+            const Instruction& phi = function_->instructions[i];
+            if (phi.op != Op::phi)
+                break;
+            entering_.push_back(values_[function_->operands_of(phi)[slot]]);
+        }
+        for (uint32_t i = 0; i < entering_.size(); ++i)
+            if (!is_pinned(here.first + i))
+                values_[here.first + i] = entering_[i];
+    }
+
+private:
+    bool is_pinned(Value value) const { return !pinned_.empty() && pinned_[value]; }
+
+    void execute(uint32_t index, Decisions& decisions) {
+        const Instruction& instruction = function_->instructions[index];
+        const auto operands = function_->operands_of(instruction);
+        Number& result = values_[index];
+        switch (instruction.op) {
+        case Op::phi: return;
+        case Op::constant: result = system_.constant(instruction.immediate, instruction.type); return;
+        case Op::undefined: result = system_.constant(0, instruction.type); return;
+        case Op::load: result = load(instruction, operands); return;
+        case Op::store: store(instruction, operands); return;
+        case Op::texel: result = textures ? looked_up(instruction, operands) : Number(); return;
+        case Op::derivative_x:
+        case Op::derivative_y:
+            result = derivative ? derivative(instruction.op, operands[0]) : system_.constant(0, Scalar::real);
+            return;
+        default: result = computed(instruction, operands, decisions);
+        }
+    }
+
+    static constexpr size_t k_most_operands = 3;
+
+    Number computed(const Instruction& instruction, std::span<const Value> operands, Decisions& decisions) {
+        std::array<Number, k_most_operands> numbers;
+        const size_t count = std::min(operands.size(), k_most_operands);
+        for (size_t i = 0; i < count; ++i)
+            numbers[i] = values_[operands[i]];
+        const std::span<const Number> given(numbers.data(), count);
+        if (splits)
+            if (auto parts = system_.split(instruction.op, given))
+                numbers[0] = values_[operands[0]] = decisions.decide() ? parts->second : parts->first;
+        return system_.compute(instruction.op, instruction.type, function_->instructions[operands[0]].type,
+                               given);
+    }
+
+    Number looked_up(const Instruction& instruction, std::span<const Value> operands) {
+        std::vector<Number> numbers;
+        for (const Value operand : operands)
+            numbers.push_back(values_[operand]);
+        return textures(function_->lookups[instruction.immediate], numbers);
+    }
+
+    std::pair<uint32_t, uint32_t> cells(const Access& access, std::span<const Value> operands,
+                                        size_t offset) {
+        if (operands.size() <= offset)
+            return {access.first, access.first};
+        const auto [low, high] = system_.range(values_[operands[offset]]);
+        const auto inside = [&](int64_t at) {
+            return access.first + uint32_t(std::clamp<int64_t>(at, 0, access.size - 1));
+        };
+        return {inside(low), inside(high)};
+    }
+    Number load(const Instruction& instruction, std::span<const Value> operands) {
+        const auto [low, high] = cells(function_->accesses[instruction.immediate], operands, 0);
+        Number result = memory_[low];
+        for (uint32_t cell = low + 1; cell <= high; ++cell)
+            result = system_.hull(result, memory_[cell]);
+        return result;
+    }
+    void store(const Instruction& instruction, std::span<const Value> operands) {
+        const auto [low, high] = cells(function_->accesses[instruction.immediate], operands, 1);
+        const Number& what = values_[operands[0]];
+        for (uint32_t cell = low; cell <= high; ++cell)
+            memory_[cell] = low == high ? what : system_.hull(memory_[cell], what);
+    }
+
+    /// The index of the successor that is taken.
+    size_t way(const Block& block, Decisions& decisions) {
+        if (block.end == Block::End::jump)
+            return 0;
+        const Number& condition = values_[block.condition];
+        if (block.end == Block::End::branch) {
+            const auto decided = system_.decide(condition);
+            return decided ? !*decided : decisions.decide();
+        }
+        const auto [low, high] = system_.range(condition);
+        for (size_t i = 0; i < block.cases.size(); ++i) {
+            const int64_t label = int32_t(block.cases[i]);
+            if (label < low || label > high)
+                continue;
+            if (low == high || decisions.decide())
+                return i + 1;
+        }
+        return 0;
+    }
+
+    const Function* function_;
+    System system_;
+    std::vector<Number> values_, memory_;
+    std::vector<Number> entering_;
+    std::vector<bool> pinned_; ///< empty: none
+    uint64_t steps_ = 0;
+};
+
+} // namespace tidemark::ir

@@ -1,0 +1,27 @@
+// The first place on a ray where its field falls below the threshold, by branch and bound over intervals:
+// what is passed over is proved to have none.
+#pragma once
+
+#include "ir/march_slice.hpp"
+
+#include <string_view>
+
+namespace tidemark::ir {
+
+struct FirstHit {
+    enum class Verdict {
+        hit,      ///< the first one lies in `where`
+        none,     ///< there is none up to `where.high`
+        undecided ///< there is none before `where.low`; what is in `where` is not known
+    } verdict = Verdict::undecided;
+    enum class Reason { none, not_finite, jump, grazing, budget } reason = Reason::none;
+    Interval where{};
+    uint64_t evaluations = 0;
+};
+
+std::string_view to_string(FirstHit::Reason reason);
+
+/// From the slice's start to `last`, in terms of the ray's parameter.
+FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations = 20'000);
+
+} // namespace tidemark::ir

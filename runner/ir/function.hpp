@@ -1,0 +1,168 @@
+// A pass as one function in static single assignment (SSA) form over scalars: vectors, matrices and structs
+// are taken apart, all calls are inlined. Plain data; evaluating it is evaluate.hpp's business.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tidemark::ir {
+
+enum class Scalar : uint8_t { real, signed_int, unsigned_int, boolean };
+
+/// The index of the instruction that computes it.
+using Value = uint32_t;
+inline constexpr Value k_no_value = ~Value{0};
+
+/// What an instruction computes of its operands a, b, c. Where the type decides (add of reals or of whole
+/// numbers, less of signed or unsigned ones) it is the type of the operand a.
+enum class Op : uint8_t {
+    constant,  ///< immediate: its bits
+    undefined, ///< any value
+    phi,       ///< one operand for each predecessor of its block
+    load,      ///< of the access `immediate`; a: the offset in it, absent where that is fixed
+    store,     ///< of a into the access `immediate`; b: the offset, as in load
+
+    add,
+    subtract,
+    multiply,
+    divide,
+    modulo,    ///< x - y floor(x / y); of whole numbers the remainder with the sign of y
+    remainder, ///< with the sign of x
+    negate,
+    square, ///< a a
+    absolute,
+    sign,
+    minimum,
+    maximum,
+
+    floor,
+    ceil,
+    truncate,
+    round, ///< halves away from zero
+    round_even,
+    fract,
+    sqrt,
+    inverse_sqrt,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    atan2, ///< of a / b
+    sinh,
+    cosh,
+    tanh,
+    asinh,
+    acosh,
+    atanh,
+    exp,
+    exp2,
+    log,
+    log2,
+    pow,
+    mix,     ///< a (1 - c) + b c
+    hermite, ///< a a (3 - 2 a)
+    ldexp,   ///< a 2^b
+
+    bit_and,
+    bit_or,
+    bit_xor,
+    bit_not,
+    shift_left,
+    shift_right, ///< with the sign of signed numbers
+    bit_count,
+    lowest_bit,
+    highest_bit,
+    reverse_bits,
+
+    less,
+    less_equal,
+    equal,
+    not_equal, ///< of NaN too
+    is_nan,
+    is_inf,
+    logical_and,
+    logical_or,
+    logical_not,
+    select, ///< a ? b : c
+
+    to_real, ///< of a whole number
+    to_int,  ///< of a real, towards zero
+    bits_as, ///< the same 32 bits as another type
+
+    texel,        ///< component and form of a look-up: `Lookup` of index `immediate`
+    derivative_x, ///< of a, to the next pixel
+    derivative_y,
+};
+
+struct Instruction {
+    Op op = Op::undefined;
+    Scalar type = Scalar::real;
+    uint32_t immediate = 0;
+    uint32_t first_operand = 0; ///< in Function::operands
+    uint32_t operand_count = 0;
+    int line = 0; ///< of the text that was compiled; 0: none
+};
+
+/// A part of the memory: an array that is indexed, a uniform, an input, the output.
+struct Access {
+    uint32_t first = 0; ///< cell
+    uint32_t size = 1;  ///< an offset is clamped to it
+};
+
+/// A variable that lives in memory.
+struct Variable {
+    enum class Kind { uniform, input, output, local } kind = Kind::local;
+    std::string name{};
+    uint32_t first = 0; ///< cell; scalars in the order in which they are declared
+    uint32_t size = 0;
+    Scalar type = Scalar::real;                 ///< of its first scalar
+    uint32_t columns = 1, rows = 1, length = 0; ///< of a matrix or vector; of an array, 0: none
+};
+
+struct Lookup {
+    enum class Form { sample, fetch, size, gather, query } form = Form::sample;
+    std::string sampler{}; ///< name of the uniform
+    uint32_t component = 0;
+    uint32_t coordinates = 2; ///< operands that are coordinates; an explicit level or two gradients follow
+    bool has_level = false;
+    bool has_bias = false;
+    bool has_gradients = false;
+};
+
+struct Block {
+    enum class End { jump, branch, multiway, leave, discard } end = End::leave;
+    uint32_t first = 0, last = 0; ///< instructions [first, last); phis come first
+    std::vector<uint32_t> predecessors{};
+    Value condition = k_no_value;       ///< of a branch: successor 0 where it holds, else 1
+    std::vector<uint32_t> successors{}; ///< of a multiway jump: successor 0 where no case fits
+    std::vector<uint32_t> cases{};      ///< case i leads to successor i + 1
+    bool loop = false;                  ///< the header of one
+    uint32_t after = 0;                 ///< of a loop's header: the block behind the loop
+    uint32_t next = 0;                  ///< of a loop's header: the block that leads back to it
+};
+
+struct Function {
+    std::vector<Instruction> instructions; ///< constants first, then block by block
+    std::vector<Value> operands;
+    std::vector<Block> blocks; ///< a block stands behind those that dominate it; 0 is the entry
+    std::vector<Access> accesses;
+    std::vector<Variable> variables;
+    std::vector<Lookup> lookups;
+    uint32_t cells = 0; ///< of memory
+
+    std::span<const Value> operands_of(const Instruction& instruction) const {
+        return {operands.data() + instruction.first_operand, instruction.operand_count};
+    }
+    const Variable* find(std::string_view name) const {
+        for (const Variable& variable : variables)
+            if (variable.name == name)
+                return &variable;
+        return nullptr;
+    }
+};
+
+} // namespace tidemark::ir

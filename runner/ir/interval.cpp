@@ -1,0 +1,264 @@
+#include "ir/interval.hpp"
+
+#include <array>
+
+namespace tidemark::ir {
+namespace {
+
+constexpr double k_pi = 3.141592653589793;
+/// The next multiple of a quarter turn is not told apart beyond that.
+constexpr double k_largest_angle = 1e9;
+/// Beyond that not every whole number is a double.
+constexpr double k_largest_whole = 4503599627370496; // 2^52
+
+bool partial(const Interval& a, const Interval& b) {
+    return a.partial || b.partial;
+}
+
+/// 0 * infinity is 0: an infinite bound stands for large numbers.
+double product(double a, double b) {
+    return a == 0 || b == 0 ? 0 : a * b;
+}
+
+Interval of_corners(const std::array<double, 4>& corners, bool is_partial) {
+    const auto [low, high] = std::ranges::minmax(corners);
+    if (std::ranges::any_of(corners, [](double each) { return std::isnan(each); }))
+        return everything();
+    return {below(low), above(high), is_partial};
+}
+
+/// Whether a + 2 pi k lies in the interval for some whole k, or may.
+bool contains_angle(const Interval& interval, double angle) {
+    const double slack = 1e-15 * std::max(std::abs(interval.low), std::abs(interval.high)) + 1e-15;
+    const double turns = std::ceil((interval.low - slack - angle) / (2 * k_pi) - 1e-12);
+    return turns * 2 * k_pi + angle <= interval.high + slack + 1e-9;
+}
+
+Interval wave(double (*function)(double), const Interval& a, double top) {
+    if (!(a.low > -k_largest_angle && a.high < k_largest_angle) || a.high - a.low >= 2 * k_pi)
+        return {-1, 1, a.partial || std::isinf(a.low) || std::isinf(a.high)};
+    const double one = function(a.low), other = function(a.high);
+    Interval result = widened({std::min(one, other), std::max(one, other), a.partial}, k_library_ulps);
+    if (contains_angle(a, top))
+        result.high = 1;
+    if (contains_angle(a, top + k_pi))
+        result.low = -1;
+    return {std::max(result.low, -1.0), std::min(result.high, 1.0), a.partial};
+}
+
+/// The largest whole k with k b <= a; fma tells the sign of k b - a exactly.
+double whole_multiples(double a, double b) {
+    double k = std::floor(a / b);
+    if (std::fma(k, b, -a) > 0)
+        k -= 1;
+    if (std::fma(k + 1, b, -a) <= 0)
+        k += 1;
+    return k;
+}
+
+} // namespace
+
+double below(double a) {
+    constexpr double k_unit = std::numeric_limits<double>::epsilon() / 2;
+    if (a == k_infinity)
+        return std::numeric_limits<double>::max();
+    if (a == -k_infinity)
+        return a;
+    return a - (k_unit * (1 + 2 * k_unit) * std::abs(a) + std::numeric_limits<double>::denorm_min());
+}
+
+Interval widened(Interval a, int steps) {
+    for (int i = 0; i < steps; ++i) {
+        a.low = below(a.low);
+        a.high = above(a.high);
+    }
+    return a;
+}
+
+Interval hull(const Interval& a, const Interval& b) {
+    return {std::min(a.low, b.low), std::max(a.high, b.high), partial(a, b)};
+}
+
+Interval operator+(const Interval& a, const Interval& b) {
+    const double low = a.low + b.low, high = a.high + b.high;
+    if (std::isnan(low) || std::isnan(high))
+        return everything();
+    const double least = a.low >= 0 && b.low >= 0 ? 0 : -k_infinity;
+    return {std::max(least, below(low)), above(high), partial(a, b)};
+}
+
+Interval operator-(const Interval& a) {
+    return {-a.high, -a.low, a.partial};
+}
+
+Interval operator-(const Interval& a, const Interval& b) {
+    return a + -b;
+}
+
+Interval operator*(const Interval& a, const Interval& b) {
+    Interval result = of_corners(
+        {product(a.low, b.low), product(a.low, b.high), product(a.high, b.low), product(a.high, b.high)},
+        partial(a, b));
+    if (a.low >= 0 && b.low >= 0)
+        result.low = std::max(result.low, 0.0);
+    return result;
+}
+
+Interval operator/(const Interval& a, const Interval& b) {
+    if (b.contains(0))
+        return everything();
+    return of_corners({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high}, partial(a, b));
+}
+
+Interval absolute(const Interval& a) {
+    if (a.low >= 0)
+        return a;
+    if (a.high <= 0)
+        return -a;
+    return {0, std::max(-a.low, a.high), a.partial};
+}
+
+Interval square(const Interval& a) {
+    const Interval size = absolute(a);
+    return {std::max(0.0, below(size.low * size.low)), above(size.high * size.high), a.partial};
+}
+
+Interval minimum(const Interval& a, const Interval& b) {
+    return {std::min(a.low, b.low), std::min(a.high, b.high), partial(a, b)};
+}
+
+Interval maximum(const Interval& a, const Interval& b) {
+    return {std::max(a.low, b.low), std::max(a.high, b.high), partial(a, b)};
+}
+
+Interval sign(const Interval& a) {
+    const auto of = [](double number) { return double(number > 0) - double(number < 0); };
+    return {of(a.low), of(a.high), a.partial};
+}
+
+Interval sqrt(const Interval& a) {
+    if (a.high < 0)
+        return everything();
+    const double low = a.low <= 0 ? 0 : std::max(0.0, below(std::sqrt(a.low)));
+    return {low, above(std::sqrt(a.high)), a.partial || a.low < 0};
+}
+
+Interval inverse_sqrt(const Interval& a) {
+    if (a.high <= 0)
+        return everything();
+    const double high = a.low <= 0 ? k_infinity : above(above(1 / std::sqrt(a.low)));
+    return {std::max(0.0, below(below(1 / std::sqrt(a.high)))), high, a.partial || a.low <= 0};
+}
+
+/// By one number above 0. Its multiples are exact in double as long as it is a float and they are few.
+static Interval modulo_by(const Interval& a, double b) {
+    const double first = whole_multiples(a.low, b);
+    double last = whole_multiples(a.high, b);
+    if (a.open && std::fma(last, b, -a.high) == 0)
+        last -= 1;
+    if (!(std::abs(first) < k_largest_whole) || first < last)
+        return {0, b, a.partial};
+    const Interval rest = a - Interval{b, b} * Interval{first, first};
+    return {std::max(rest.low, 0.0), std::min(rest.high, b), a.partial};
+}
+
+Interval modulo(const Interval& a, const Interval& b) {
+    if (b.contains(0) || std::isinf(a.low) || std::isinf(a.high))
+        return everything();
+    if (b.point())
+        return b.low > 0 ? modulo_by(a, b.low) : -modulo_by(-a, -b.low);
+    const Interval turns = a / b;
+    const double first = std::floor(turns.low);
+    if (std::isfinite(first) && first == std::floor(turns.high))
+        return a - b * Interval{first, first};
+    return {std::min(b.low, 0.0), std::max(b.high, 0.0), partial(a, b)};
+}
+
+Interval fract(const Interval& a) {
+    const double whole = std::floor(a.low);
+    if (std::isfinite(whole) && (whole == std::floor(a.high) || (a.open && whole + 1 == a.high)))
+        return {std::max(0.0, below(a.low - whole)), std::min(1.0, above(a.high - whole)), a.partial};
+    return {0, 1, a.partial || std::isinf(a.low) || std::isinf(a.high)};
+}
+
+Interval sin(const Interval& a) {
+    return wave(std::sin, a, k_pi / 2);
+}
+
+Interval cos(const Interval& a) {
+    return wave(std::cos, a, 0);
+}
+
+Interval tan(const Interval& a) {
+    const bool near = a.low > -k_largest_angle && a.high < k_largest_angle && a.high - a.low < k_pi;
+    if (!near || contains_angle(a, k_pi / 2) || contains_angle(a, -k_pi / 2))
+        return everything();
+    return increasing(std::tan, a);
+}
+
+/// On each side of the cut (the negative x axis) it goes the same way along an edge of the box, so that its
+/// extremes are at corners.
+Interval atan2(const Interval& a, const Interval& b) {
+    if (a.contains(0) && b.low <= 0)
+        return {below(-k_pi), above(k_pi), partial(a, b) || b.high >= 0};
+    const std::array<double, 4> corners{std::atan2(a.low, b.low), std::atan2(a.low, b.high),
+                                        std::atan2(a.high, b.low), std::atan2(a.high, b.high)};
+    const auto [low, high] = std::ranges::minmax(corners);
+    return widened({low, high, partial(a, b)}, k_library_ulps);
+}
+
+Interval cosh(const Interval& a) {
+    const Interval size = absolute(a);
+    Interval result = widened({std::cosh(size.low), std::cosh(size.high), a.partial}, k_library_ulps);
+    result.low = std::max(result.low, 1.0);
+    return result;
+}
+
+/// Goes one way in each operand, where the first is positive.
+Interval pow(const Interval& a, const Interval& b) {
+    if (a.high < 0)
+        return everything();
+    const double base = a.low > 0 ? a.low : 0.0; // -0 has powers of its own
+    const bool undefined = a.low < 0 || (base == 0 && b.low <= 0);
+    const std::array<double, 4> corners{std::pow(base, b.low), std::pow(base, b.high),
+                                        std::pow(a.high, b.low), std::pow(a.high, b.high)};
+    Interval result = of_corners(corners, partial(a, b) || undefined);
+    result = widened(result, k_library_ulps - 1);
+    result.low = std::max(result.low, 0.0);
+    return result;
+}
+
+Interval mix(const Interval& a, const Interval& b, const Interval& c) {
+    const auto at = [&](double part) {
+        const Interval share{part, part};
+        return a * (Interval{1, 1} - share) + b * share;
+    };
+    if (std::isinf(c.low) || std::isinf(c.high))
+        return everything();
+    Interval result = hull(at(c.low), at(c.high));
+    result.partial = result.partial || c.partial;
+    return result;
+}
+
+Interval hermite(const Interval& a) {
+    const auto at = [](double x) {
+        const Interval point{x, x};
+        return square(point) * (Interval{3, 3} - Interval{2, 2} * point);
+    };
+    if (a.low < 0 || a.high > 1)
+        return square(a) * (Interval{3, 3} - Interval{2, 2} * a);
+    Interval result = hull(at(a.low), at(a.high));
+    result.partial = a.partial;
+    return result;
+}
+
+Interval increasing(double (*function)(double), const Interval& a, double first, double last) {
+    if (a.high < first || a.low > last)
+        return everything();
+    const double low = function(std::max(a.low, first)), high = function(std::min(a.high, last));
+    const Interval result{low, high,
+                          a.partial || a.low < first || a.high > last || std::isinf(low) || std::isinf(high)};
+    return widened(result, k_library_ulps);
+}
+
+} // namespace tidemark::ir

@@ -1,0 +1,233 @@
+#include "ir/interval_system.hpp"
+
+#include <array>
+
+namespace tidemark::ir {
+namespace {
+
+constexpr Interval k_either{0, 1};
+
+Interval all_of(Scalar type) {
+    switch (type) {
+    case Scalar::real: return everything();
+    case Scalar::signed_int: return {-2147483648.0, 2147483647.0};
+    case Scalar::unsigned_int: return {0, 4294967295.0};
+    case Scalar::boolean: return k_either;
+    }
+    return everything();
+}
+
+bool is_float(const Interval& a) {
+    return a.point() && double(float(a.low)) == a.low;
+}
+
+Point<float> point_of(const Interval& a, Scalar type) {
+    if (type == Scalar::real)
+        return {float(a.low), 0};
+    return {0, uint32_t(int64_t(a.low))};
+}
+
+Interval interval_of(const Point<float>& a, Scalar type) {
+    if (type == Scalar::real)
+        return std::isfinite(a.real) ? Interval{a.real, a.real} : everything();
+    const double number = type == Scalar::signed_int ? double(int32_t(a.bits)) : double(a.bits);
+    return {number, number};
+}
+
+/// Booleans as numbers: what holds for all, for none, or for some.
+Interval truth(bool always, bool never) {
+    return {always ? 1.0 : 0.0, never ? 0.0 : 1.0};
+}
+
+Interval less(const Interval& a, const Interval& b, bool equal_too) {
+    if (a.partial || b.partial)
+        return k_either;
+    const bool always = equal_too ? a.high <= b.low : a.high < b.low;
+    const bool never = equal_too ? a.low > b.high : a.low >= b.high;
+    return truth(always, never);
+}
+
+Interval equal(const Interval& a, const Interval& b) {
+    if (a.partial || b.partial)
+        return k_either;
+    return truth(a.point() && b.point() && a.low == b.low, a.high < b.low || b.high < a.low);
+}
+
+Interval negated(const Interval& a) {
+    return {1 - a.high, 1 - a.low};
+}
+
+/// Outwards to whole numbers.
+template <class Rounding>
+Interval rounded(const Interval& a, Rounding rounding) {
+    return {rounding(a.low), rounding(a.high), a.partial || std::isinf(a.low) || std::isinf(a.high)};
+}
+
+Interval floor(const Interval& a) {
+    Interval result = rounded(a, [](double x) { return std::floor(x); });
+    if (a.open && result.high == a.high && result.low < result.high)
+        result.high -= 1;
+    return result;
+}
+
+Interval logical(Op op, const Interval& a, const Interval& b, const Interval& c) {
+    switch (op) {
+    case Op::logical_and: return minimum(a, b);
+    case Op::logical_or: return maximum(a, b);
+    case Op::logical_not: return negated(a);
+    case Op::equal: return equal(a, b);
+    case Op::not_equal: return negated(equal(a, b));
+    case Op::select: break;
+    default: return k_either;
+    }
+    if (a.low == a.high)
+        return a.low != 0 ? b : c;
+    return hull(b, c);
+}
+
+Interval whole(Op op, Scalar type, const Interval& a, const Interval& b) {
+    const auto within = [type](const Interval& result) {
+        const Interval all = all_of(type);
+        return result.low >= all.low && result.high <= all.high ? result : all;
+    };
+    switch (op) { // sums below 2^53 are exact in double
+    case Op::add: return within({a.low + b.low, a.high + b.high});
+    case Op::subtract: return within({a.low - b.high, a.high - b.low});
+    case Op::multiply: return within(rounded(a * b, [](double x) { return std::round(x); }));
+    case Op::negate: return within(-a);
+    case Op::square: return within(rounded(square(a), [](double x) { return std::round(x); }));
+    case Op::absolute: return absolute(a);
+    case Op::minimum: return minimum(a, b);
+    case Op::maximum: return maximum(a, b);
+    case Op::less: return less(a, b, false);
+    case Op::less_equal: return less(a, b, true);
+    case Op::equal: return equal(a, b);
+    case Op::not_equal: return negated(equal(a, b));
+    default: return all_of(type);
+    }
+}
+
+Interval real(Op op, const Interval& a, const Interval& b, const Interval& c) {
+    switch (op) {
+    case Op::add: return a + b;
+    case Op::subtract: return a - b;
+    case Op::multiply: return a * b;
+    case Op::divide: return a / b;
+    case Op::modulo: return modulo(a, b);
+    case Op::negate: return -a;
+    case Op::square: return square(a);
+    case Op::absolute: return absolute(a);
+    case Op::sign: return sign(a);
+    case Op::minimum: return minimum(a, b);
+    case Op::maximum: return maximum(a, b);
+    case Op::floor: return floor(a);
+    case Op::ceil: return rounded(a, [](double x) { return std::ceil(x); });
+    case Op::truncate: return rounded(a, [](double x) { return std::trunc(x); });
+    case Op::round: return rounded(a, [](double x) { return std::round(x); });
+    case Op::round_even: return rounded(a, [](double x) { return std::nearbyint(x); });
+    case Op::fract: return fract(a);
+    case Op::sqrt: return sqrt(a);
+    case Op::inverse_sqrt: return inverse_sqrt(a);
+    case Op::sin: return sin(a);
+    case Op::cos: return cos(a);
+    case Op::tan: return tan(a);
+    case Op::asin: return increasing(std::asin, a, -1, 1);
+    case Op::acos: return -increasing([](double x) { return -std::acos(x); }, a, -1, 1);
+    case Op::atan: return increasing(std::atan, a);
+    case Op::atan2: return atan2(a, b);
+    case Op::sinh: return increasing(std::sinh, a);
+    case Op::cosh: return cosh(a);
+    case Op::tanh: return increasing(std::tanh, a);
+    case Op::asinh: return increasing(std::asinh, a);
+    case Op::acosh: return increasing(std::acosh, a, 1);
+    case Op::atanh: return increasing(std::atanh, a, -1, 1);
+    case Op::exp: return increasing(std::exp, a);
+    case Op::exp2: return increasing(std::exp2, a);
+    case Op::log: return increasing(std::log, a, 0);
+    case Op::log2: return increasing(std::log2, a, 0);
+    case Op::pow: return pow(a, b);
+    case Op::mix: return mix(a, b, c);
+    case Op::hermite: return hermite(a);
+    case Op::less: return less(a, b, false);
+    case Op::less_equal: return less(a, b, true);
+    case Op::equal: return equal(a, b);
+    case Op::not_equal: return negated(equal(a, b));
+    case Op::is_nan: return a.partial ? k_either : Interval{0, 0};
+    case Op::is_inf: return a.partial ? k_either : Interval{0, 0};
+    default: return everything();
+    }
+}
+
+Interval to_int(const Interval& a, Scalar type) {
+    const Interval whole = rounded(a, [](double x) { return std::trunc(x); });
+    const Interval all = all_of(type);
+    return !whole.partial && whole.low >= all.low && whole.high <= all.high ? whole : all;
+}
+
+/// The step that floor, fract and mod make within the operand, where there is one alone.
+std::optional<double> step_in(Op op, std::span<const Interval> operands) {
+    const Interval& a = operands[0];
+    double unit = 1;
+    if (op == Op::modulo) {
+        if (!operands[1].point() || operands[1].low == 0)
+            return std::nullopt;
+        unit = std::abs(operands[1].low);
+    }
+    double at = std::ceil(a.low / unit) * unit;
+    if (at <= a.low)
+        at += unit;
+    return at < a.high && at + unit > a.high ? std::optional(at) : std::nullopt;
+}
+
+} // namespace
+
+Interval IntervalSystem::constant(uint32_t bits, Scalar type) {
+    return interval_of(PointSystem<float>::constant(bits, type), type);
+}
+
+Interval IntervalSystem::compute(Op op, Scalar result, Scalar of, std::span<const Interval> operands) const {
+    std::array<Interval, 3> at{};
+    std::ranges::copy(operands, at.begin());
+    const Scalar of_others = op == Op::select ? result : op == Op::ldexp ? Scalar::signed_int : of;
+    if (std::ranges::all_of(operands, is_float)) {
+        std::array<Point<float>, 3> points{};
+        for (size_t i = 0; i < operands.size(); ++i)
+            points[i] = point_of(operands[i], i == 0 ? of : of_others);
+        return interval_of(
+            PointSystem<float>().compute(op, result, of, std::span(points.data(), operands.size())), result);
+    }
+    if (op == Op::to_real || op == Op::select || of == Scalar::boolean)
+        return op == Op::to_real ? at[0] : logical(op, at[0], at[1], at[2]);
+    if (op == Op::to_int)
+        return to_int(at[0], result);
+    if (op == Op::bits_as || op == Op::ldexp)
+        return all_of(result);
+    if (of == Scalar::real)
+        return real(op, at[0], at[1], at[2]);
+    const Interval answer = whole(op, of, at[0], at[1]);
+    return result == Scalar::boolean ? Interval{std::max(answer.low, 0.0), std::min(answer.high, 1.0)}
+                                     : answer;
+}
+
+std::optional<bool> IntervalSystem::decide(const Interval& condition) {
+    return condition.low == condition.high ? std::optional(condition.low != 0) : std::nullopt;
+}
+
+std::pair<int64_t, int64_t> IntervalSystem::range(const Interval& index) {
+    return {int64_t(index.low), int64_t(index.high)};
+}
+
+std::optional<std::pair<Interval, Interval>> IntervalSystem::split(Op op,
+                                                                   std::span<const Interval> operands) {
+    if (op != Op::floor && op != Op::fract && op != Op::modulo)
+        return std::nullopt;
+    const Interval& a = operands[0];
+    if (a.partial || !(a.width() < 1e9))
+        return std::nullopt;
+    const auto step = step_in(op, operands);
+    if (!step)
+        return std::nullopt;
+    return std::pair{Interval{a.low, *step, false, true}, Interval{*step, a.high, false, a.open}};
+}
+
+} // namespace tidemark::ir

@@ -1,0 +1,27 @@
+// The number system of intervals: what the text computes in real arithmetic for all numbers of its operands.
+// An operand of one number is a float of the scene's, and what is computed of such alone is computed in
+// float, as a driver does it: so hashes of lattice points are the scene's own. Whole numbers and booleans are
+// intervals, too.
+#pragma once
+
+#include "ir/interval.hpp"
+#include "ir/point.hpp"
+
+namespace tidemark::ir {
+
+class IntervalSystem {
+public:
+    using Value = Interval;
+
+    static Value constant(uint32_t bits, Scalar type);
+    static Value number(double value) { return {value, value}; }
+
+    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const;
+
+    static std::optional<bool> decide(const Value& condition);
+    static std::pair<int64_t, int64_t> range(const Value& index);
+    static Value hull(const Value& a, const Value& b) { return ir::hull(a, b); }
+    static std::optional<std::pair<Value, Value>> split(Op op, std::span<const Value> operands);
+};
+
+} // namespace tidemark::ir

@@ -1,0 +1,152 @@
+#include "ir/march_slice.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace tidemark::ir {
+namespace {
+
+/// Ways through undecided conditions: so many decisions after one another, so many ways in all.
+constexpr size_t k_most_decisions = 12;
+constexpr int k_most_ways = 64;
+constexpr uint64_t k_most_steps = 2'000'000;
+
+/// From the loop's entry to the test that looks at the distance of the first turn, which is at those
+/// `places`; false where it is not come to. The next turn, if it is that one's, goes on as the text does.
+template <class System>
+bool run_to_test(Evaluator<System>& evaluator, const MarchingLoop& loop,
+                 const std::vector<typename System::Value>& places, Decisions& decisions) {
+    for (size_t i = 0; i < loop.carried.size(); ++i)
+        evaluator.pin(loop.cut(loop.carried[i]), places[i]);
+    int left = loop.in_next_turn ? 2 : 1;
+    const auto visit = [&](uint32_t block) {
+        if (block == loop.latch)
+            evaluator.unpin();
+        return block != loop.test || --left > 0;
+    };
+    const Ended ended = evaluator.run(decisions, visit, loop.header, loop.entry);
+    evaluator.unpin();
+    return ended == Ended::stopped;
+}
+
+Interval interval_of(const Point<float>& point, Scalar type) {
+    const uint32_t bits = type == Scalar::real ? std::bit_cast<uint32_t>(point.real) : point.bits;
+    return IntervalSystem::constant(bits, type);
+}
+
+} // namespace
+
+MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop, const FloatEvaluator& entered,
+                       Textures<Interval> textures)
+    : loop_(&loop), evaluator_(function) {
+    evaluator_.textures = std::move(textures);
+    evaluator_.most_steps = k_most_steps;
+    for (Value value = 0; value < function.instructions.size(); ++value)
+        evaluator_.value(value) = interval_of(entered.value(value), function.instructions[value].type);
+    for (const Variable& variable : function.variables)
+        for (uint32_t i = 0; i < variable.size; ++i)
+            evaluator_.memory()[variable.first + i] =
+                interval_of(entered.memory()[variable.first + i], variable.type);
+    memory_ = evaluator_.memory();
+    for (const Carried& each : loop.carried) {
+        const bool itself = loop.by_parameter();
+        first_.push_back(itself ? 0 : entered.value(each.phi).real);
+        factor_.push_back(itself || each.factor == k_no_value ? 1 : entered.value(each.factor).real);
+    }
+    start_ = loop.by_parameter() ? entered.value(loop.carried[0].phi).real : 0;
+}
+
+double MarchSlice::parameter(const Turn& turn) const {
+    size_t longest = 0;
+    for (size_t i = 1; i < factor_.size(); ++i)
+        if (std::abs(factor_[i]) > std::abs(factor_[longest]))
+            longest = i;
+    return (turn.carried[longest] - first_[longest]) / factor_[longest];
+}
+
+std::optional<Interval> MarchSlice::run_once(const std::vector<Interval>& places, Decisions& decisions) {
+    evaluator_.memory() = memory_;
+    if (!run_to_test(evaluator_, *loop_, places, decisions))
+        return std::nullopt;
+    return evaluator_.value(loop_->distance) - evaluator_.value(loop_->threshold);
+}
+
+std::optional<Interval> MarchSlice::distance(const Interval& parameter, bool closely) {
+    std::vector<Interval> places;
+    for (size_t i = 0; i < loop_->carried.size(); ++i)
+        places.push_back(loop_->by_parameter()
+                             ? parameter
+                             : Interval{first_[i], first_[i]} + Interval{factor_[i], factor_[i]} * parameter);
+    evaluator_.splits = closely;
+    ++evaluations_;
+    Decisions decisions(k_most_decisions);
+    std::optional<Interval> all;
+    for (int way = 0; way == 0 || decisions.next(); ++way) {
+        const auto one = run_once(places, decisions);
+        if (way == k_most_ways || decisions.exhausted())
+            return everything();
+        if (one)
+            all = all ? hull(*all, *one) : *one;
+    }
+    return all;
+}
+
+std::optional<size_t> enter_first(FloatEvaluator& evaluator, const std::vector<MarchingLoop>& loops) {
+    Decisions none(0);
+    std::optional<size_t> entered;
+    const auto visit = [&](uint32_t block) {
+        for (size_t i = 0; i < loops.size(); ++i)
+            if (block == loops[i].header)
+                entered = i;
+        return !entered;
+    };
+    evaluator.run(none, visit);
+    return entered;
+}
+
+March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop) {
+    March march;
+    const auto carried = [&] {
+        std::vector<float> values;
+        for (const Carried& each : loop.carried)
+            values.push_back(evaluator.value(loop.cut(each)).real);
+        return values;
+    };
+    std::vector<float> before;
+    const std::vector<bool> inside = natural_loop(function, loop.header);
+    const auto visit = [&](uint32_t block) {
+        if (!inside[block])
+            return false;
+        if (block == loop.test && (!loop.in_next_turn || !before.empty()))
+            march.turns.push_back(
+                {loop.in_next_turn ? before : carried(),
+                 evaluator.value(loop.distance).real - evaluator.value(loop.threshold).real});
+        if (block == loop.latch)
+            before = carried();
+        return true;
+    };
+    if (loop.far != k_no_value)
+        march.far = evaluator.value(loop.far).real;
+    Decisions none(0);
+    evaluator.run(none, visit, loop.header, loop.entry);
+    march.hit = !march.turns.empty() && march.turns.back().distance <= 0;
+    return march;
+}
+
+bool is_faithful(const MarchingLoop& loop, const FloatEvaluator& entered, const March& march) {
+    for (const Turn& turn : march.turns) {
+        FloatEvaluator evaluator = entered;
+        std::vector<Point<float>> places;
+        for (const float each : turn.carried)
+            places.push_back({each, 0});
+        Decisions none(0);
+        if (!run_to_test(evaluator, loop, places, none))
+            return false;
+        const float distance = evaluator.value(loop.distance).real - evaluator.value(loop.threshold).real;
+        if (std::bit_cast<uint32_t>(distance) != std::bit_cast<uint32_t>(turn.distance))
+            return false;
+    }
+    return true;
+}
+
+} // namespace tidemark::ir

@@ -1,0 +1,69 @@
+// The distance that a marching loop tests, as a function of the ray's parameter alone: all else is what it
+// was when a pixel entered the loop. Evaluated over intervals, it bounds the field on a piece of the ray.
+#pragma once
+
+#include "ir/dependence.hpp"
+#include "ir/evaluate.hpp"
+#include "ir/interval_system.hpp"
+#include "ir/marching_loop.hpp"
+#include "ir/point.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace tidemark::ir {
+
+using FloatEvaluator = Evaluator<PointSystem<float>>;
+
+/// One turn of the loop as the text makes it, in float.
+struct Turn {
+    std::vector<float> carried; ///< the values of MarchingLoop::carried where the distance is measured
+    float distance = 0;         ///< minus the threshold
+};
+
+/// The march of one pixel.
+struct March {
+    std::vector<Turn> turns;
+    float far = 0;    ///< the loop's limit, where it has one
+    bool hit = false; ///< it was left because of the distance
+};
+
+/// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry.
+class MarchSlice {
+public:
+    MarchSlice(const Function& function, const MarchingLoop& loop, const FloatEvaluator& entered,
+               Textures<Interval> textures = {});
+
+    /// Where the ray begins, in terms of its parameter.
+    double start() const { return start_; }
+    /// The parameter at which a turn measured.
+    double parameter(const Turn& turn) const;
+    /// Bounds of distance - threshold over that piece of the ray; `partial` where NaN or an infinity may come
+    /// of it. `closely`: conditions and jumps that are not decided are gone through one by one, as far as
+    /// that is few ways; else they cost width. Nothing where the loop is left before it measures.
+    std::optional<Interval> distance(const Interval& parameter, bool closely);
+    uint64_t evaluations() const { return evaluations_; }
+
+private:
+    std::optional<Interval> run_once(const std::vector<Interval>& places, Decisions& decisions);
+
+    const MarchingLoop* loop_;
+    Evaluator<IntervalSystem> evaluator_;
+    std::vector<Interval> memory_; ///< as the loop is entered
+    std::vector<double> first_, factor_;
+    double start_ = 0;
+    uint64_t evaluations_ = 0;
+};
+
+/// Runs the pixel that `evaluator` is set up for until it enters one of the loops; its index, none where it
+/// enters none.
+std::optional<size_t> enter_first(FloatEvaluator& evaluator, const std::vector<MarchingLoop>& loops);
+
+/// Goes on from there through the loop.
+March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop);
+
+/// Whether the slice at the text's own places has the text's own distances, bit by bit: else something that
+/// the loop carries beside the place changes the distance.
+bool is_faithful(const MarchingLoop& loop, const FloatEvaluator& entered, const March& march);
+
+} // namespace tidemark::ir

@@ -1,0 +1,333 @@
+#include "ir/marching_loop.hpp"
+
+#include "ir/dependence.hpp"
+
+#include <algorithm>
+
+namespace tidemark::ir {
+namespace {
+
+/// A comparison that decides whether the loop is left: where `less` is below `more`, or where it is not.
+struct ExitTest {
+    Value smaller, larger; ///< the loop is left where smaller < larger, equal or not
+    uint32_t block;
+    int line;
+};
+
+/// A real value that the loop carries, and what a turn adds to it.
+struct Step {
+    Value phi, update, added;
+    Value core;   ///< the factor of `added` that changes in the loop; none: it does not change
+    Value factor; ///< the product of the others is not needed: one of them, where there is one alone
+    bool plain;   ///< `added` is core times at most one factor
+};
+
+class LoopReader {
+public:
+    LoopReader(const Function& function, const std::vector<uint32_t>& block_of, uint32_t header)
+        : function_(function), block_of_(block_of), header_(header), blocks_(natural_loop(function, header)),
+          inside_(function.instructions.size()) {
+        for (Value i = function.blocks[0].first; i < inside_.size(); ++i)
+            inside_[i] = blocks_[block_of[i]];
+        read_tests();
+        read_steps();
+    }
+
+    std::optional<MarchingLoop> find() const {
+        std::optional<MarchingLoop> fixed;
+        for (const std::vector<Step>& group : groups())
+            for (const bool at_update : {false, true})
+                for (const ExitTest& test : tests_) {
+                    auto loop = march(group, at_update, test);
+                    if (loop && loop->kind == MarchingLoop::Kind::sphere_tracing)
+                        return loop;
+                    if (loop && !fixed)
+                        fixed = loop;
+                }
+        return fixed;
+    }
+
+private:
+    const Instruction& at(Value value) const { return function_.instructions[value]; }
+    std::span<const Value> operands(Value value) const { return function_.operands_of(at(value)); }
+    Cone cone(std::vector<Value> stops = {}) const { return {function_, inside_, header_, std::move(stops)}; }
+
+    // -- Where the loop is left
+
+    void read_tests() {
+        for (uint32_t block = header_; block < function_.blocks.size(); ++block) {
+            const Block& here = function_.blocks[block];
+            if (!blocks_[block] || here.end != Block::End::branch)
+                continue;
+            const bool first_leaves = !blocks_[here.successors[0]],
+                       second_leaves = !blocks_[here.successors[1]];
+            if (first_leaves != second_leaves)
+                add_tests(here.condition, first_leaves, block);
+        }
+    }
+
+    /// Of a condition that leaves the loop where it is `leaving`: a part alone may make it so.
+    void add_tests(Value condition, bool leaving, uint32_t block, int depth = 0) {
+        constexpr int k_deepest = 16;
+        if (!inside_[condition] || depth > k_deepest)
+            return;
+        const auto parts = operands(condition);
+        switch (at(condition).op) {
+        case Op::logical_not: add_tests(parts[0], !leaving, block, depth + 1); return;
+        case Op::logical_or:
+        case Op::logical_and:
+        case Op::phi: // && and || that are evaluated as far as needed
+            for (const Value part : parts)
+                add_tests(part, leaving, block, depth + 1);
+            return;
+        case Op::less:
+        case Op::less_equal: {
+            const uint32_t tested = block_of_[condition];
+            if (leaving)
+                tests_.push_back({parts[0], parts[1], tested, at(condition).line});
+            else
+                tests_.push_back({parts[1], parts[0], tested, at(condition).line});
+            return;
+        }
+        default: return;
+        }
+    }
+
+    // -- What a turn adds
+
+    void read_steps() {
+        const Block& here = function_.blocks[header_];
+        const auto back =
+            std::ranges::find_if(here.predecessors, [&](uint32_t each) { return blocks_[each]; });
+        if (back == here.predecessors.end())
+            return;
+        back_slot_ = size_t(back - here.predecessors.begin());
+        for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi)
+            if (at(phi).type == Scalar::real)
+                if (const auto update = sum_with(phi, next_of(phi)))
+                    steps_.push_back(step(phi, *update));
+    }
+
+    /// The sum of `phi` and something that `value` is, perhaps limited, perhaps on one way alone.
+    std::optional<Value> sum_with(Value phi, Value value, int depth = 0) const {
+        constexpr int k_deepest = 6;
+        if (value == phi || !inside_[value] || depth > k_deepest)
+            return std::nullopt;
+        const auto parts = operands(value);
+        switch (at(value).op) {
+        case Op::add:
+            if (parts[0] == phi || parts[1] == phi)
+                return value;
+            return std::nullopt;
+        case Op::phi:
+        case Op::select:
+        case Op::minimum:
+        case Op::maximum:
+            for (const Value part : parts)
+                if (const auto found = sum_with(phi, part, depth + 1))
+                    return found;
+            return std::nullopt;
+        default: return std::nullopt;
+        }
+    }
+
+    Step step(Value phi, Value update) const {
+        const auto parts = operands(update);
+        Step result{phi, update, parts[parts[0] == phi ? 1 : 0], k_no_value, k_no_value, true};
+        Value core = result.added;
+        while (inside_[core] && at(core).op == Op::multiply) {
+            const auto factors = operands(core);
+            const bool first = inside_[factors[0]], second = inside_[factors[1]];
+            if (first == second)
+                break;
+            result.plain = result.factor == k_no_value;
+            result.factor = factors[first ? 1 : 0];
+            core = factors[first ? 0 : 1];
+        }
+        if (inside_[core])
+            result.core = core;
+        else if (result.factor == k_no_value)
+            result.factor = core;
+        return result;
+    }
+
+    /// Each value alone as the parameter; then those that are moved together by one step.
+    std::vector<std::vector<Step>> groups() const {
+        std::vector<std::vector<Step>> result, together;
+        for (const Step& each : steps_)
+            result.push_back({each});
+        for (const Step& each : steps_) {
+            if (!each.plain)
+                continue;
+            const auto same = std::ranges::find_if(
+                together, [&](const std::vector<Step>& group) { return group.front().core == each.core; });
+            if (same == together.end())
+                together.push_back({each});
+            else
+                same->push_back(each);
+        }
+        for (const std::vector<Step>& group : together)
+            if (group.size() > 1)
+                result.push_back(group);
+        return result;
+    }
+
+    // -- A distance along the way
+
+    bool is_header_phi(Value value) const { return at(value).op == Op::phi && block_of_[value] == header_; }
+
+    std::optional<MarchingLoop> march(const std::vector<Step>& group, bool at_update,
+                                      const ExitTest& test) const {
+        std::vector<Value> cuts;
+        for (const Step& each : group)
+            cuts.push_back(at_update ? each.update : each.phi);
+        const auto is_limit = [&](Value value, Value other) {
+            return !inside_[other] && std::ranges::any_of(group, [&](const Step& each) {
+                return value == each.phi || value == each.update;
+            });
+        };
+        if (is_limit(test.smaller, test.larger) || is_limit(test.larger, test.smaller))
+            return std::nullopt;
+        const Cone to_cuts = cone(cuts);
+        std::vector<Value> field = merged(to_cuts.of(test.smaller), to_cuts.of(test.larger));
+        const std::vector<Value> others = carried_beside(field, cuts);
+        for (const Value other : others) {
+            const std::vector<Value> before = to_cuts.of(next_of(other));
+            if (!carried_beside(before, cuts).empty())
+                return std::nullopt;
+            field = merged(field, before);
+        }
+        if (tests_the_place(field, group, at_update) || !computes(depending(field, cuts)))
+            return std::nullopt;
+        const auto kind = kind_of(group.front(), field);
+        if (!kind)
+            return std::nullopt;
+        MarchingLoop loop = loop_of(group, at_update, test, *kind);
+        loop.in_next_turn = !others.empty();
+        return loop;
+    }
+
+    static std::vector<Value> merged(const std::vector<Value>& a, const std::vector<Value>& b) {
+        std::vector<Value> result;
+        std::ranges::set_union(a, b, std::back_inserter(result));
+        return result;
+    }
+
+    /// What a value that the loop carries becomes for the next turn.
+    Value next_of(Value phi) const { return operands(phi)[back_slot_]; }
+
+    /// Real numbers that the loop carries beside the place on the ray: a distance that is tested in the next
+    /// turn is one, but if it depends on itself, too, it is no function of the place.
+    std::vector<Value> carried_beside(const std::vector<Value>& values,
+                                      const std::vector<Value>& cuts) const {
+        std::vector<Value> result;
+        for (const Value value : values)
+            if (is_header_phi(value) && at(value).type == Scalar::real &&
+                std::ranges::find(cuts, value) == cuts.end())
+                result.push_back(value);
+        return result;
+    }
+
+    /// What is tested is how far the ray has come, not a distance there.
+    static bool tests_the_place(const std::vector<Value>& field, const std::vector<Step>& group,
+                                bool at_update) {
+        return !at_update && std::ranges::any_of(group, [&](const Step& each) {
+            return std::ranges::binary_search(field, each.update);
+        });
+    }
+
+    /// Those of the values that change with the place.
+    std::vector<Value> depending(const std::vector<Value>& values, const std::vector<Value>& cuts) const {
+        std::vector<Value> result(cuts);
+        std::ranges::sort(result);
+        for (size_t before = 0; before != result.size();) {
+            before = result.size();
+            for (const Value value : values)
+                if (!std::ranges::binary_search(result, value) &&
+                    std::ranges::any_of(operands(value), [&](Value operand) {
+                        return std::ranges::binary_search(result, operand);
+                    }))
+                    result.insert(std::ranges::upper_bound(result, value), value);
+        }
+        return result;
+    }
+
+    /// More than sums and products: a field.
+    bool is_computed(Value value) const {
+        switch (at(value).op) {
+        case Op::add:
+        case Op::subtract:
+        case Op::multiply:
+        case Op::negate:
+        case Op::absolute:
+        case Op::phi:
+        case Op::load:
+        case Op::constant: return false;
+        default: return at(value).type == Scalar::real;
+        }
+    }
+    bool computes(const std::vector<Value>& values) const {
+        return std::ranges::any_of(values, [this](Value value) { return is_computed(value); });
+    }
+
+    /// A step that is made of the field's values is a sphere tracer's, one that nothing changes is fixed.
+    std::optional<MarchingLoop::Kind> kind_of(const Step& step, const std::vector<Value>& field) const {
+        std::vector<Value> added = cone().of(step.added);
+        for (const Value value : std::vector(added))
+            if (is_header_phi(value) && value != step.phi)
+                added = merged(added, cone().of(next_of(value)));
+        std::vector<Value> shared;
+        std::ranges::set_intersection(added, field, std::back_inserter(shared));
+        if (computes(shared))
+            return MarchingLoop::Kind::sphere_tracing;
+        if (step.core == k_no_value || step.core == step.phi)
+            return MarchingLoop::Kind::fixed_step;
+        return std::nullopt;
+    }
+
+    MarchingLoop loop_of(const std::vector<Step>& group, bool at_update, const ExitTest& test,
+                         MarchingLoop::Kind kind) const {
+        MarchingLoop loop;
+        loop.kind = kind;
+        loop.header = header_;
+        loop.cut_at_update = at_update;
+        loop.distance = test.smaller;
+        loop.threshold = test.larger;
+        loop.test = test.block;
+        loop.line = test.line;
+        for (const uint32_t each : function_.blocks[header_].predecessors)
+            (blocks_[each] ? loop.latch : loop.entry) = each;
+        for (const Step& each : group)
+            loop.carried.push_back({each.phi, each.update, each.factor});
+        for (const ExitTest& other : tests_)
+            for (const Step& each : group)
+                if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller]) {
+                    loop.far = other.smaller;
+                    loop.far_of = each.phi;
+                }
+        return loop;
+    }
+
+    const Function& function_;
+    const std::vector<uint32_t>& block_of_;
+    uint32_t header_;
+    std::vector<bool> blocks_;
+    std::vector<bool> inside_; ///< of instructions
+    size_t back_slot_ = 0;     ///< of the operand of a phi that comes from the turn before
+    std::vector<ExitTest> tests_;
+    std::vector<Step> steps_;
+};
+
+} // namespace
+
+std::vector<MarchingLoop> find_marching_loops(const Function& function) {
+    const std::vector<uint32_t> block_of = blocks_of_instructions(function);
+    std::vector<MarchingLoop> loops;
+    for (uint32_t block = 0; block < function.blocks.size(); ++block)
+        if (function.blocks[block].loop)
+            if (auto loop = LoopReader(function, block_of, block).find())
+                loops.push_back(*std::move(loop));
+    return loops;
+}
+
+} // namespace tidemark::ir

@@ -1,0 +1,44 @@
+// Marching loops in a Function: loops that carry a position along a ray and leave where a distance falls
+// below a threshold. Found from how values depend on each other; names say nothing.
+#pragma once
+
+#include "ir/function.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace tidemark::ir {
+
+/// A value that the loop carries forward along the ray: start + factor * s, where s is the ray's parameter.
+struct Carried {
+    Value phi = k_no_value;
+    Value update = k_no_value; ///< what it becomes for the next turn
+    Value factor = k_no_value; ///< does not change in the loop; none: 1
+};
+
+struct MarchingLoop {
+    enum class Kind { sphere_tracing, fixed_step } kind = Kind::sphere_tracing;
+    uint32_t header = 0; ///< block
+    uint32_t entry = 0;  ///< block that the loop is entered from
+    uint32_t latch = 0;  ///< block that leads back to the header
+    std::vector<Carried> carried;
+    bool cut_at_update = false; ///< the distance is that of the position after the step of the turn
+    bool in_next_turn = false;  ///< the test looks at a distance that the turn before has left
+    /// A hit is where distance - threshold <= 0; the comparison's operands.
+    Value distance = k_no_value;
+    Value threshold = k_no_value;
+    uint32_t test = 0; ///< block of the comparison
+    /// Where a carried value exceeds it, the loop gives up; none: no such test.
+    Value far = k_no_value;
+    Value far_of = k_no_value; ///< the phi that is compared with it
+    int line = 0;              ///< of the comparison
+
+    /// One value that is the ray's parameter itself.
+    bool by_parameter() const { return carried.size() == 1; }
+    Value cut(const Carried& each) const { return cut_at_update ? each.update : each.phi; }
+};
+
+/// At most one for each loop, in the order of the text after inlining.
+std::vector<MarchingLoop> find_marching_loops(const Function& function);
+
+} // namespace tidemark::ir

@@ -1,0 +1,142 @@
+// The number system of points: one value for a real number, in float (what a driver computes, but for its own
+// sine and its kind) or in double (the same text without most of the rounding). Whole numbers and booleans
+// are what they are.
+#pragma once
+
+#include "ir/function.hpp"
+#include "ir/whole_number.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace tidemark::ir {
+
+template <class Real>
+struct Point {
+    Real real = 0;
+    uint32_t bits = 0; ///< of a whole number or a boolean
+};
+
+/// A part of a real number above its floor, below 1 as GLSL has it.
+template <class Real>
+Real fract(Real a) {
+    const Real part = a - std::floor(a);
+    return part < 1 ? part : std::nextafter(Real(1), Real(0));
+}
+
+/// Towards zero; what does not fit is the nearest that does, NaN is 0.
+template <class Real>
+uint32_t to_int(Real a, bool is_signed) {
+    if (std::isnan(a))
+        return 0;
+    const double low = is_signed ? -2147483648.0 : 0, high = is_signed ? 2147483647.0 : 4294967295.0;
+    const double inside = std::min(std::max(std::trunc(double(a)), low), high);
+    return is_signed ? uint32_t(int32_t(inside)) : uint32_t(inside);
+}
+
+/// Operations on real numbers that give one.
+template <class Real>
+Real real_number(Op op, Real a, Real b, Real c) {
+    switch (op) {
+    case Op::add: return a + b;
+    case Op::subtract: return a - b;
+    case Op::multiply: return a * b;
+    case Op::divide: return a / b;
+    case Op::modulo: return a - b * std::floor(a / b);
+    case Op::remainder: return a - b * std::trunc(a / b);
+    case Op::negate: return -a;
+    case Op::square: return a * a;
+    case Op::absolute: return std::abs(a);
+    case Op::sign: return Real(a > 0) - Real(a < 0);
+    case Op::minimum: return std::fmin(a, b); // drivers prefer what is no NaN
+    case Op::maximum: return std::fmax(a, b);
+    case Op::floor: return std::floor(a);
+    case Op::ceil: return std::ceil(a);
+    case Op::truncate: return std::trunc(a);
+    case Op::round: return std::round(a);
+    case Op::round_even: return std::nearbyint(a);
+    case Op::fract: return fract(a);
+    case Op::sqrt: return std::sqrt(a);
+    case Op::inverse_sqrt: return 1 / std::sqrt(a);
+    case Op::sin: return std::sin(a);
+    case Op::cos: return std::cos(a);
+    case Op::tan: return std::tan(a);
+    case Op::asin: return std::asin(a);
+    case Op::acos: return std::acos(a);
+    case Op::atan: return std::atan(a);
+    case Op::atan2: return std::atan2(a, b);
+    case Op::sinh: return std::sinh(a);
+    case Op::cosh: return std::cosh(a);
+    case Op::tanh: return std::tanh(a);
+    case Op::asinh: return std::asinh(a);
+    case Op::acosh: return std::acosh(a);
+    case Op::atanh: return std::atanh(a);
+    case Op::exp: return std::exp(a);
+    case Op::exp2: return std::exp2(a);
+    case Op::log: return std::log(a);
+    case Op::log2: return std::log2(a);
+    case Op::pow: return a < 0 ? std::numeric_limits<Real>::quiet_NaN() : std::pow(a, b);
+    case Op::mix: return a * (1 - c) + b * c;
+    case Op::hermite: return a * a * (3 - 2 * a);
+    default: return a;
+    }
+}
+
+template <class Real>
+class PointSystem {
+public:
+    using Value = Point<Real>;
+
+    static Value constant(uint32_t bits, Scalar type) {
+        return type == Scalar::real ? Value{Real(std::bit_cast<float>(bits)), 0} : Value{0, bits};
+    }
+    static Value whole(uint32_t bits) { return {0, bits}; }
+    static Value number(double value) { return {Real(value), 0}; }
+
+    /// `of` is the type of the first operand.
+    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const {
+        const auto at = [&](size_t i) { return i < operands.size() ? operands[i] : Value(); };
+        const Value a = at(0), b = at(1), c = at(2);
+        switch (op) {
+        case Op::select: return a.bits ? b : c;
+        case Op::to_real: return {of == Scalar::signed_int ? Real(int32_t(a.bits)) : Real(a.bits), 0};
+        case Op::to_int: return whole(to_int(a.real, result == Scalar::signed_int));
+        case Op::bits_as: return bits_as(result, of, a);
+        case Op::ldexp: return {std::ldexp(a.real, int(b.bits)), 0};
+        default: break;
+        }
+        if (of != Scalar::real)
+            return whole(whole_number(op, of, a.bits, b.bits, c.bits));
+        switch (op) {
+        case Op::less: return whole(a.real < b.real);
+        case Op::less_equal: return whole(a.real <= b.real);
+        case Op::equal: return whole(a.real == b.real);
+        case Op::not_equal: return whole(a.real != b.real);
+        case Op::is_nan: return whole(std::isnan(a.real));
+        case Op::is_inf: return whole(std::isinf(a.real));
+        default: return {real_number(op, a.real, b.real, c.real), 0};
+        }
+    }
+
+    static std::optional<bool> decide(const Value& condition) { return condition.bits != 0; }
+    /// What it may be, as a signed number.
+    static std::pair<int64_t, int64_t> range(const Value& index) {
+        return {int32_t(index.bits), int32_t(index.bits)};
+    }
+    static Value hull(const Value& a, const Value&) { return a; }
+    /// Where the operation jumps within the operand: the two parts on the sides of the jump.
+    static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+
+private:
+    static Value bits_as(Scalar result, Scalar of, const Value& a) {
+        if (of == Scalar::real && result != Scalar::real)
+            return whole(std::bit_cast<uint32_t>(float(a.real)));
+        return of != Scalar::real && result == Scalar::real ? constant(a.bits, result) : a;
+    }
+};
+
+} // namespace tidemark::ir

@@ -1,0 +1,31 @@
+#include "ir/spirv.hpp"
+
+#include "base/plug_in.hpp"
+#include "base/try.hpp"
+#include "ir/plugin/spirv_compiler.hpp"
+
+namespace tidemark::ir {
+namespace {
+
+const Result<const SpirvCompiler*>& spirv_compiler() {
+    static const Result<const SpirvCompiler*> compiler = [] {
+        const PlugIn plug_in{"tidemark_spirv.so", "SPIR-V plug-in",       "proving something of a scene",
+                             "glslang 12",        k_spirv_compiler_entry, k_spirv_compiler_version};
+        return load_plug_in(plug_in, plug_in_folders()).map([](const void* table) {
+            return static_cast<const SpirvCompiler*>(table);
+        });
+    }();
+    return compiler;
+}
+
+} // namespace
+
+Result<Function> compile(const std::string& text) {
+    const SpirvCompiler* compiler = TRY(spirv_compiler());
+    const SpirvResult words = compiler->compile(text);
+    if (!words)
+        return fail(ErrorCode::load, words.error());
+    return read_spirv(*words);
+}
+
+} // namespace tidemark::ir

@@ -1,0 +1,74 @@
+// Fields whose first root is known by hand.
+#include "ir/first_hit.hpp"
+#include "ir_support.hpp"
+
+#include <cmath>
+
+namespace tidemark::ir {
+namespace {
+
+using Verdict = FirstHit::Verdict;
+
+FirstHit hit_of(const std::string& field, float x, double last = 20,
+                const std::string& march = k_sphere_tracing) {
+    const Function function = marcher(field, march);
+    const auto loops = find_marching_loops(function);
+    EXPECT_EQ(loops.size(), 1u) << field;
+    MarchSlice slice(function, loops.at(0), entered(function, loops, x),
+                     [](const Lookup&, std::span<const Interval>) {
+                         return Interval{0, 1};
+                     });
+    return first_hit(slice, last);
+}
+
+void expect_hit(const FirstHit& hit, double where) {
+    EXPECT_EQ(hit.verdict, Verdict::hit) << to_string(hit.reason);
+    EXPECT_LE(hit.where.low, where + 1e-6);
+    EXPECT_GE(hit.where.high, where - 1e-6);
+    EXPECT_LT(hit.where.width(), 1e-2 * where);
+}
+
+TEST(FirstHit, of_a_sphere_is_where_the_distance_is_the_threshold) {
+    expect_hit(hit_of("length(p) - 1.0", 0), 3 - 1.001);
+    expect_hit(hit_of("length(p) - 1.0", 0.6f), 3 - std::sqrt(1.001 * 1.001 - 0.36));
+    const FirstHit beside = hit_of("length(p) - 1.0", 1.5f);
+    EXPECT_EQ(beside.verdict, Verdict::none);
+    EXPECT_EQ(beside.where.high, 20);
+}
+
+TEST(FirstHit, is_the_first_one_though_the_march_steps_over_it) {
+    // A thin sheet, a step of 0.5 beyond it.
+    const std::string march =
+        "for (int i = 0; i < 40; ++i) { t += 0.5; if (map(ro + rd * t) < 0.0) break; if (t > 19.0) break; }";
+    expect_hit(hit_of("min(abs(p.z + 2.2) - 0.01, 5.0 - p.z)", 0, 20, march), 0.79);
+}
+
+TEST(FirstHit, is_found_behind_jumps_of_a_repeated_space) {
+    // Between the cells, at a way of 1, it falls from 2.5 to 0.5.
+    expect_hit(hit_of("length(vec3(p.xy, mod(p.z - 2.0, 4.0) - 1.0)) - 0.5", 0), 2 - 0.501);
+    expect_hit(hit_of("p.z < 1.5 ? 1.0 : max(3.0 - p.z, -9.0)", 0), 6 - 0.001);
+}
+
+TEST(FirstHit, with_noise_of_lattice_points_is_decided) {
+    const FirstHit hit =
+        hit_of("p.z - 2.0 + 0.3 * mix(fract(sin(floor(p.z) * 91.7) * 4311.3),\n"
+               "fract(sin((floor(p.z) + 1.0) * 91.7) * 4311.3), fract(p.z)) < 0.0 ? 1.0 : -1.0",
+               0);
+    EXPECT_EQ(hit.verdict, Verdict::hit) << to_string(hit.reason);
+    EXPECT_GT(hit.where.low, 4.6);
+    EXPECT_LT(hit.where.high, 5.1);
+}
+
+TEST(FirstHit, is_left_open_where_nothing_is_known) {
+    const FirstHit nan = hit_of("length(p) - 1.0 + 0.0 * log(p.z - 9.0)", 1.5f);
+    EXPECT_EQ(nan.verdict, Verdict::undecided);
+    EXPECT_EQ(nan.reason, FirstHit::Reason::not_finite);
+    const FirstHit grazing = hit_of("length(p) - 1.0", 1.001f);
+    EXPECT_NE(grazing.verdict, Verdict::hit);
+    const FirstHit unknown = hit_of("texture(iChannel0, p.xz).r - 0.5", 0);
+    EXPECT_EQ(unknown.verdict, Verdict::undecided);
+    EXPECT_EQ(unknown.where.low, 0);
+}
+
+} // namespace
+} // namespace tidemark::ir

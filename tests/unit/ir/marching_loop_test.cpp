@@ -1,0 +1,79 @@
+#include "ir_support.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tidemark::ir {
+namespace {
+
+using Kind = MarchingLoop::Kind;
+
+std::vector<MarchingLoop> loops_of(const std::string& march, const std::string& field = "length(p) - 1.0") {
+    return find_marching_loops(marcher(field, march));
+}
+
+/// One loop, and of the pixel at x = 0 it tells its own distances from the place alone.
+void expect_loop(const std::string& march, Kind kind, size_t carried) {
+    const Function function = marcher("length(p) - 1.0", march);
+    const auto loops = find_marching_loops(function);
+    ASSERT_EQ(loops.size(), 1u) << march;
+    EXPECT_EQ(loops[0].kind, kind) << march;
+    EXPECT_EQ(loops[0].carried.size(), carried) << march;
+    FloatEvaluator evaluator = entered(function, loops, 0);
+    const FloatEvaluator at_entry = evaluator;
+    const March followed = follow(evaluator, function, loops[0]);
+    EXPECT_GT(followed.turns.size(), 1u) << march;
+    EXPECT_TRUE(is_faithful(loops[0], at_entry, followed)) << march;
+}
+
+TEST(MarchingLoop, is_found_in_the_forms_that_authors_write) {
+    expect_loop(k_sphere_tracing, Kind::sphere_tracing, 1);
+    expect_loop("for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t); t += 0.7 * d; if (abs(d) < 1e-3) "
+                "break; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("float d = 1.0; for (int i = 0; i < 99 && d > 1e-3; ++i) { d = map(ro + t * rd); t += d; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("float d = 1.0; while (d > 1e-3 * t && t < 9.0) { d = map(ro + rd * t); t += max(d, 0.01); }",
+                Kind::sphere_tracing, 1);
+    expect_loop(
+        "vec3 p = ro; for (int i = 0; i < 99; ++i) { float d = map(p); if (d < 1e-3) break; p += rd * d; }\n"
+        "t = p.z;",
+        Kind::sphere_tracing, 3);
+    expect_loop("for (int i = 0; i < 400; ++i) { t += 0.01; if (map(ro + rd * t) < 0.0) break; }",
+                Kind::fixed_step, 1);
+}
+
+TEST(MarchingLoop, tells_where_the_ray_ends_and_in_which_line_it_is_tested) {
+    const auto loops = loops_of(k_sphere_tracing);
+    ASSERT_EQ(loops.size(), 1u);
+    EXPECT_NE(loops[0].far, k_no_value);
+    EXPECT_EQ(loops[0].line, 9);
+}
+
+TEST(MarchingLoop, is_not_what_only_adds_up) {
+    // Counts samples, adds up a density, and looks how far it has come.
+    EXPECT_TRUE(
+        loops_of("for (float i = 0.0; i < 4.0 + min(iTime, 0.0); ++i) t += map(ro + i * rd);").empty());
+    EXPECT_TRUE(loops_of("float sum = 0.0; for (int i = 0; i < 99; ++i) { sum += exp(-map(ro + t * rd));\n"
+                         "if (sum > 0.99) break; t += 0.1; } t = sum;")
+                    .empty());
+    EXPECT_TRUE(
+        loops_of(
+            "for (int i = 0; i < 99; ++i) { t += map(ro + t * rd); if (abs(t) < 1e-3 || t > 20.0) break; }")
+            .empty());
+}
+
+TEST(MarchingLoop, that_remembers_more_than_its_place_is_not_faithful) {
+    const Function function = marcher(
+        "length(p) - 1.0",
+        "int seen = 0; for (int i = 0; i < 99; ++i) {\n"
+        "float d = map(ro + rd * t) + 0.1 * float(seen); if (d < 1e-3) break; t += 0.5 * d; ++seen; }");
+    const auto loops = find_marching_loops(function);
+    ASSERT_EQ(loops.size(), 1u);
+    FloatEvaluator evaluator = entered(function, loops, 0);
+    const FloatEvaluator at_entry = evaluator;
+    const March followed = follow(evaluator, function, loops[0]);
+    EXPECT_FALSE(is_faithful(loops[0], at_entry, followed));
+}
+
+} // namespace
+} // namespace tidemark::ir
