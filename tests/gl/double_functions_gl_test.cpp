@@ -4,8 +4,7 @@
 #include "gl_test.hpp"
 #include "glsl/assemble.hpp"
 #include "glsl/double/double_functions.hpp"
-
-#include <mpfr.h>
+#include "support/mpfr_number.hpp"
 
 #include <cmath>
 #include <functional>
@@ -39,21 +38,7 @@ Reference of_two(F function) {
     return [function](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr y) { function(r, x, y, MPFR_RNDN); };
 }
 
-class Number {
-public:
-    explicit Number(double value = 0) {
-        mpfr_init2(value_, 200);
-        mpfr_set_d(value_, value, MPFR_RNDN);
-    }
-    ~Number() { mpfr_clear(value_); }
-    Number(const Number&) = delete;
-    Number& operator=(const Number&) = delete;
-    mpfr_ptr get() { return value_; }
-    double rounded() const { return mpfr_get_d(value_, MPFR_RNDN); }
-
-private:
-    mpfr_t value_;
-};
+using Number = MpfrNumber;
 
 /// |got - exact| in units of the last place of the double next to `exact`. A result below the normal numbers
 /// may have been flushed to zero.
