@@ -1,9 +1,7 @@
 // Held against MPFR with 200 bits: what a function makes of a number in an interval lies in what it makes of
 // the interval.
 #include "ir/interval.hpp"
-
-#include <gtest/gtest.h>
-#include <mpfr.h>
+#include "support/mpfr_number.hpp"
 
 #include <array>
 #include <functional>
@@ -16,29 +14,14 @@ namespace {
 
 constexpr int k_intervals = 10'000; ///< of each function, five numbers in each
 
-class Exact {
-public:
-    explicit Exact(double value = 0) {
-        mpfr_init2(number_, 200);
-        mpfr_set_d(number_, value, MPFR_RNDN);
-    }
-    Exact(const Exact& other) {
-        mpfr_init2(number_, 200);
-        mpfr_set(number_, other.number_, MPFR_RNDN);
-    }
-    Exact& operator=(const Exact&) = delete;
-    ~Exact() { mpfr_clear(number_); }
-    mpfr_ptr get() { return number_; }
+using Exact = MpfrNumber;
 
-    bool is_number() { return mpfr_number_p(number_) != 0; }
-    bool within(const Interval& interval) {
-        return mpfr_cmp_d(number_, interval.low) >= 0 && mpfr_cmp_d(number_, interval.high) <= 0;
-    }
-    double near() { return mpfr_get_d(number_, MPFR_RNDN); }
-
-private:
-    mpfr_t number_;
-};
+bool is_number(Exact& number) {
+    return mpfr_number_p(number.get()) != 0;
+}
+bool within(Exact& number, const Interval& interval) {
+    return mpfr_cmp_d(number.get(), interval.low) >= 0 && mpfr_cmp_d(number.get(), interval.high) <= 0;
+}
 
 /// Numbers of all sizes, whole ones, and the special ones.
 class Numbers {
@@ -187,15 +170,15 @@ TEST(Interval, contains_what_the_function_makes_of_every_number_in_it) {
                                         Exact(numbers.inside(operands[2], which))};
                 Exact result;
                 function.exact(result.get(), at);
-                if (!result.is_number() || !is_defined(function, at)) // infinite: beyond all doubles, too
-                    ASSERT_TRUE(bounds.partial || bounds.contains(result.near()))
-                        << function.name << " of " << at[0].near() << ", " << at[1].near();
+                if (!is_number(result) || !is_defined(function, at)) // infinite: beyond all doubles, too
+                    ASSERT_TRUE(bounds.partial || bounds.contains(result.rounded()))
+                        << function.name << " of " << at[0].rounded() << ", " << at[1].rounded();
                 else
-                    ASSERT_TRUE(result.within(bounds))
-                        << function.name << " of " << at[0].near() << ", " << at[1].near() << " is "
-                        << result.near() << " of [" << operands[0].low << ", " << operands[0].high << "], ["
-                        << operands[1].low << ", " << operands[1].high << "], not in [" << bounds.low << ", "
-                        << bounds.high << "]";
+                    ASSERT_TRUE(within(result, bounds))
+                        << function.name << " of " << at[0].rounded() << ", " << at[1].rounded() << " is "
+                        << result.rounded() << " of [" << operands[0].low << ", " << operands[0].high
+                        << "], [" << operands[1].low << ", " << operands[1].high << "], not in ["
+                        << bounds.low << ", " << bounds.high << "]";
             }
         }
 }

@@ -1,0 +1,118 @@
+// Reading a SPIR-V module, first layer: its types, and its values, each taken apart into scalars.
+#pragma once
+
+#include "ir/function_builder.hpp"
+#include "ir/spirv_types.hpp"
+
+#include <fmt/format.h>
+#include <spirv/unified1/spirv.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace tidemark::ir {
+
+/// What the text does and we do not follow; caught where a module is read.
+struct CannotFollow : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct SpirvInstruction {
+    spv::Op op;
+    std::span<const uint32_t> words; ///< after the first
+
+    uint32_t at(size_t i) const {
+        if (i >= words.size())
+            throw CannotFollow("a module that ends in the middle");
+        return words[i];
+    }
+    std::span<const uint32_t> from(size_t i) const { return words.subspan(std::min(i, words.size())); }
+};
+
+class SpirvValues {
+protected:
+    Function& function() { return build_.function; }
+
+    [[noreturn]] void cannot(std::string_view what) const {
+        throw CannotFollow(build_.line > 0 ? fmt::format("line {}: {}", build_.line, what)
+                                           : std::string(what));
+    }
+
+    const Values& values(Id id) const {
+        const auto found = values_.find(id);
+        if (found == values_.end() || found->second.empty())
+            cannot("a value of no type that is known");
+        return found->second;
+    }
+    Value value(Id id) const { return values(id)[0]; }
+    const Type& type(Id id) const { return types_.of(id); }
+
+    Values together(std::span<const Id> ids) const {
+        Values result;
+        for (const Id id : ids) {
+            const Values& part = values(id);
+            result.insert(result.end(), part.begin(), part.end());
+        }
+        return result;
+    }
+    uint32_t constant_of(Id id) {
+        const Instruction& instruction = function().instructions[value(id)];
+        if (instruction.op != Op::constant)
+            cannot("an index that is computed where it must be fixed");
+        return instruction.immediate;
+    }
+
+    Values filled(Id type_id, Op op) {
+        Values result;
+        append_filled(type_id, op, result);
+        return result;
+    }
+    void append_filled(Id type_id, Op op, Values& result) {
+        const Type& whole = type(type_id);
+        if (whole.kind == Type::Kind::scalar) {
+            result.push_back(build_.add(op, whole.scalar, {}));
+            return;
+        }
+        for (uint32_t i = 0; i < whole.parts; ++i)
+            append_filled(types_.part(type_id, i), op, result);
+    }
+    /// The kinds of the scalars of a type.
+    std::vector<Scalar> scalars(Id type_id) {
+        std::vector<Scalar> result;
+        append_scalars(type_id, result);
+        return result;
+    }
+    void append_scalars(Id type_id, std::vector<Scalar>& result) {
+        const Type& whole = type(type_id);
+        if (whole.kind == Type::Kind::scalar)
+            result.push_back(whole.scalar);
+        else
+            for (uint32_t i = 0; i < whole.parts; ++i)
+                append_scalars(types_.part(type_id, i), result);
+    }
+
+    void define(const SpirvInstruction& each, Values result) {
+        type_of_[each.at(1)] = each.at(0);
+        values_[each.at(1)] = std::move(result);
+    }
+    Id type_of(Id value) const {
+        const auto found = type_of_.find(value);
+        return found == type_of_.end() ? 0 : found->second;
+    }
+
+    FunctionBuilder build_;
+    Types types_;
+    std::unordered_map<Id, std::string> names_;
+
+private:
+    std::unordered_map<Id, Values> values_;
+    std::unordered_map<Id, Id> type_of_;
+};
+
+} // namespace tidemark::ir
