@@ -31,7 +31,7 @@ ROOMS = {
     "ir": {"": ["plugin"], "plugin": []},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
-    "lab": {"": [], "fields": [], "study": ["", "fields"], "trace": [], "check": ["", "trace"]},
+    "lab": {"": [], "fields": [], "march": [], "study": ["", "fields"], "trace": [], "check": ["", "march", "trace"]},
     "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""]},
 }
 

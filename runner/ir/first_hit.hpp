@@ -19,6 +19,7 @@ struct FirstHit {
     uint64_t evaluations = 0;
 };
 
+inline constexpr size_t k_reasons = size_t(FirstHit::Reason::budget) + 1;
 std::string_view to_string(FirstHit::Reason reason);
 
 /// From the slice's start to `last`, in terms of the ray's parameter.

@@ -103,6 +103,9 @@ public:
     const glsl::LeftOut& left_out(size_t pass) const { return compiled_[pass].linked.left_out; }
     /// What it was linked as.
     const glsl::Dialect& dialect(size_t pass) const { return compiled_[pass].linked.dialect; }
+    /// What the uniforms of a table are told where a pass in the plan is drawn in that extent.
+    UniformValues uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
+                              Extent extent) const;
 
 private:
     friend class PassPreview; ///< goes on into a frame, and no further
@@ -127,8 +130,6 @@ private:
                          const gl::RenderTarget& into, int face) const;
     void draw_tile(const FrameInputs& inputs, const Tile& tile) const;
     void draw_face(const gl::Program& program, const gl::RenderTarget& into, Extent extent) const;
-    UniformValues uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
-                              Extent extent) const;
     ChannelFacts facts_of(size_t pass, const FrameInputs& inputs) const;
     void bind_textures(size_t pass) const;
     const gl::Texture& texture_of(const BoundChannel& channel) const;

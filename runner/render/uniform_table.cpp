@@ -145,6 +145,12 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
 }
 
 void UniformTable::upload(const gl::Program& program, const UniformValues& values) const {
+    hand_over(values, [&](const gl::Uniform& uniform, std::span<const double> all, size_t width) {
+        gl::set_uniform(program, uniform, all, width);
+    });
+}
+
+void UniformTable::hand_over(const UniformValues& values, const Take& take) const {
     // As wide as ShaderToy declares them, whatever the author made of that.
     const auto width_of = [](const Entry& entry, size_t all) -> size_t {
         return entry.source == Source::channel_time         ? 1
@@ -153,7 +159,7 @@ void UniformTable::upload(const gl::Program& program, const UniformValues& value
     };
     for (size_t i = 0; i < entries_.size(); ++i) {
         const std::span<const double> all = values[i];
-        gl::set_uniform(program, entries_[i].uniform, all, width_of(entries_[i], all.size()));
+        take(entries_[i].uniform, all, width_of(entries_[i], all.size()));
     }
 }
 

@@ -8,7 +8,9 @@
 #include "render/uniform_numbers.hpp"
 #include "scene/scene.hpp"
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +28,9 @@ public:
     /// Of the active uniforms and no others.
     UniformValues values(const FrameInputs& inputs, Extent resolution, const ChannelFacts& channels,
                          const std::vector<scene::Knob>& knobs) const;
+    /// Each uniform with its numbers, and how many of them an element of an array has.
+    using Take = std::function<void(const gl::Uniform&, std::span<const double>, size_t width)>;
+    void hand_over(const UniformValues& values, const Take& take) const;
     void upload(const gl::Program& program, const UniformValues& values) const;
 
     /// Whether some uniform may have another value in the next frame although nobody did anything.

@@ -44,6 +44,15 @@ FAULTS = {
 }
 
 
+# A sphere, in steps of 0.4 at least.
+MARCH = ("float map(vec3 p) { return length(p) - 1.0; }\n"
+         "void mainImage(out vec4 c, in vec2 p) {\n"
+         "    vec3 ro = vec3(0.0, 0.0, -3.0), rd = normalize(vec3(2.0 * p / iResolution.xy - 1.0, 2.0));\n"
+         "    float t = 0.0;\n"
+         "    for (int i = 0; i < 99; ++i) { float d = map(ro + t * rd); if (d < 1e-3 || t > 9.0) break; t += max(d, 0.4); }\n"
+         "    c = vec4(0.1 * t);\n}\n")
+
+
 class Check(ProgramTest):
     def verdicts(self, scene, *options: str) -> dict[str, dict]:
         result = self.run_program("check", str(scene), "--json", *options)
@@ -63,6 +72,16 @@ class Check(ProgramTest):
                 probe = fault.split(",")[0]
                 entry = self.verdicts(self.write(f"{probe}.glsl", text), "--probe", probe)[probe]
                 self.assertEqual(entry["verdict"], "fail", entry["found"])
+
+    def test_the_first_hits_of_a_march_are_proved(self):
+        for step, verdict, wrong in (("max(d, 0.4)", "warn", r"[1-9][\d.]*"), ("d", "pass", "0")):
+            with self.subTest(step):
+                scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", step))
+                entry = self.verdicts(scene, "--probe", "first_hit")["first_hit"]
+                self.assertEqual(entry["verdict"], verdict, entry["found"])
+                self.assertRegex(entry["found"], rf"^(9\d(\.\d)?|100) % of 288 rays are decided: {wrong} % of these step over")
+        said = self.succeed("inspect", str(scene)).stdout.decode()
+        self.assertIn("  march     march.glsl:5: steps by the distance (sphere tracing)", said)
 
     def test_a_failure_can_be_reproduced_and_is_shown(self):
         scene, folder = self.write("faulty.glsl", FAULTS["times"]), self.folder / "pictures"

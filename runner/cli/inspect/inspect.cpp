@@ -3,6 +3,7 @@
 #include "cli/console.hpp"
 #include "cli/inspect/device_list.hpp"
 #include "cli/inspect/driver_code.hpp"
+#include "cli/inspect/inspect_march.hpp"
 #include "cli/inspect/inspect_savings.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/omissions.hpp"
@@ -124,7 +125,8 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver, c
             Json{{"name", pass.name},
                  {"channels", channels},
                  {"code_removed",
-                  to_json(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))}});
+                  to_json(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))},
+                 {"marches", marches_of(scene, pass)}});
         if (const auto& size = sizes[facts_of_pass.pass])
             json_of_pass["program"] = to_json(*size);
     }
@@ -149,6 +151,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
             text +=
                 fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
         text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms));
+        text += march_lines(scene, pass);
         if (const auto& size = sizes[facts_of_pass.pass])
             text += to_lines(*size);
     }

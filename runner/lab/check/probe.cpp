@@ -47,6 +47,10 @@ std::span<const Probe> all_probes() {
         {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",
          ask_tiles},
         {"threads", "one thread draws the same bytes as many", ask_threads},
+        {"first_hit",
+         "rays whose march steps over their first hit or misses it, proved from the text: intervals bound "
+         "the field between the samples",
+         ask_first_hit},
         {"overstep", "rays with a sample below the surface: proof that a step was too long (mainHit)",
          ask_overstep},
         {"budget", "rays that run out of steps (mainHit)", ask_budget},

@@ -1,0 +1,87 @@
+// What is proved of a scene's rays from its text alone, without a mainHit.
+#include "base/try.hpp"
+#include "lab/check/probes.hpp"
+#include "lab/march/proved_hits.hpp"
+#include "lab/statistics.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr Extent k_rays{16, 9};
+constexpr double k_moments[] = {1.0 / 3, 10};
+constexpr uint64_t k_most_evaluations = 2'000;
+/// Of the decided rays; below that is a matter of silhouettes.
+constexpr double k_most_wrong_percent = 0.5;
+
+double percent(size_t part, size_t all) {
+    return all == 0 ? 0 : 100.0 * double(part) / double(all);
+}
+
+Answer none(std::string why) {
+    return {Verdict::not_applicable, std::move(why)};
+}
+
+/// Of the picture's pixels, evenly spread.
+Result<RayCounts> count(ProbeBench& bench, const PassFunction& function) {
+    const render::Renderer& renderer = *TRY(bench.compiled());
+    const size_t image = bench.scene().image_index();
+    RayCounts counts;
+    for (const double moment : k_moments) {
+        const render::FrameInputs inputs = render::inputs_of(render::at_time(moment));
+        for (int y = 0; y < k_rays.height; ++y)
+            for (int x = 0; x < k_rays.width; ++x) {
+                const Extent whole = renderer.extent();
+                const glm::ivec2 at{(2 * x + 1) * whole.width / (2 * k_rays.width),
+                                    (2 * y + 1) * whole.height / (2 * k_rays.height)};
+                const auto pixel = function.pixel(renderer, image, inputs, at);
+                if (const auto ray = prove_ray(function, pixel, at, k_most_evaluations))
+                    counts.add(*ray);
+            }
+    }
+    return counts;
+}
+
+std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
+    const size_t wrong = counts.step_over + counts.miss;
+    std::string text = fmt::format(
+        "{:.3g} % of {} rays are decided: {:.3g} % of these step over their first hit, {:.3g} % miss it",
+        percent(counts.decided(), counts.rays), counts.rays, percent(counts.step_over, counts.decided()),
+        percent(counts.miss, counts.decided()));
+    if (counts.undecided > 0)
+        text += fmt::format("; of {:.3g} % it is not known ({})", percent(counts.undecided, counts.rays),
+                            to_string(counts.commonest()));
+    if (wrong > 0) {
+        const SourceLocation where = function.locate(function.loops().front().line);
+        text += fmt::format("; {}:{} tests the distance: take shorter steps there", where.file, where.line);
+    }
+    return text;
+}
+
+} // namespace
+
+Result<Answer> ask_first_hit(ProbeBench& bench) {
+    const scene::Pass& image = bench.scene().passes[bench.scene().image_index()];
+    const auto function = PassFunction::create(bench.scene(), image);
+    if (!function)
+        return none("the text cannot be followed: " + function.error().message);
+    if (function->loops().empty())
+        return none("no loop of Image is found to march along a ray");
+    const RayCounts counts = TRY(count(bench, *function));
+    if (counts.rays == 0)
+        return none("no ray comes to the loop that marches");
+    if (counts.textured == counts.rays)
+        return none("the march reads a texture, and texels are not followed");
+    if (counts.unfaithful == counts.rays)
+        return none("the march remembers more than its place on the ray");
+    if (counts.decided() == 0)
+        return none(fmt::format("no ray is decided: {}", to_string(counts.commonest())));
+    if (counts.contradicted > 0)
+        return none(
+            fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted));
+    const bool wrong = percent(counts.step_over + counts.miss, counts.decided()) > k_most_wrong_percent;
+    return Answer{wrong ? Verdict::warn : Verdict::pass, sentence_of(*function, counts)};
+}
+
+} // namespace tidemark::lab

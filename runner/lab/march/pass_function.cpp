@@ -1,0 +1,98 @@
+#include "lab/march/pass_function.hpp"
+
+#include "base/try.hpp"
+#include "glsl/assemble.hpp"
+#include "glsl/driver_load.hpp"
+#include "ir/spirv.hpp"
+
+#include <GL/glcorearb.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <limits>
+
+namespace tidemark::lab {
+namespace {
+
+using ir::Scalar;
+using ir::Variable;
+
+/// Of a scalar or a vector, or of a matrix of four columns: what a host hands to uniforms.
+GLenum gl_type(const Variable& variable) {
+    if (variable.columns == 4 && variable.rows == 4)
+        return GL_FLOAT_MAT4;
+    static constexpr std::array k_reals{GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3, GL_FLOAT_VEC4};
+    static constexpr std::array k_ints{GL_INT, GL_INT_VEC2, GL_INT_VEC3, GL_INT_VEC4};
+    const size_t size = variable.rows - 1;
+    if (variable.columns != 1 || size >= k_reals.size())
+        return GL_NONE;
+    return GLenum(variable.type == Scalar::real ? k_reals[size] : k_ints[size]);
+}
+
+/// Their places are those in the function's list of variables.
+gl::Reflection uniforms_of(const ir::Function& function) {
+    gl::Reflection reflection;
+    for (size_t i = 0; i < function.variables.size(); ++i)
+        if (const Variable& variable = function.variables[i]; variable.kind == Variable::Kind::uniform)
+            reflection.uniforms.push_back(
+                {variable.name, gl_type(variable), int(std::max(1u, variable.length)), GLint(i)});
+    return reflection;
+}
+
+void store(ir::FloatEvaluator& evaluator, const Variable& variable, uint32_t index, double value) {
+    if (index < variable.size)
+        evaluator.memory()[variable.first + index] = variable.type == Scalar::real
+                                                         ? ir::Point<float>{float(value), 0}
+                                                         : ir::Point<float>{0, uint32_t(int64_t(value))};
+}
+
+/// glslang has `0:LINE: ` where we have the author's file and line.
+std::string first_error(const std::string& log, const text::LineMap& lines) {
+    const size_t begin = log.find("ERROR: 0:");
+    if (begin == std::string::npos)
+        return log.substr(0, log.find('\n'));
+    const char* number = log.data() + begin + 9;
+    int line = 0;
+    const auto read = std::from_chars(number, log.data() + log.size(), line);
+    const std::string message(read.ptr, log.data() + std::min(log.find('\n', begin), log.size()));
+    return to_string(Diagnostic{lines.locate(line), Severity::error,
+                                message.substr(std::min(message.find_first_not_of(": "), message.size()))});
+}
+
+} // namespace
+
+Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene::Pass& pass) {
+    const glsl::ShaderSource source = glsl::assemble(scene, pass);
+    if (!glsl::driver_load(source).modest())
+        return fail(ErrorCode::load, "its text is too large to be followed");
+    auto function = ir::compile(source.text());
+    if (!function)
+        return fail(ErrorCode::load, first_error(function.error().message, source.lines()));
+    PassFunction result;
+    result.function_ = *std::move(function);
+    result.loops_ = ir::find_marching_loops(result.function_);
+    result.lines_ = source.lines();
+    return result;
+}
+
+ir::FloatEvaluator PassFunction::pixel(const render::Renderer& renderer, size_t pass,
+                                       const render::FrameInputs& inputs, glm::ivec2 at) const {
+    ir::FloatEvaluator evaluator(function_);
+    const render::UniformTable table(uniforms_of(function_), renderer.scene().knobs);
+    table.hand_over(renderer.uniforms_of(pass, table, inputs, renderer.extent()),
+                    [&](const gl::Uniform& uniform, std::span<const double> values, size_t) {
+                        const Variable& variable = function_.variables[size_t(uniform.location)];
+                        for (uint32_t i = 0; i < values.size(); ++i)
+                            store(evaluator, variable, i, values[i]);
+                    });
+    if (const Variable* place = function_.find("gl_FragCoord"))
+        for (const auto& [i, value] : {std::pair{0u, at.x + 0.5}, {1u, at.y + 0.5}, {2u, 0.5}, {3u, 1.0}})
+            store(evaluator, *place, i, value);
+    evaluator.textures = [](const ir::Lookup&, std::span<const ir::Point<float>>) {
+        return ir::Point<float>{std::numeric_limits<float>::quiet_NaN(), 0};
+    };
+    return evaluator;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,38 @@
+// A pass of a scene as one function in SSA form, and its pixels evaluated on the CPU with the uniforms that
+// the device has.
+#pragma once
+
+#include "base/result.hpp"
+#include "ir/march_slice.hpp"
+#include "render/renderer.hpp"
+#include "text/mapped_text.hpp"
+
+#include <glm/vec2.hpp>
+
+#include <string>
+#include <vector>
+
+namespace tidemark::lab {
+
+class PassFunction {
+public:
+    /// The error says what of the text cannot be followed, with its author's line.
+    static Result<PassFunction> create(const scene::Scene& scene, const scene::Pass& pass);
+
+    const ir::Function& function() const { return function_; }
+    const std::vector<ir::MarchingLoop>& loops() const { return loops_; }
+    /// In the author's text.
+    SourceLocation locate(int line) const { return lines_.locate(line); }
+
+    /// Set up for that pixel of a pass in the renderer's plan, which is drawn in that extent; counted from
+    /// the lower left. Look-ups in textures give NaN.
+    ir::FloatEvaluator pixel(const render::Renderer& renderer, size_t pass, const render::FrameInputs& inputs,
+                             glm::ivec2 at) const;
+
+private:
+    ir::Function function_;
+    std::vector<ir::MarchingLoop> loops_;
+    text::LineMap lines_;
+};
+
+} // namespace tidemark::lab

@@ -1,0 +1,107 @@
+#include "lab/march/proved_hits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+using Outcome = ProvedRay::Outcome;
+using Verdict = ir::FirstHit::Verdict;
+
+/// A march stops within its threshold, and nobody sees a step of a hundredth.
+constexpr double k_same_place = 0.01;
+/// Where a march has no limit, a hit is looked for so much further than it came.
+constexpr double k_beyond = 1.5;
+/// Below the threshold by more than a rounding.
+constexpr float k_surely_below = -1e-5f;
+
+double end_of(const ir::MarchSlice& slice, const ir::MarchingLoop& loop, const ir::March& march) {
+    if (loop.far != ir::k_no_value && loop.by_parameter())
+        return march.far;
+    return slice.start() + k_beyond * (slice.parameter(march.turns.back()) - slice.start());
+}
+
+/// No sample of the march may have been below the threshold where that is excluded.
+bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {
+    const double free_to = found.verdict == Verdict::none ? found.where.high : found.where.low;
+    return std::ranges::any_of(march.turns, [&](const ir::Turn& turn) {
+        const double at = slice.parameter(turn);
+        return turn.distance < k_surely_below && at < free_to - 1e-6 * std::max(1.0, std::abs(free_to));
+    });
+}
+
+Outcome outcome_of(double ended, bool hit, const ir::FirstHit& found) {
+    if (found.verdict == Verdict::undecided)
+        return Outcome::undecided;
+    if (found.verdict == Verdict::none)
+        return Outcome::agrees;
+    if (!hit)
+        return Outcome::misses;
+    const double tolerance = k_same_place * std::max(1.0, std::abs(ended));
+    return ended > found.where.high + tolerance ? Outcome::steps_over : Outcome::agrees;
+}
+
+} // namespace
+
+std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::FloatEvaluator& pixel,
+                                   glm::ivec2 at, uint64_t most_evaluations) {
+    ir::FloatEvaluator evaluator = pixel;
+    bool textured = false;
+    evaluator.textures = [&](const ir::Lookup&, std::span<const ir::Point<float>>) {
+        textured = true;
+        return ir::Point<float>{};
+    };
+    const auto loop_index = ir::enter_first(evaluator, function.loops());
+    if (!loop_index)
+        return std::nullopt;
+    ProvedRay ray{at, *loop_index};
+    const ir::MarchingLoop& loop = function.loops()[*loop_index];
+    const ir::FloatEvaluator entered = evaluator;
+    const ir::March march = ir::follow(evaluator, function.function(), loop);
+    ray.turns = march.turns.size();
+    if (textured) {
+        ray.outcome = Outcome::textured;
+        return ray;
+    }
+    if (march.turns.empty() || !ir::is_faithful(loop, entered, march)) {
+        ray.outcome = Outcome::unfaithful;
+        return ray;
+    }
+    ir::MarchSlice slice(function.function(), loop, entered);
+    const double end = end_of(slice, loop, march);
+    if (!std::isfinite(end) || end <= slice.start()) {
+        ray.reason = ir::FirstHit::Reason::not_finite;
+        return ray;
+    }
+    const ir::FirstHit found = ir::first_hit(slice, end, most_evaluations);
+    ray.outcome = outcome_of(slice.parameter(march.turns.back()), march.hit, found);
+    ray.reason = found.reason;
+    ray.evaluations = found.evaluations;
+    ray.contradicted = contradicts(slice, march, found);
+    return ray;
+}
+
+void RayCounts::add(const ProvedRay& ray) {
+    ++rays;
+    contradicted += ray.contradicted;
+    if (ray.evaluations > 0)
+        evaluations.push_back(double(ray.evaluations));
+    switch (ray.outcome) {
+    case Outcome::agrees: ++agree; break;
+    case Outcome::steps_over: ++step_over; break;
+    case Outcome::misses: ++miss; break;
+    case Outcome::undecided:
+        ++undecided;
+        ++reasons[size_t(ray.reason)];
+        break;
+    case Outcome::textured: ++textured; break;
+    case Outcome::unfaithful: ++unfaithful; break;
+    }
+}
+
+ir::FirstHit::Reason RayCounts::commonest() const {
+    return ir::FirstHit::Reason(std::ranges::max_element(reasons) - reasons.begin());
+}
+
+} // namespace tidemark::lab
