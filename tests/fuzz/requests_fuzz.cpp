@@ -37,11 +37,12 @@ void check_date(std::string_view text) {
 }
 
 void check_mouse(std::string_view text) {
-    const auto mouse = cli::parse_mouse(text);
-    if (!taken(mouse))
+    const auto parsed = cli::parse_mouse(text);
+    if (!taken(parsed))
         return;
+    const glm::vec4 mouse = parsed->uniform();
     for (int i = 0; i < 4; ++i)
-        REQUIRE(std::isfinite((*mouse)[i]) && std::floor((*mouse)[i]) == (*mouse)[i]);
+        REQUIRE(std::isfinite(mouse[i]) && std::floor(mouse[i]) == mouse[i]);
 }
 
 void check_camera(std::string_view text) {
