@@ -1,6 +1,6 @@
 #include "glsl/double/double_functions.hpp"
 
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <fmt/format.h>
 
@@ -8,55 +8,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-/// A function that exists for floats alone and whose arguments lose nothing that matters by becoming floats:
-/// hardware looks textures up with floats, and bits of a float are what the author asks for.
-struct FloatFunction {
-    std::string_view name;
-    std::string_view result;
-    std::vector<std::string_view>
-        parameters; ///< types of a promoted text, with commas: one for each overload
-};
-
-std::vector<FloatFunction> float_functions() {
-    return {
-        {"texture",
-         "dvec4",
-         {"sampler2D,dvec2", "sampler2D,dvec2,double", "samplerCube,dvec3", "samplerCube,dvec3,double",
-          "sampler3D,dvec3", "sampler3D,dvec3,double"}},
-        {"textureLod",
-         "dvec4",
-         {"sampler2D,dvec2,double", "samplerCube,dvec3,double", "sampler3D,dvec3,double"}},
-        {"textureGrad",
-         "dvec4",
-         {"sampler2D,dvec2,dvec2,dvec2", "samplerCube,dvec3,dvec3,dvec3", "sampler3D,dvec3,dvec3,dvec3"}},
-        {"textureProj",
-         "dvec4",
-         {"sampler2D,dvec3", "sampler2D,dvec3,double", "sampler2D,dvec4", "sampler2D,dvec4,double",
-          "sampler3D,dvec4", "sampler3D,dvec4,double"}},
-        {"textureProjLod",
-         "dvec4",
-         {"sampler2D,dvec3,double", "sampler2D,dvec4,double", "sampler3D,dvec4,double"}},
-        {"textureProjGrad",
-         "dvec4",
-         {"sampler2D,dvec3,dvec2,dvec2", "sampler2D,dvec4,dvec2,dvec2", "sampler3D,dvec4,dvec3,dvec3"}},
-        {"textureQueryLod", "dvec2", {"sampler2D,dvec2", "samplerCube,dvec3", "sampler3D,dvec3"}},
-        {"texelFetch", "dvec4", {"sampler2D,ivec2,int", "sampler3D,ivec3,int"}},
-        {"floatBitsToInt", "int", {"double"}},
-        {"floatBitsToInt", "ivec2", {"dvec2"}},
-        {"floatBitsToInt", "ivec3", {"dvec3"}},
-        {"floatBitsToInt", "ivec4", {"dvec4"}},
-        {"floatBitsToUint", "uint", {"double"}},
-        {"floatBitsToUint", "uvec2", {"dvec2"}},
-        {"floatBitsToUint", "uvec3", {"dvec3"}},
-        {"floatBitsToUint", "uvec4", {"dvec4"}},
-        {"packHalf2x16", "uint", {"dvec2"}},
-        {"packUnorm2x16", "uint", {"dvec2"}},
-        {"packSnorm2x16", "uint", {"dvec2"}},
-        {"packUnorm4x8", "uint", {"dvec4"}},
-        {"packSnorm4x8", "uint", {"dvec4"}},
-    };
-}
 
 /// GLSL's text for a vector of any size; {} is the size. Its eta is a float in GLSL.
 constexpr std::string_view k_refract = R"(
@@ -78,18 +29,26 @@ std::string single_functions() {
     return text;
 }
 
-std::string text_of(const FloatFunction& function, std::string_view parameters) {
+/// Types between commas, as an author's text has them once it is promoted.
+std::string promoted_types(const BuiltinOverload& overload) {
+    std::string types;
+    for (const BuiltinParameter& parameter : overload.parameters)
+        types += (types.empty() ? "" : ",") + double_type_of(parameter.type);
+    return types;
+}
+
+/// A function that exists for floats alone, called with floats.
+std::string in_floats(std::string_view name, const BuiltinOverload& overload) {
     std::string declared, passed;
-    for (int index = 0; !parameters.empty(); ++index) {
-        const std::string_view type = parameters.substr(0, parameters.find(','));
-        parameters.remove_prefix(std::min(type.size() + 1, parameters.size()));
-        const std::string_view single = float_type_of(type);
-        declared += fmt::format("{}{} a{}", index > 0 ? ", " : "", type, index);
-        passed += single.empty() ? fmt::format("{}a{}", index > 0 ? ", " : "", index)
-                                 : fmt::format("{}{}(a{})", index > 0 ? ", " : "", single, index);
+    for (const BuiltinParameter& parameter : overload.parameters) {
+        const std::string_view comma = declared.empty() ? "" : ", ";
+        const auto index = &parameter - overload.parameters.data();
+        declared += fmt::format("{}{} a{}", comma, double_type_of(parameter.type), index);
+        passed += is_float_type(parameter.type) ? fmt::format("{}{}(a{})", comma, parameter.type, index)
+                                                : fmt::format("{}a{}", comma, index);
     }
-    return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({1}({3})); }}\n", function.result, function.name,
-                       declared, passed);
+    return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({1}({3})); }}\n", double_type_of(overload.result),
+                       name, declared, passed);
 }
 
 std::string overload(const DoubleFunction& function, int size) {
@@ -115,11 +74,11 @@ public:
     std::string run(const std::set<std::string_view>& used) {
         if (used.contains("single"))
             text_ += single_functions();
-        for (const FloatFunction& function : float_functions())
-            if (used.contains(function.name))
-                for (const std::string_view parameters : function.parameters)
-                    if (!owns(function.name, parameters))
-                        text_ += text_of(function, parameters);
+        for (const BuiltinFunction& function : builtin_functions())
+            if (function.is(Trait::in_floats) && used.contains(function.name))
+                for (const BuiltinOverload& overload : overloads_of(function))
+                    if (!owns(function.name, promoted_types(overload)))
+                        text_ += in_floats(function.name, overload);
         if (used.contains("refract"))
             for (int size = 2; size <= 4; ++size)
                 if (!owns("refract", fmt::format("dvec{0},dvec{0},double", size)))
@@ -178,8 +137,9 @@ std::vector<DoubleFunction> all_double_functions() {
 bool is_replaced(std::string_view name) {
     static const std::set<std::string_view> k_names = [] {
         std::set<std::string_view> names{"refract"};
-        for (const FloatFunction& function : float_functions())
-            names.insert(function.name);
+        for (const BuiltinFunction& function : builtin_functions())
+            if (function.is(Trait::in_floats))
+                names.insert(function.name);
         for (const DoubleFunction& function : all_double_functions())
             if (function.overloads != Overloads::none)
                 names.insert(function.name);

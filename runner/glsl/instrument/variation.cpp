@@ -3,6 +3,7 @@
 #include "glsl/analysis/float_operation.hpp"
 #include "glsl/instrument/source_rewriter.hpp"
 #include "glsl/instrument/watch.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +11,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-constexpr std::string_view k_vectors[] = {"vec2", "vec3", "vec4"};
-constexpr std::string_view k_wholes[] = {"int",   "ivec2", "ivec3", "ivec4", "uint",  "uvec2",
-                                         "uvec3", "uvec4", "bool",  "bvec2", "bvec3", "bvec4"};
 
 constexpr std::string_view k_unit =
     R"(uniform int $mode;
@@ -47,11 +44,12 @@ return abs(h)>65504.0?uintBitsToFloat((b&0x80000000u)|0x7f800000u):h;}
 /// Overloads of a function of one float, part by part.
 std::string vector_overloads(std::string_view function, std::string_view prefix) {
     std::string text;
-    for (const std::string_view type : k_vectors) {
+    for (int size = 2; size <= 4; ++size) {
         std::string parts;
-        for (int i = 0; i < type.back() - '0'; ++i)
+        for (int i = 0; i < size; ++i)
             parts += fmt::format("{}{}{}(v[{}])", i > 0 ? "," : "", prefix, function, i);
-        text += fmt::format("{0} {1}{2}({0} v){{return {0}({3});}}\n", type, prefix, function, parts);
+        text +=
+            fmt::format("vec{0} {1}{2}(vec{0} v){{return vec{0}({3});}}\n", size, prefix, function, parts);
     }
     return text;
 }
@@ -67,7 +65,7 @@ std::string other_overloads(std::string_view function, std::string_view prefix) 
             text += fmt::format("mat{0}x{1} {2}{3}(mat{0}x{1} v){{return mat{0}x{1}({4});}}\n", columns, rows,
                                 prefix, function, parts);
         }
-    for (const std::string_view type : k_wholes)
+    for (const std::string_view type : k_whole_vectors)
         text += fmt::format("{0} {1}{2}({0} v){{return v;}}\n", type, prefix, function);
     return text;
 }
@@ -145,8 +143,6 @@ bool is_operation(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind != NodeKind::call && is_float_operation(text, facts, id);
 }
 
-constexpr std::string_view k_inexact[] = {"sqrt", "inversesqrt", "pow", "exp", "exp2", "log", "log2"};
-
 } // namespace
 
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
@@ -155,7 +151,8 @@ Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
             return text.word_of(id).front() == '/';
         const std::string_view name =
             text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
-        return !facts.function(name) && std::ranges::find(k_inexact, name) != std::end(k_inexact);
+        const BuiltinFunction* const builtin = facts.function(name) ? nullptr : find_builtin(name);
+        return builtin && builtin->is(Trait::inexact);
     });
 }
 

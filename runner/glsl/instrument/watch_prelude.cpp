@@ -10,9 +10,6 @@
 namespace tidemark::glsl {
 namespace {
 
-constexpr std::array<std::string_view, 4> k_floats{"float", "vec2", "vec3", "vec4"};
-constexpr std::array<std::string_view, 12> k_wholes{"int",   "ivec2", "ivec3", "ivec4", "uint",  "uvec2",
-                                                    "uvec3", "uvec4", "bool",  "bvec2", "bvec3", "bvec4"};
 constexpr std::array<std::string_view, 4> k_doubles{"double", "dvec2", "dvec3", "dvec4"};
 
 constexpr std::string_view k_any_bad =
@@ -82,10 +79,10 @@ public:
         for_each_matrix([&](int c, int r) { text_ += matrix_functions(options_.prefix, c, r); });
         if (options_.capture)
             add_records();
-        for (const auto type : k_floats)
+        for (const auto type : k_float_vectors)
             add_type(type, true);
         for_each_matrix([&](int c, int r) { add_type(fmt::format("mat{}x{}", c, r), true); });
-        for (const auto type : k_wholes)
+        for (const auto type : k_whole_vectors)
             add_type(type, false);
         if (options_.doubles)
             for (const auto type : k_doubles)
@@ -119,10 +116,11 @@ private:
             text_ +=
                 spell(fmt::format("$out[{}]=uint($L{});", WatchLayout::k_loops + i, i), options_.prefix, {});
         text_ += "}\n";
-        for (size_t i = 0; i < k_floats.size(); ++i)
-            text_ += store(options_.prefix, k_floats[i], int(SlotType::floating) + int(i), int(i) + 1);
-        for (size_t i = 0; i < k_wholes.size(); ++i)
-            text_ += store(options_.prefix, k_wholes[i], int(SlotType::integer) + int(i), int(i % 4) + 1);
+        for (size_t i = 0; i < k_float_vectors.size(); ++i)
+            text_ += store(options_.prefix, k_float_vectors[i], int(SlotType::floating) + int(i), int(i) + 1);
+        for (size_t i = 0; i < k_whole_vectors.size(); ++i)
+            text_ +=
+                store(options_.prefix, k_whole_vectors[i], int(SlotType::integer) + int(i), int(i % 4) + 1);
         for_each_matrix([&](int c, int r) { text_ += store_matrix(options_.prefix, c, r); });
     }
 
