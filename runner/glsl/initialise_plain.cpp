@@ -117,10 +117,7 @@ private:
         int depth = 0;
         for (; at_ < run_.size(); ++at_) {
             const Token& token = peek(0);
-            if (token.is("(") || token.is("[") || token.is("{"))
-                ++depth;
-            else if (token.is(")") || token.is("]") || token.is("}"))
-                --depth;
+            depth += nesting(token.text);
             if (depth < 0 || (depth == 0 && (token.is(",") || token.is(";"))))
                 return;
         }

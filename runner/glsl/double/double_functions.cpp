@@ -29,39 +29,40 @@ std::string single_functions() {
     return text;
 }
 
-/// Types between commas, as an author's text has them once it is promoted.
-std::string promoted_types(const BuiltinOverload& overload) {
-    std::string types;
-    for (const BuiltinParameter& parameter : overload.parameters)
-        types += (types.empty() ? "" : ",") + double_type_of(parameter.type);
-    return types;
+/// What `spell` makes of each parameter and its number, between commas.
+template <class Spell>
+std::string listed(const BuiltinOverload& overload, Spell spell) {
+    std::string list;
+    for (size_t i = 0; i < overload.parameters.size(); ++i)
+        list += (i > 0 ? "," : "") + spell(overload.parameters[i].type, i);
+    return list;
+}
+
+/// `TYPE tidemark_NAME(…) { return value; }`, promoted.
+std::string definition(std::string_view name, const BuiltinOverload& overload, std::string_view value) {
+    const auto declared = [](auto type, size_t i) { return fmt::format("{} a{}", double_type_of(type), i); };
+    return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({3}); }}\n", double_type_of(overload.result),
+                       name, listed(overload, declared), value);
 }
 
 /// A function that exists for floats alone, called with floats.
 std::string in_floats(std::string_view name, const BuiltinOverload& overload) {
-    std::string declared, passed;
-    for (const BuiltinParameter& parameter : overload.parameters) {
-        const std::string_view comma = declared.empty() ? "" : ", ";
-        const auto index = &parameter - overload.parameters.data();
-        declared += fmt::format("{}{} a{}", comma, double_type_of(parameter.type), index);
-        passed += is_float_type(parameter.type) ? fmt::format("{}{}(a{})", comma, parameter.type, index)
-                                                : fmt::format("{}a{}", comma, index);
-    }
-    return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({1}({3})); }}\n", double_type_of(overload.result),
-                       name, declared, passed);
+    const auto passed = [](auto type, size_t i) {
+        return is_float_type(type) ? fmt::format("{}(a{})", type, i) : fmt::format("a{}", i);
+    };
+    return definition(name, overload, fmt::format("{}({})", name, listed(overload, passed)));
 }
 
-std::string overload(const DoubleFunction& function, int size) {
-    const bool binary = function.overloads == Overloads::binary;
-    const std::string type = size == 1 ? "double" : fmt::format("dvec{}", size);
+std::string by_component(std::string_view name, const BuiltinOverload& overload) {
+    const int size = value_type(overload.result)->rows;
     std::string parts;
     for (int i = 0; i < size; ++i) {
-        const std::string component = size == 1 ? "" : fmt::format(".{}", "xyzw"[i]);
-        parts += fmt::format("{}tidemark_double_{}(x{}{})", i > 0 ? ", " : "", function.name, component,
-                             binary ? ", y" + component : "");
+        const auto part = [&](auto, size_t argument) {
+            return size == 1 ? fmt::format("a{}", argument) : fmt::format("a{}.{}", argument, "xyzw"[i]);
+        };
+        parts += fmt::format("{}tidemark_double_{}({})", i > 0 ? ", " : "", name, listed(overload, part));
     }
-    return fmt::format("{0} tidemark_{1}({0} x{2}) {{ return {3}; }}\n", type, function.name,
-                       binary ? ", " + type + " y" : "", size == 1 ? parts : type + "(" + parts + ")");
+    return definition(name, overload, parts);
 }
 
 class Emitter {
@@ -76,16 +77,16 @@ public:
             text_ += single_functions();
         for (const BuiltinFunction& function : builtin_functions())
             if (function.is(Trait::in_floats) && used.contains(function.name))
-                for (const BuiltinOverload& overload : overloads_of(function))
-                    if (!owns(function.name, promoted_types(overload)))
-                        text_ += in_floats(function.name, overload);
+                define(function, in_floats);
         if (used.contains("refract"))
             for (int size = 2; size <= 4; ++size)
                 if (!owns("refract", fmt::format("dvec{0},dvec{0},double", size)))
                     text_ += fmt::format(fmt::runtime(k_refract), size);
         for (const DoubleFunction& function : functions_)
-            if (used.contains(function.name))
-                add(function);
+            if (const auto* builtin = find_builtin(function.name); builtin && used.contains(function.name)) {
+                require(function);
+                define(*builtin, by_component);
+            }
         return std::move(text_);
     }
 
@@ -94,16 +95,13 @@ private:
         return own_.contains({std::string(name), std::string(parameters)});
     }
 
-    void add(const DoubleFunction& function) {
-        require(function);
-        for (int size = 1; size <= 4 && function.overloads != Overloads::none; ++size) {
-            const std::string type = size == 1 ? "double" : fmt::format("dvec{}", size);
-            const bool binary = function.overloads == Overloads::binary;
-            if (!owns(function.name, binary ? type + "," + type : type))
-                text_ += overload(function, size);
-            if (function.name == "atan" && !owns("atan", type + "," + type))
-                text_ += overload({"atan", Overloads::binary, 0, {}, {}}, size);
-        }
+    /// The overloads that the author does not define.
+    template <class Define>
+    void define(const BuiltinFunction& function, Define definition) {
+        const auto promoted = [](auto type, size_t) { return double_type_of(type); };
+        for (const BuiltinOverload& overload : overloads_of(function))
+            if (!owns(function.name, listed(overload, promoted)))
+                text_ += definition(function.name, overload);
     }
 
     /// Its text, once, behind those that it needs.
@@ -141,7 +139,7 @@ bool is_replaced(std::string_view name) {
             if (function.is(Trait::in_floats))
                 names.insert(function.name);
         for (const DoubleFunction& function : all_double_functions())
-            if (function.overloads != Overloads::none)
+            if (find_builtin(function.name))
                 names.insert(function.name);
         return names;
     }();

@@ -47,10 +47,8 @@ bool takes_floats(const BuiltinFunction& function, size_t argument) {
 }
 
 bool is_float_literal(const Token& token) {
-    if (token.kind != TokenKind::number || token.text.starts_with("0x") || token.text.starts_with("0X"))
-        return false;
-    return token.text.find_first_of(".eEfF") != std::string_view::npos && !token.text.ends_with("lf") &&
-           !token.text.ends_with("LF");
+    const auto type = token.kind == TokenKind::number ? type_of_literal(token.text) : std::nullopt;
+    return type && type->base == 'f';
 }
 
 class Promoter {

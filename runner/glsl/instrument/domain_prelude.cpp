@@ -124,9 +124,8 @@ std::string float_quotients(std::string_view prefix) {
 template <class Make>
 std::string for_whole_types(Make make) {
     std::string text;
-    for (const std::string_view number : {"int", "uint"})
-        for (int size = 1; size <= 4; ++size)
-            text += make(size == 1 ? std::string(number) : fmt::format("{}vec{}", number[0], size), size);
+    for (const std::string_view type : k_whole_vectors.first<8>())
+        text += make(std::string(type), value_type(type)->rows);
     return text;
 }
 
@@ -156,10 +155,11 @@ std::string other_quotients(std::string_view prefix) {
         text += fmt::format("{0} {1}quotient({2} x,{3} y,int i,inout float m){{return x/{4};}}\n", result,
                             prefix, left, right, whole ? fmt::format("{}divisor(y,i,m)", prefix) : "y");
     };
-    for (const std::string number : {"int", "uint"}) {
+    for (const size_t kind : {0, 4}) {
+        const std::string number(k_whole_vectors[kind]);
         add(number, number, number, true);
-        for (int size = 2; size <= 4; ++size) {
-            const std::string vector = fmt::format("{}vec{}", number[0], size);
+        for (const std::string_view type : k_whole_vectors.subspan(kind + 1, 3)) {
+            const std::string vector(type);
             add(vector, vector, vector, true);
             add(vector, number, vector, true);
             add(number, vector, vector, true);
@@ -225,20 +225,16 @@ std::string conversions(std::string_view prefix) {
          {std::array<std::string_view, 3>{"toint", "-2147483648.0", "2147483648.0"},
           {"touint", "-0.99999994", "4294967296.0"}}) {
         for (int size = 1; size <= 4; ++size) {
-            const std::string type = size == 1 ? "float" : fmt::format("vec{}", size);
-            text += fmt::format("{0} {1}{2}({0} x,int i,inout float m){{", type, prefix, name);
+            text += fmt::format("{0} {1}{2}({0} x,int i,inout float m){{", k_float_vectors[size_t(size) - 1],
+                                prefix, name);
             for (int part = 0; part < size; ++part)
                 text += fmt::format("{0}near(m,min({1}-({2}),{3}-{1}));if(!({1}>={2}&&{1}<{3}))"
                                     "{0}undefined(i,{1},0.0);",
                                     prefix, part_of("x", size, part), low, high);
             text += "return x;}\n";
         }
-        const auto same = [&, name = name](const std::string& type) {
-            return fmt::format("{0} {1}{2}({0} x,int i,inout float m){{return x;}}\n", type, prefix, name);
-        };
-        text += for_whole_types([&](const std::string& type, int) { return same(type); }) + same("bool");
-        for (int size = 2; size <= 4; ++size)
-            text += same(fmt::format("bvec{}", size));
+        for (const std::string_view type : k_whole_vectors)
+            text += fmt::format("{0} {1}{2}({0} x,int i,inout float m){{return x;}}\n", type, prefix, name);
     }
     return text;
 }

@@ -7,11 +7,6 @@
 namespace tidemark::glsl {
 namespace {
 
-bool is_whole_number(std::string_view digits) {
-    const bool hexadecimal = digits.size() > 1 && (digits[1] == 'x' || digits[1] == 'X');
-    return hexadecimal || digits.find_first_of(".eEfF") == std::string_view::npos;
-}
-
 class Collector {
 public:
     explicit Collector(const ParsedText& text) : text_(text), tree_(text.tree()) {}
@@ -40,7 +35,10 @@ private:
 
     bool is_whole(NodeId id) const {
         switch (tree_[id].kind) {
-        case NodeKind::literal: return is_whole_number(text_.word_of(id));
+        case NodeKind::literal: {
+            const auto type = type_of_literal(text_.word_of(id));
+            return type && type->base != 'f';
+        }
         case NodeKind::name: {
             const auto found = facts_.names.find(text_.word_of(id));
             return found != facts_.names.end() && found->second.only_whole();

@@ -33,6 +33,8 @@ std::optional<ValueType> value_type(std::string_view name) {
 }
 
 std::string to_string(const ValueType& type) {
+    if (type.matrix() && type.columns == type.rows)
+        return fmt::format("mat{}", type.rows);
     if (type.matrix())
         return fmt::format("mat{}x{}", type.columns, type.rows);
     const std::string_view scalar = type.base == 'f'   ? "float"

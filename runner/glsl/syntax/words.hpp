@@ -95,6 +95,12 @@ inline bool is_one_of(std::string_view word, std::span<const std::string_view> w
     return std::ranges::find(words, word) != words.end();
 }
 
+/// 1 for a parenthesis, bracket or brace that opens, -1 for one that closes, else 0.
+inline int nesting(std::string_view word) {
+    const size_t sign = word.size() == 1 ? std::string_view("([{)]}").find(word[0]) : word.npos;
+    return sign == word.npos ? 0 : sign < 3 ? 1 : -1;
+}
+
 inline bool is_precision(std::string_view word) {
     return word == "highp" || word == "mediump" || word == "lowp";
 }

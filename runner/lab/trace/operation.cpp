@@ -13,7 +13,6 @@ namespace tidemark::lab {
 namespace {
 
 using glsl::Arguments;
-using glsl::SlotType;
 
 bool is_finite_word(uint32_t word) {
     return (word & 0x7f800000u) != 0x7f800000u;
@@ -70,7 +69,7 @@ private:
         for (const auto& operand : operands_) {
             if (operand->size() != 1 && operand->size() != result_.size())
                 return false;
-            matrices += operand->shape.columns > 1;
+            matrices += operand->type.matrix();
         }
         return name_ != "*" ||
                (matrices < 2 && (matrices == 0 || operands_[0]->size() == 1 || operands_[1]->size() == 1));
@@ -127,24 +126,20 @@ private:
 } // namespace
 
 double ShaderValue::number(size_t i) const {
-    switch (shape.type) {
-    case SlotType::integer: return double(int32_t(bits[i]));
-    case SlotType::unsigned_integer:
-    case SlotType::boolean: return double(bits[i]);
-    default: return double(std::bit_cast<float>(bits[i]));
-    }
+    return type.base == 'f'   ? double(std::bit_cast<float>(bits[i]))
+           : type.base == 'i' ? double(int32_t(bits[i]))
+                              : double(bits[i]);
 }
 
 bool ShaderValue::finite() const {
-    if (shape.type != SlotType::floating && shape.type != SlotType::matrix)
-        return true;
-    return std::all_of(bits.begin(), bits.begin() + long(size()), is_finite_word);
+    return type.base != 'f' || std::all_of(bits.begin(), bits.begin() + long(size()), is_finite_word);
 }
 
 std::optional<ShaderValue> read_slot(std::span<const uint32_t> words, size_t slot) {
-    ShaderValue value{glsl::slot_shape(words[slot]), {}};
-    if (value.shape.type == SlotType::none)
+    const auto type = glsl::slot_type(words[slot]);
+    if (!type)
         return std::nullopt;
+    ShaderValue value{*type, {}};
     std::copy_n(words.begin() + long(slot) + 1, value.bits.size(), value.bits.begin());
     return value;
 }
@@ -160,29 +155,17 @@ std::string to_shortest(float number) {
 std::string to_string(const ShaderValue& value) {
     const auto number = [&](size_t i) -> std::string {
         const uint32_t bits = value.bits[i];
-        switch (value.shape.type) {
-        case SlotType::boolean: return bits != 0 ? "true" : "false";
-        case SlotType::integer:
-        case SlotType::unsigned_integer: {
-            const std::string digits = fmt::format("{:.0f}", value.number(i));
-            const bool large = std::abs(value.number(i)) >= 0x10000; // of hashes and masks
-            return large ? fmt::format("{} ({:#x})", digits, bits) : digits;
-        }
-        default: return to_shortest(std::bit_cast<float>(bits));
-        }
+        if (value.type.base == 'f')
+            return to_shortest(std::bit_cast<float>(bits));
+        if (value.type.base == 'b')
+            return bits != 0 ? "true" : "false";
+        const std::string digits = fmt::format("{:.0f}", value.number(i));
+        const bool large = std::abs(value.number(i)) >= 0x10000; // of hashes and masks
+        return large ? fmt::format("{} ({:#x})", digits, bits) : digits;
     };
     if (value.size() == 1)
         return number(0);
-    std::string text = value.shape.type == SlotType::matrix
-                           ? value.shape.columns == value.shape.rows
-                                 ? fmt::format("mat{}(", value.shape.rows)
-                                 : fmt::format("mat{}x{}(", value.shape.columns, value.shape.rows)
-                           : fmt::format("{}vec{}(",
-                                         value.shape.type == SlotType::integer            ? "i"
-                                         : value.shape.type == SlotType::unsigned_integer ? "u"
-                                         : value.shape.type == SlotType::boolean          ? "b"
-                                                                                          : "",
-                                         value.shape.rows);
+    std::string text = to_string(value.type) + "(";
     for (size_t i = 0; i < value.size(); ++i)
         text += (i > 0 ? ", " : "") + number(i);
     return text + ")";
