@@ -70,72 +70,36 @@ std::string other_overloads(std::string_view function, std::string_view prefix) 
     return text;
 }
 
-} // namespace
-
-Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
-    const SyntaxTree& tree = text.tree();
-    const std::string prefix = fresh_prefix(text);
-    Variation result{{}, prefix + "mode"};
+/// The text with all that `change(node, edits)` does to its nodes, children first; it tells whether it did
+/// anything.
+template <class Change>
+Variation vary(const ParsedText& text, const std::string& mode, const std::string& prelude, Change change) {
+    Variation result{{}, mode};
     SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        if (tree[id].kind != NodeKind::call)
-            continue;
-        const std::string_view name = called_name(text, id);
-        if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
-            continue;
-        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
-        ++result.places;
-    }
-    std::string prelude = spell(k_unit, prefix);
-    for (const std::string_view name : {"sin", "cos"})
-        prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
+    for (NodeId id = 1; id < text.tree().nodes.size(); ++id)
+        result.places += change(id, edits) ? 1 : 0;
     result.text = headers_with_buffers(text) + prelude + edits.text();
     return result;
 }
-
-Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
-    const SyntaxTree& tree = text.tree();
-    const std::string prefix = fresh_prefix(text);
-    Variation result{{}, prefix + "mode"};
-    SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        const std::string_view name = tree[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
-        if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
-            continue;
-        const auto meanings = facts.names.find(name);
-        if (meanings == facts.names.end() || !meanings->second.uniform)
-            continue;
-        edits.wrap(id, prefix + "input(", ")");
-        ++result.places;
-    }
-    result.text = headers_with_buffers(text) + spell(k_unit, prefix) + spell(k_input, prefix) +
-                  vector_overloads("input", prefix) + edits.text();
-    return result;
-}
-
-namespace {
 
 /// Every result of an operation, an assignment or a call led through `$off` where `is_meant` says so.
 template <class IsMeant>
 Variation vary_results(const ParsedText& text, std::string_view off, IsMeant is_meant) {
     const SyntaxTree& tree = text.tree();
     const std::string prefix = fresh_prefix(text);
-    Variation result{{}, prefix + "mode"};
-    SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+    const std::string prelude = spell("uniform int $mode;\n", prefix) + spell(off, prefix) +
+                                vector_overloads("off", prefix) + other_overloads("off", prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
         if (!is_meant(id) || must_stay_constant(text, id))
-            continue;
+            return false;
         if (tree[id].kind != NodeKind::assign) {
             edits.wrap(id, prefix + "off(", ")");
         } else {
             const std::string target = words_of(text, tree.child(id, 0));
             edits.wrap(id, "(", fmt::format(",{}={}off({}))", target, prefix, target));
         }
-        ++result.places;
-    }
-    result.text = headers_with_buffers(text) + spell("uniform int $mode;\n", prefix) + spell(off, prefix) +
-                  vector_overloads("off", prefix) + other_overloads("off", prefix) + edits.text();
-    return result;
+        return true;
+    });
 }
 
 /// Arithmetic by an operator.
@@ -144,6 +108,37 @@ bool is_operation(const ParsedText& text, const TreeFacts& facts, NodeId id) {
 }
 
 } // namespace
+
+Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    std::string prelude = spell(k_unit, prefix);
+    for (const std::string_view name : {"sin", "cos"})
+        prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = tree[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
+            return false;
+        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
+        return true;
+    });
+}
+
+Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
+    const std::string prefix = fresh_prefix(text);
+    const std::string prelude =
+        spell(k_unit, prefix) + spell(k_input, prefix) + vector_overloads("input", prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = text.tree()[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
+        if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
+            return false;
+        const auto meanings = facts.names.find(name);
+        if (meanings == facts.names.end() || !meanings->second.uniform)
+            return false;
+        edits.wrap(id, prefix + "input(", ")");
+        return true;
+    });
+}
 
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
     return vary_results(text, k_lot, [&](NodeId id) {
@@ -166,20 +161,17 @@ Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
 
 Variation vary_precision(const ParsedText& text, const TreeFacts&) {
     const SyntaxTree& tree = text.tree();
-    Variation result;
-    SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+    const std::string header = "#extension GL_ARB_gpu_shader5 : enable\n";
+    return vary(text, {}, header, [&](NodeId id, SourceRewriter& edits) {
         if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
-            continue;
+            return false;
         const NodeId type = tree.child(id, 0);
         if (class_of_type(type_name(text, type)) != TypeClass::floating ||
             has_qualifier(text, type, "const") || has_qualifier(text, type, "precise"))
-            continue;
+            return false;
         edits.wrap(type, "precise ", "");
-        ++result.places;
-    }
-    result.text = headers_with_buffers(text) + "#extension GL_ARB_gpu_shader5 : enable\n" + edits.text();
-    return result;
+        return true;
+    });
 }
 
 } // namespace tidemark::glsl
