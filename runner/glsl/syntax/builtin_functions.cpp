@@ -12,34 +12,29 @@ namespace {
 using enum Trait;
 using Args = const Arguments&;
 
+// clang-format off
 constexpr Domain k_not_negative{{{"x<0.0", [](Args a) { return a.x < 0; }, "of a negative number"}}, "x"};
-constexpr Domain k_positive{{{"x<=0.0", [](Args a) { return a.x <= 0; }, "of a number that is not above 0"}},
-                            "x"};
-constexpr Domain k_power{{{"x<0.0", [](Args a) { return a.x < 0; }, "of a negative number"},
-                          {"(x==0.0&&y<=0.0)", [](Args a) { return a.x == 0 && a.y <= 0; },
-                           "of 0 with an exponent that is not above 0"}},
-                         "x"};
-constexpr Domain k_up_to_one{{{"abs(x)>1.0", [](Args a) { return std::abs(a.x) > 1; }, "outside of [-1, 1]"}},
-                             "1.0-abs(x)"};
-constexpr Domain k_below_one{
-    {{"abs(x)>=1.0", [](Args a) { return std::abs(a.x) >= 1; }, "outside of (-1, 1)"}}, "1.0-abs(x)"};
+constexpr Domain k_positive{{{"x<=0.0", [](Args a) { return a.x <= 0; }, "of a number that is not above 0"}}, "x"};
+constexpr Domain k_power{{
+    {"x<0.0", [](Args a) { return a.x < 0; }, "of a negative number"},
+    {"(x==0.0&&y<=0.0)", [](Args a) { return a.x == 0 && a.y <= 0; }, "of 0 with an exponent that is not above 0"}}, "x"};
+constexpr Domain k_up_to_one{{{"abs(x)>1.0", [](Args a) { return std::abs(a.x) > 1; }, "outside of [-1, 1]"}}, "1.0-abs(x)"};
+constexpr Domain k_below_one{{{"abs(x)>=1.0", [](Args a) { return std::abs(a.x) >= 1; }, "outside of (-1, 1)"}}, "1.0-abs(x)"};
 constexpr Domain k_from_one{{{"x<1.0", [](Args a) { return a.x < 1; }, "of a number below 1"}}, "x-1.0"};
-constexpr Domain k_direction{{{"x==0.0&&y==0.0", [](Args a) { return a.x == 0 && a.y == 0; }, "of 0 and 0"}},
-                             "abs(x)+abs(y)"};
+constexpr Domain k_direction{{{"x==0.0&&y==0.0", [](Args a) { return a.x == 0 && a.y == 0; }, "of 0 and 0"}}, "abs(x)+abs(y)"};
 constexpr Domain k_divisor{{{"y==0.0", [](Args a) { return a.y == 0; }, "by 0"}}, "abs(y)", "y"};
 constexpr Domain k_edges{{{"x==y", [](Args a) { return a.x == a.y; }, "with equal edges"}}, "abs(x-y)"};
 /// On the CPU x is the sum of the squares, or any of the numbers: one this small has no square in floats.
 constexpr Domain k_length{{{"dot(x,x)==0.0", [](Args a) { return std::abs(a.x) < double(FLT_MIN); },
-                            "of a vector whose squares add up to 0"}},
-                          "dot(x,x)"};
+                            "of a vector whose squares add up to 0"}}, "dot(x,x)"};
 
 // Signatures, between semicolons: what is returned, then the parameters. F, I, U, B stand for the scalar and
 // the vectors of a kind, V, W, X, Y for its vectors alone, f, i, u, b for the scalar (kinds: float, int,
 // uint, bool); M for the float matrices, S for the square ones. Capitals of one signature have one size. Any
 // other word is a type. > marks an `out`, = what must be a constant expression, ? what may be left out. Where
 // GLSL ES 3.00 has the function, the signatures are those that it has.
-// clang-format off
 constexpr BuiltinFunction k_functions[] = {
+    // name, signatures, traits, its value on the CPU, where it is undefined, what GLSL ES 3.00 has instead
     // 8.1 Angle and trigonometry
     {"radians",          "F F",      pure,             [](Args a) { return a.x * 0.017453292519943295; }},
     {"degrees",          "F F",      pure,             [](Args a) { return a.x * 57.29577951308232; }},

@@ -1,5 +1,5 @@
-// The names that the front end looks for in a text: words that a desktop driver reserves, and names of old
-// APIs. What ShaderToy's prologue declares: scene/host_uniforms.hpp.
+// The words that the front end looks for in a text: what a desktop driver reserves, keywords, names of old
+// APIs, brackets. What ShaderToy's prologue declares: scene/host_uniforms.hpp.
 #pragma once
 
 #include "scene/host_uniforms.hpp"
