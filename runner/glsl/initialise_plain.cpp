@@ -1,10 +1,12 @@
 #include "glsl/initialise.hpp"
 #include "glsl/syntax/functions.hpp"
+#include "glsl/syntax/types.hpp"
 #include "glsl/syntax/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace tidemark::glsl {
@@ -14,30 +16,31 @@ using text::Token;
 using text::TokenKind;
 
 /// `vec3`, and each macro that stands for such a type and nothing else (golf: `#define V vec3`).
-std::unordered_set<std::string_view> type_names(const std::vector<Token>& tokens,
-                                                const Preprocessed& preprocessed) {
-    std::unordered_set<std::string_view> names(std::begin(k_plain_types), std::end(k_plain_types));
-    std::unordered_set<std::string_view> other;
-    for (const MacroLine& macro : preprocessed.macros) {
-        if (macro.undefines)
-            continue;
-        const bool alias = !macro.parameters && macro.end == macro.body + 1 &&
-                           is_one_of(tokens[macro.body].text, k_plain_types);
-        if (alias)
-            names.insert(macro.name);
-        else
-            other.insert(macro.name);
+class TypeNames {
+public:
+    TypeNames(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
+        for (const MacroLine& macro : preprocessed.macros) {
+            if (macro.undefines)
+                continue;
+            bool& alias = macros_.try_emplace(macro.name, true).first->second;
+            alias = alias && !macro.parameters && macro.end == macro.body + 1 &&
+                    value_type(tokens[macro.body].text);
+        }
     }
-    for (const auto name : other)
-        names.erase(name);
-    return names;
-}
+
+    bool contains(std::string_view word) const {
+        const auto macro = macros_.find(word);
+        return macro == macros_.end() ? value_type(word).has_value() : macro->second;
+    }
+
+private:
+    std::unordered_map<std::string_view, bool> macros_; ///< whether they are such a type
+};
 
 /// Reads one run of tokens: the code of the text, or what one macro stands for.
 class Initialiser {
 public:
-    Initialiser(const std::vector<Token>& tokens, const std::unordered_set<std::string_view>& types,
-                std::vector<text::Edit>& edits)
+    Initialiser(const std::vector<Token>& tokens, const TypeNames& types, std::vector<text::Edit>& edits)
         : tokens_(tokens), types_(types), edits_(edits) {}
 
     void run(std::span<const size_t> run, const std::unordered_set<std::string_view>& parameters) {
@@ -114,17 +117,14 @@ private:
         int depth = 0;
         for (; at_ < run_.size(); ++at_) {
             const Token& token = peek(0);
-            if (token.is("(") || token.is("[") || token.is("{"))
-                ++depth;
-            else if (token.is(")") || token.is("]") || token.is("}"))
-                --depth;
+            depth += nesting(token.text);
             if (depth < 0 || (depth == 0 && (token.is(",") || token.is(";"))))
                 return;
         }
     }
 
     const std::vector<Token>& tokens_;
-    const std::unordered_set<std::string_view>& types_;
+    const TypeNames& types_;
     std::vector<text::Edit>& edits_;
     std::span<const size_t> run_;
     const std::unordered_set<std::string_view>* parameters_ = nullptr;
@@ -136,7 +136,7 @@ private:
 
 std::vector<text::Edit> initialise_plain(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
     std::vector<text::Edit> edits;
-    const auto types = type_names(tokens, preprocessed);
+    const TypeNames types(tokens, preprocessed);
     Initialiser initialiser(tokens, types, edits);
     initialiser.run(preprocessed.code, {});
     for (const MacroLine& macro : preprocessed.macros) {

@@ -3,6 +3,7 @@
 #include "base/hint.hpp"
 #include "base/try.hpp"
 #include "glsl/syntax/preprocess.hpp"
+#include "glsl/syntax/words.hpp"
 #include "scene/overrides.hpp"
 #include "text/tokens.hpp"
 
@@ -40,14 +41,6 @@ std::optional<Definition> read_macro(const std::vector<Token>& tokens, size_t ha
     return Definition{hash + 2, name.text, tokens[hash + 3].begin, tokens[end - 1].end(), false};
 }
 
-bool opens(const Token& token) {
-    return token.is("(") || token.is("[") || token.is("{");
-}
-
-bool closes(const Token& token) {
-    return token.is(")") || token.is("]") || token.is("}");
-}
-
 /// Whether a declaration ends here at the latest, however unfinished it is.
 bool ends_declaration(const Token& token) {
     return token.is(";") || token.is("const") || (token.first_on_line && token.is("#"));
@@ -58,7 +51,7 @@ bool ends_declaration(const Token& token) {
 size_t read_constants(const std::vector<Token>& tokens, size_t keyword, std::vector<Definition>& found) {
     size_t i = keyword + 1;
     while (i < tokens.size() && !ends_declaration(tokens[i])) {
-        if (closes(tokens[i])) // `const` of a parameter
+        if (nesting(tokens[i].text) < 0) // `const` of a parameter
             break;
         if (!tokens[i].is("=")) {
             ++i;
@@ -68,7 +61,7 @@ size_t read_constants(const std::vector<Token>& tokens, size_t keyword, std::vec
         size_t end = i + 1;
         for (int depth = 0; end < tokens.size(); ++end) {
             const Token& token = tokens[end];
-            depth += opens(token) ? 1 : closes(token) ? -1 : 0;
+            depth += nesting(token.text);
             if (depth < 0 || (depth == 0 && token.is(",")) || ends_declaration(token))
                 break;
         }

@@ -1,5 +1,6 @@
 #include "glsl/portability.hpp"
 
+#include "glsl/syntax/builtin_functions.hpp"
 #include "glsl/syntax/preprocess.hpp"
 #include "glsl/syntax/words.hpp"
 
@@ -25,43 +26,12 @@ constexpr std::string_view k_es_reserved[] = {
     "namespace",   "using",         "sampler1D", "sampler2DRect", "samplerBuffer", "image2D",   "image3D",
     "hvec2",       "hvec3",         "hvec4",     "fvec2",         "fvec3",         "fvec4"};
 
-constexpr std::string_view k_double_types[] = {"double", "dvec2", "dvec3", "dvec4",
-                                               "dmat2",  "dmat3", "dmat4"};
-
-/// Functions of desktop GLSL that GLSL ES 3.00 does not have.
-constexpr OldName k_missing_functions[] = {
-    {"textureGather", "four texelFetch"},
-    {"textureGatherOffset", "four texelFetch"},
-    {"textureQueryLod", "derivatives of the coordinate"},
-    {"textureQueryLevels", "a constant"},
+/// Functions that are neither GLSL's of today nor an old API's.
+constexpr OldName k_other_functions[] = {
     {"noise1", "a function of your own"},
     {"noise2", "a function of your own"},
     {"noise3", "a function of your own"},
     {"noise4", "a function of your own"},
-    {"fma", "a * b + c"},
-    {"bitCount", "a loop over the bits"},
-    {"bitfieldExtract", "shifts and masks"},
-    {"bitfieldInsert", "shifts and masks"},
-    {"bitfieldReverse", "shifts and masks"},
-    {"findLSB", "a loop over the bits"},
-    {"findMSB", "a loop over the bits"},
-    {"ldexp", "x * exp2(float(e))"},
-    {"frexp", "exp2 and log2"},
-    {"packUnorm4x8", "shifts and masks"},
-    {"unpackUnorm4x8", "shifts and masks"},
-    {"packSnorm4x8", "shifts and masks"},
-    {"unpackSnorm4x8", "shifts and masks"},
-    {"texture2D", "texture"},
-    {"textureCube", "texture"},
-    {"texture3D", "texture"},
-    {"texture2DLod", "textureLod"},
-    {"texture2DLodEXT", "textureLod"},
-    {"textureCubeLodEXT", "textureLod"},
-    {"texture2DGradEXT", "textureGrad"},
-    {"textureGradEXT", "textureGrad"},
-    {"dFdxFine", "dFdx"},
-    {"dFdyFine", "dFdy"},
-    {"fwidthFine", "fwidth"},
     // what #iKeyboard declares
     {"isKeyDown", "texelFetch(iChannel0, ivec2(key, 0), 0).x"},
     {"isKeyPressed", "texelFetch(iChannel0, ivec2(key, 1), 0).x"},
@@ -69,32 +39,20 @@ constexpr OldName k_missing_functions[] = {
     {"isKeyReleased", "a buffer that remembers isKeyDown"},
 };
 
-/// Functions that GLSL ES 3.00 has: they must not be defined again, not even for other types.
-constexpr std::string_view k_es_functions[] = {
-    "radians",      "degrees",       "sin",         "cos",
-    "tan",          "asin",          "acos",        "atan",
-    "sinh",         "cosh",          "tanh",        "asinh",
-    "acosh",        "atanh",         "pow",         "exp",
-    "log",          "exp2",          "log2",        "sqrt",
-    "inversesqrt",  "abs",           "sign",        "floor",
-    "trunc",        "round",         "roundEven",   "ceil",
-    "fract",        "mod",           "modf",        "min",
-    "max",          "clamp",         "mix",         "step",
-    "smoothstep",   "isnan",         "isinf",       "length",
-    "distance",     "dot",           "cross",       "normalize",
-    "faceforward",  "reflect",       "refract",     "matrixCompMult",
-    "outerProduct", "transpose",     "determinant", "inverse",
-    "lessThan",     "lessThanEqual", "greaterThan", "greaterThanEqual",
-    "equal",        "notEqual",      "any",         "all",
-    "not",          "texture",       "textureLod",  "textureGrad",
-    "texelFetch",   "textureSize",   "textureProj", "dFdx",
-    "dFdy",         "fwidth"};
+/// What to write in GLSL ES 3.00 instead of a function that it does not have; empty: it has it, or none is
+/// known.
+std::string_view instead_of(std::string_view function) {
+    if (const BuiltinFunction* const builtin = find_builtin(function))
+        return builtin->instead;
+    for (const std::span<const OldName> names : {std::span<const OldName>(k_other_functions), {k_old_names}})
+        if (const auto found = std::ranges::find(names, function, &OldName::name); found != names.end())
+            return found->today;
+    return {};
+}
 
 constexpr std::string_view k_image_uniforms[] = {
     "iResolution",        "iTime",     "iTimeDelta", "iFrameRate", "iFrame",   "iMouse", "iChannelTime",
     "iChannelResolution", "iChannel0", "iChannel1",  "iChannel2",  "iChannel3"};
-
-constexpr std::string_view k_float_types[] = {"float", "vec2", "vec3", "vec4", "mat2", "mat3", "mat4"};
 
 bool is_whole_number(const Token& token) {
     return token.kind == TokenKind::number &&
@@ -207,9 +165,8 @@ private:
         if (token.is(scene::k_camera_uniform) && reported_.insert(token.text).second)
             say(token,
                 fmt::format("{}: the site has no such uniform, and it is all zeros there", token.text));
-        if (is_one_of(token.text, k_double_types))
-            say(token, fmt::format("{}: GLSL ES has no double precision; write {}", token.text,
-                                   token.is("double") ? "float" : token.text.substr(1)));
+        if (const std::string_view single = float_type_of(token.text); !single.empty())
+            say(token, fmt::format("{}: GLSL ES has no double precision; write {}", token.text, single));
     }
 
     void code() {
@@ -257,10 +214,11 @@ private:
         const Token& token = peek(0);
         if (!peek(1).is("("))
             return;
-        for (const OldName& missing : k_missing_functions)
-            if (token.is(missing.name) && !defined_.contains(token.text))
-                say(token, fmt::format("{}: not in GLSL ES 3.00; write {}", token.text, missing.today));
-        if (braces_ == 0 && is_word(-1) && is_one_of(token.text, k_es_functions))
+        const std::string_view instead = instead_of(token.text);
+        if (!instead.empty() && !defined_.contains(token.text))
+            say(token, fmt::format("{}: not in GLSL ES 3.00; write {}", token.text, instead));
+        const BuiltinFunction* const builtin = find_builtin(token.text);
+        if (braces_ == 0 && is_word(-1) && builtin && builtin->in_es())
             say(token,
                 fmt::format("{}: GLSL ES 3.00 forbids to define a built-in function again; choose another "
                             "name",
@@ -270,12 +228,12 @@ private:
     /// `float x = 1;` and, outside functions, a value that is not constant.
     void declaration() {
         const std::string_view type = peek(0).text;
-        if (!is_one_of(type, k_plain_types) || !is_word(1) || !peek(2).is("="))
+        if (!value_type(type) || !is_word(1) || !peek(2).is("="))
             return;
         long value = 3;
         const bool sign = peek(value).is("-");
         value += sign ? 1 : 0;
-        if (is_one_of(type, k_float_types) && is_whole_number(peek(value)) &&
+        if (is_float_type(type) && is_whole_number(peek(value)) &&
             (peek(value + 1).is(";") || peek(value + 1).is(",")))
             say(peek(value), fmt::format("{} {} = {}{}: GLSL ES converts no int by itself; write {}{}", type,
                                          peek(1).text, sign ? "-" : "", peek(value).text, sign ? "-" : "",

@@ -1,5 +1,6 @@
 #include "glsl/survey.hpp"
 
+#include "glsl/syntax/types.hpp"
 #include "glsl/syntax/words.hpp"
 
 #include <algorithm>
@@ -153,7 +154,7 @@ private:
             result_.discards = true;
         else if (is_word(-1) && peek(1).is("("))
             read_function();
-        else if (depth_ == 0 && parentheses_ == 0 && is_one_of(peek(-1).text, k_plain_types))
+        else if (depth_ == 0 && parentheses_ == 0 && value_type(peek(-1).text))
             read_variable();
     }
 

@@ -81,7 +81,7 @@ class Check(ProgramTest):
                 self.assertEqual(entry["verdict"], verdict, entry["found"])
                 self.assertRegex(entry["found"], rf"^(9\d(\.\d)?|100) % of 288 rays are decided: {wrong} % of these step over")
         said = self.succeed("inspect", str(scene)).stdout.decode()
-        self.assertIn("  march     march.glsl:5: steps by the distance (sphere tracing)", said)
+        self.assertRegex(said, r"(?m)^  march     \S*march.glsl:5: steps by the distance \(sphere tracing\)")
 
     def test_a_failure_can_be_reproduced_and_is_shown(self):
         scene, folder = self.write("faulty.glsl", FAULTS["times"]), self.folder / "pictures"
@@ -97,7 +97,7 @@ class Check(ProgramTest):
             scene = self.write("drag.glsl", FAULTS["mouse, " + fault])
             entry = self.verdicts(scene, "--probe", "mouse")["mouse"]
             self.assertIn(f"--mouse {mouse} ", entry["reproduction"])
-            self.assertIn("(logarithm of a negative number)", entry["traced"])
+            self.assertIn("(log of a number that is not above 0)", entry["traced"])
             traced = self.run_program("check", "--trace", *shlex.split(entry["reproduction"])[2:-2])
             self.assertEqual(traced.returncode, 1, traced.stderr)
             self.assertIn(b"gave NaN", traced.stdout)
@@ -110,7 +110,7 @@ class Check(ProgramTest):
         self.assertEqual((first["line"], first["operation"]), (1, "sqrt(0.5 - t)"))
         self.assertEqual(first["calls"][-1]["line"], 2)
         text = self.run_program("check", str(scene), "--probe", "times").stdout.decode()
-        self.assertIn(f"{scene}:1:30: `return sqrt(0.5 - t)` gave NaN: 0.5 - t = -0.5 (square root of a negative", text)
+        self.assertIn(f"{scene}:1:30: `return sqrt(0.5 - t)` gave NaN: 0.5 - t = -0.5 (sqrt of a negative", text)
 
     def test_the_trace_looks_at_the_situation_of_the_failure(self):
         entry = self.verdicts(self.write("deep.glsl", FAULTS["knobs"]), "--probe", "knobs")["knobs"]
@@ -202,7 +202,7 @@ class Check(ProgramTest):
         scene = self.write("far.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
                                        "    c = vec4(asin(p.x < 9.0 ? -1.001 : 5.0), pow(-p.x, 0.5), 0.0, 1.0);\n}\n")
         found = self.verdicts(scene, "--probe", "undefined")["undefined"]["found"]
-        self.assertIn("asin of a number beyond 1 (5, ", found)
+        self.assertIn("asin outside of [-1, 1] (5, ", found)
         self.assertRegex(found, r"pow of a negative number \(-\d\d")
 
     def test_each_function_has_its_domain(self):

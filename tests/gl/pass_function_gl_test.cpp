@@ -10,7 +10,7 @@ namespace tidemark::lab {
 namespace {
 
 constexpr Extent k_extent{24, 14};
-constexpr float k_rounding = 2e-4f; ///< of asin, which drivers approximate
+constexpr float k_rounding = 4e-4f; ///< of asin, which drivers approximate
 
 scene::Scene image_of(const std::string& body) {
     return scene_of("void mainImage(out vec4 c, in vec2 p) {\n    vec2 uv = p / iResolution.xy;\n" + body +

@@ -1,5 +1,7 @@
 #include "glsl/analysis/divergence.hpp"
 
+#include "glsl/syntax/builtin_functions.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
@@ -9,16 +11,6 @@ namespace tidemark::glsl {
 namespace {
 
 using Names = std::unordered_set<std::string_view>;
-
-bool takes_derivatives(std::string_view function) {
-    return function.starts_with("dFd") || function.starts_with("fwidth");
-}
-
-/// Those that choose the mipmap by themselves.
-bool chooses_mipmap(std::string_view function) {
-    return function == "texture" || function == "textureOffset" || function == "textureProj" ||
-           function == "textureProjOffset";
-}
 
 /// Finds what may differ between pixels, what is made of such values, or set where they decided the way; and
 /// from that, where neighbours part.
@@ -289,10 +281,10 @@ std::vector<Divergent> find_divergent(const ParsedText& text, const TreeFacts& f
     const auto needs_neighbours = [&](NodeId call) {
         const std::string_view name = called_name(text, call);
         const NodeId sampler = tree.child(call, 1);
-        return !facts.function(name) &&
-               (takes_derivatives(name) ||
-                (chooses_mipmap(name) && sampler != k_no_node && tree[sampler].kind == NodeKind::name &&
-                 has_mipmaps(text.word_of(sampler))));
+        const BuiltinFunction* const builtin = facts.function(name) ? nullptr : find_builtin(name);
+        return builtin && (builtin->is(Trait::derivative) ||
+                           (builtin->is(Trait::implicit_lod) && sampler != k_no_node &&
+                            tree[sampler].kind == NodeKind::name && has_mipmaps(text.word_of(sampler))));
     };
     std::optional<Partings> partings; // most texts need none
     std::vector<Divergent> found;

@@ -1,6 +1,7 @@
 #include "glsl/analysis/domain_sites.hpp"
 
 #include "glsl/analysis/float_operation.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -8,21 +9,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-constexpr Domain k_domains[] = {
-    {"pow", "float x,float y", "x<0.0||(x==0.0&&y<=0.0)", "x", "x", "of a negative number"},
-    {"sqrt", "float x", "x<0.0", "x", "x", "of a negative number"},
-    {"inversesqrt", "float x", "x<=0.0", "x", "x", "of a number that is not above 0"},
-    {"log", "float x", "x<=0.0", "x", "x", "of a number that is not above 0"},
-    {"log2", "float x", "x<=0.0", "x", "x", "of a number that is not above 0"},
-    {"asin", "float x", "abs(x)>1.0", "1.0-abs(x)", "x", "of a number beyond 1"},
-    {"acos", "float x", "abs(x)>1.0", "1.0-abs(x)", "x", "of a number beyond 1"},
-    {"acosh", "float x", "x<1.0", "x-1.0", "x", "of a number below 1"},
-    {"atanh", "float x", "abs(x)>=1.0", "1.0-abs(x)", "x", "of a number that is not below 1"},
-    {"atan", "float x,float y", "x==0.0&&y==0.0", "abs(x)+abs(y)", "x", "of 0 and 0"},
-    {"mod", "float x,float y", "y==0.0", "abs(y)", "y", "by 0"},
-    {"smoothstep", "float x,float y,float z", "x==y", "abs(x-y)", "x", "with equal edges"},
-};
 
 /// A number that stands in the text.
 std::optional<double> number_of(const ParsedText& text, NodeId id) {
@@ -79,32 +65,35 @@ bool is_guarded(const ParsedText& text, NodeId id) {
     return is_positive(tree.child(id, 1)) || is_positive(tree.child(id, 2));
 }
 
-/// Whether the text itself says that the call is inside of its domain.
-bool surely_defined(const ParsedText& text, NodeId call, std::string_view name) {
+/// Whether the text itself says that the call is inside of its domain. Numbers on every side of the domains'
+/// edges stand for an argument that it does not tell.
+bool surely_defined(const ParsedText& text, NodeId call, const Domain& domain) {
     const SyntaxTree& tree = text.tree();
-    const size_t before = tree[call].kind == NodeKind::call; // its name is a child
-    const NodeId first = tree.child(call, before);
-    const NodeId second = tree.child(call, before + 1);
-    const auto all = [&](NodeId id, auto&& holds) {
-        const auto numbers = id == k_no_node ? std::nullopt : numbers_of(text, id);
-        return numbers && std::ranges::all_of(*numbers, holds);
-    };
-    const auto not_zero = [](double v) { return v != 0; };
-    if (name == "smoothstep") {
-        const auto low = number_of(text, first);
-        return low && all(second, [&](double edge) { return edge != *low; });
+    std::vector<double> anything{-2, 0, 2};
+    std::vector<double> known[3];
+    NodeId argument = tree[tree.child(call, 0)].next;
+    for (size_t i = 0; i < 3 && argument != k_no_node; ++i, argument = tree[argument].next) {
+        known[i] = numbers_of(text, argument).value_or(std::vector<double>{});
+        anything.insert(anything.end(), known[i].begin(), known[i].end());
     }
-    if (name == "mod")
-        return all(second, not_zero);
-    if (name == k_quotient && (is_the_size(text, second) || is_guarded(text, second)))
-        return true;
-    if (name == k_quotient || name == "atan")
-        return all(first, not_zero) || all(second, not_zero);
-    if (name == "normalize")
-        return all(first, not_zero);
-    if (name == "asin" || name == "acos" || name == "atanh" || name == "acosh")
-        return false;
-    return all(first, [](double v) { return v > 0; });
+    const auto values = [&](size_t i) { return known[i].empty() ? anything : known[i]; };
+    for (const double x : values(0))
+        for (const double y : values(1))
+            for (const double z : values(2))
+                if (domain.broken({x, y, z}))
+                    return false;
+    return true;
+}
+
+/// The same of `a / b`, where only 0 / 0 is undefined.
+bool surely_defined(const ParsedText& text, NodeId quotient) {
+    const NodeId below = text.tree().child(quotient, 1);
+    const auto has_no_zero = [&](NodeId id) {
+        const auto numbers = numbers_of(text, id);
+        return numbers && std::ranges::find(*numbers, 0) == numbers->end();
+    };
+    return is_the_size(text, below) || is_guarded(text, below) || has_no_zero(below) ||
+           has_no_zero(text.tree().child(quotient, 0));
 }
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
@@ -147,12 +136,13 @@ private:
 
     /// Whether `id` is a call or a quotient with a domain, as GLSL's own functions have.
     bool is_float_site(NodeId id) const {
-        const std::string_view name = domain_name(text_, id);
-        const bool watched = tree_[id].kind != NodeKind::call
-                                 ? name == k_quotient && is_float_operation(text_, facts_, id)
-                                 : (name == k_normalize || domain_of(name)) && !facts_.function(name) &&
-                                       (name != "atan" || tree_.child_count(id) == 3);
-        return watched && !surely_defined(text_, id, name);
+        if (tree_[id].kind != NodeKind::call)
+            return domain_name(text_, id) == k_quotient && is_float_operation(text_, facts_, id) &&
+                   !surely_defined(text_, id);
+        const std::string_view name = called_name(text_, id);
+        const BuiltinFunction* const function = facts_.function(name) ? nullptr : find_builtin(name);
+        return function && function->domain && tree_.child_count(id) == most_parameters(*function) + 1 &&
+               !surely_defined(text_, id, *function->domain);
     }
 
     void look(NodeId id) {
@@ -224,11 +214,6 @@ private:
 };
 
 } // namespace
-
-const Domain* domain_of(std::string_view name) {
-    const auto* found = std::ranges::find(k_domains, name, &Domain::name);
-    return found == std::end(k_domains) ? nullptr : found;
-}
 
 std::string_view domain_name(const ParsedText& text, NodeId id) {
     switch (text.tree()[id].kind) {

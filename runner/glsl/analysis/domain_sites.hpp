@@ -34,22 +34,11 @@ enum class DomainScope { floats, everything };
 /// In the order of the tree: what is inside comes first. Those that the text itself settles are left out.
 std::vector<DomainSite> find_domain_sites(const ParsedText& text, const TreeFacts& facts, DomainScope scope);
 
-/// A function of floats with a domain; the sentences are those of GLSL 4.50, chapter 8. One number at a time.
-struct Domain {
-    std::string_view name;
-    std::string_view arguments; ///< of its overload for floats
-    std::string_view undefined;
-    std::string_view room; ///< how far it is to there: not above 0 where it is undefined
-    std::string_view told; ///< the argument that is written down
-    std::string_view fault;
-};
-const Domain* domain_of(std::string_view name);
-
-inline constexpr std::string_view k_normalize = "normalize";
 /// Of the operator. Of x / 0 chapter 4.7.1 tells what it is, of 0 / 0 it does not.
 inline constexpr std::string_view k_quotient = "quotient";
 
-/// "pow", or "quotient" of a / b and a /= b; what else has no domain gives nothing, or another name.
+/// "pow", or "quotient" of a / b and a /= b; what else has no domain gives nothing, or another name. Domains
+/// of functions: glsl/syntax/builtin_functions.hpp.
 std::string_view domain_name(const ParsedText& text, NodeId id);
 
 } // namespace tidemark::glsl

@@ -33,13 +33,12 @@ double tidemark_double_degrees(double x) { return x * 57.29577951308232lf; }
 } // namespace
 
 std::vector<DoubleFunction> double_derivatives() {
-    using enum Overloads;
     return {
-        {"dFdx", unary, 0, {}, k_dfdx},
-        {"dFdy", unary, 0, {}, k_dfdy},
-        {"fwidth", unary, 0, {"dFdx", "dFdy"}, k_fwidth},
-        {"radians", unary, 1.1, {}, k_radians},
-        {"degrees", unary, 1.1, {}, k_degrees},
+        {"dFdx", 0, {}, k_dfdx},
+        {"dFdy", 0, {}, k_dfdy},
+        {"fwidth", 0, {"dFdx", "dFdy"}, k_fwidth},
+        {"radians", 1.1, {}, k_radians},
+        {"degrees", 1.1, {}, k_degrees},
     };
 }
 

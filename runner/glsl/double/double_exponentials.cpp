@@ -178,19 +178,18 @@ double tidemark_double_pow(double x, double y) {
 } // namespace
 
 std::vector<DoubleFunction> double_exponentials() {
-    using enum Overloads;
     return {
-        {"scale", none, 0, {}, k_scale},
-        {"exp_kernel", none, 0, {"scale"}, k_exp_kernel},
-        {"exp_scaled", none, 0, {"exp_kernel"}, k_exp_scaled},
-        {"exp", unary, 0.8, {"exp_scaled"}, k_exp},
-        {"exp2_sum", none, 0, {"high", "exp_kernel"}, k_exp2_sum},
-        {"exp2", unary, 0.8, {"exp2_sum"}, k_exp2},
-        {"mantissa", none, 0, {}, k_mantissa},
-        {"log_kernel", none, 0, {}, k_log_kernel},
-        {"log", unary, 0.9, {"mantissa", "log_kernel"}, k_log},
-        {"log2", unary, 0.8, {"high", "mantissa", "log_kernel"}, k_log2},
-        {"pow", binary, 0.7, {"high", "mantissa", "exp2_sum"}, k_pow},
+        {"scale", 0, {}, k_scale},
+        {"exp_kernel", 0, {"scale"}, k_exp_kernel},
+        {"exp_scaled", 0, {"exp_kernel"}, k_exp_scaled},
+        {"exp", 0.8, {"exp_scaled"}, k_exp},
+        {"exp2_sum", 0, {"high", "exp_kernel"}, k_exp2_sum},
+        {"exp2", 0.8, {"exp2_sum"}, k_exp2},
+        {"mantissa", 0, {}, k_mantissa},
+        {"log_kernel", 0, {}, k_log_kernel},
+        {"log", 0.9, {"mantissa", "log_kernel"}, k_log},
+        {"log2", 0.8, {"high", "mantissa", "log_kernel"}, k_log2},
+        {"pow", 0.7, {"high", "mantissa", "exp2_sum"}, k_pow},
     };
 }
 

@@ -1,6 +1,6 @@
 #include "glsl/double/double_functions.hpp"
 
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <fmt/format.h>
 
@@ -8,55 +8,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-/// A function that exists for floats alone and whose arguments lose nothing that matters by becoming floats:
-/// hardware looks textures up with floats, and bits of a float are what the author asks for.
-struct FloatFunction {
-    std::string_view name;
-    std::string_view result;
-    std::vector<std::string_view>
-        parameters; ///< types of a promoted text, with commas: one for each overload
-};
-
-std::vector<FloatFunction> float_functions() {
-    return {
-        {"texture",
-         "dvec4",
-         {"sampler2D,dvec2", "sampler2D,dvec2,double", "samplerCube,dvec3", "samplerCube,dvec3,double",
-          "sampler3D,dvec3", "sampler3D,dvec3,double"}},
-        {"textureLod",
-         "dvec4",
-         {"sampler2D,dvec2,double", "samplerCube,dvec3,double", "sampler3D,dvec3,double"}},
-        {"textureGrad",
-         "dvec4",
-         {"sampler2D,dvec2,dvec2,dvec2", "samplerCube,dvec3,dvec3,dvec3", "sampler3D,dvec3,dvec3,dvec3"}},
-        {"textureProj",
-         "dvec4",
-         {"sampler2D,dvec3", "sampler2D,dvec3,double", "sampler2D,dvec4", "sampler2D,dvec4,double",
-          "sampler3D,dvec4", "sampler3D,dvec4,double"}},
-        {"textureProjLod",
-         "dvec4",
-         {"sampler2D,dvec3,double", "sampler2D,dvec4,double", "sampler3D,dvec4,double"}},
-        {"textureProjGrad",
-         "dvec4",
-         {"sampler2D,dvec3,dvec2,dvec2", "sampler2D,dvec4,dvec2,dvec2", "sampler3D,dvec4,dvec3,dvec3"}},
-        {"textureQueryLod", "dvec2", {"sampler2D,dvec2", "samplerCube,dvec3", "sampler3D,dvec3"}},
-        {"texelFetch", "dvec4", {"sampler2D,ivec2,int", "sampler3D,ivec3,int"}},
-        {"floatBitsToInt", "int", {"double"}},
-        {"floatBitsToInt", "ivec2", {"dvec2"}},
-        {"floatBitsToInt", "ivec3", {"dvec3"}},
-        {"floatBitsToInt", "ivec4", {"dvec4"}},
-        {"floatBitsToUint", "uint", {"double"}},
-        {"floatBitsToUint", "uvec2", {"dvec2"}},
-        {"floatBitsToUint", "uvec3", {"dvec3"}},
-        {"floatBitsToUint", "uvec4", {"dvec4"}},
-        {"packHalf2x16", "uint", {"dvec2"}},
-        {"packUnorm2x16", "uint", {"dvec2"}},
-        {"packSnorm2x16", "uint", {"dvec2"}},
-        {"packUnorm4x8", "uint", {"dvec4"}},
-        {"packSnorm4x8", "uint", {"dvec4"}},
-    };
-}
 
 /// GLSL's text for a vector of any size; {} is the size. Its eta is a float in GLSL.
 constexpr std::string_view k_refract = R"(
@@ -78,31 +29,40 @@ std::string single_functions() {
     return text;
 }
 
-std::string text_of(const FloatFunction& function, std::string_view parameters) {
-    std::string declared, passed;
-    for (int index = 0; !parameters.empty(); ++index) {
-        const std::string_view type = parameters.substr(0, parameters.find(','));
-        parameters.remove_prefix(std::min(type.size() + 1, parameters.size()));
-        const std::string_view single = float_type_of(type);
-        declared += fmt::format("{}{} a{}", index > 0 ? ", " : "", type, index);
-        passed += single.empty() ? fmt::format("{}a{}", index > 0 ? ", " : "", index)
-                                 : fmt::format("{}{}(a{})", index > 0 ? ", " : "", single, index);
-    }
-    return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({1}({3})); }}\n", function.result, function.name,
-                       declared, passed);
+/// What `spell` makes of each parameter and its number, between commas.
+template <class Spell>
+std::string listed(const BuiltinOverload& overload, Spell spell) {
+    std::string list;
+    for (size_t i = 0; i < overload.parameters.size(); ++i)
+        list += (i > 0 ? "," : "") + spell(overload.parameters[i].type, i);
+    return list;
 }
 
-std::string overload(const DoubleFunction& function, int size) {
-    const bool binary = function.overloads == Overloads::binary;
-    const std::string type = size == 1 ? "double" : fmt::format("dvec{}", size);
+/// `TYPE tidemark_NAME(…) { return value; }`, promoted.
+std::string definition(std::string_view name, const BuiltinOverload& overload, std::string_view value) {
+    const auto declared = [](auto type, size_t i) { return fmt::format("{} a{}", double_type_of(type), i); };
+    return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({3}); }}\n", double_type_of(overload.result),
+                       name, listed(overload, declared), value);
+}
+
+/// A function that exists for floats alone, called with floats.
+std::string in_floats(std::string_view name, const BuiltinOverload& overload) {
+    const auto passed = [](auto type, size_t i) {
+        return is_float_type(type) ? fmt::format("{}(a{})", type, i) : fmt::format("a{}", i);
+    };
+    return definition(name, overload, fmt::format("{}({})", name, listed(overload, passed)));
+}
+
+std::string by_component(std::string_view name, const BuiltinOverload& overload) {
+    const int size = value_type(overload.result)->rows;
     std::string parts;
     for (int i = 0; i < size; ++i) {
-        const std::string component = size == 1 ? "" : fmt::format(".{}", "xyzw"[i]);
-        parts += fmt::format("{}tidemark_double_{}(x{}{})", i > 0 ? ", " : "", function.name, component,
-                             binary ? ", y" + component : "");
+        const auto part = [&](auto, size_t argument) {
+            return size == 1 ? fmt::format("a{}", argument) : fmt::format("a{}.{}", argument, "xyzw"[i]);
+        };
+        parts += fmt::format("{}tidemark_double_{}({})", i > 0 ? ", " : "", name, listed(overload, part));
     }
-    return fmt::format("{0} tidemark_{1}({0} x{2}) {{ return {3}; }}\n", type, function.name,
-                       binary ? ", " + type + " y" : "", size == 1 ? parts : type + "(" + parts + ")");
+    return definition(name, overload, parts);
 }
 
 class Emitter {
@@ -115,18 +75,18 @@ public:
     std::string run(const std::set<std::string_view>& used) {
         if (used.contains("single"))
             text_ += single_functions();
-        for (const FloatFunction& function : float_functions())
-            if (used.contains(function.name))
-                for (const std::string_view parameters : function.parameters)
-                    if (!owns(function.name, parameters))
-                        text_ += text_of(function, parameters);
+        for (const BuiltinFunction& function : builtin_functions())
+            if (function.is(Trait::in_floats) && used.contains(function.name))
+                define(function, in_floats);
         if (used.contains("refract"))
             for (int size = 2; size <= 4; ++size)
                 if (!owns("refract", fmt::format("dvec{0},dvec{0},double", size)))
                     text_ += fmt::format(fmt::runtime(k_refract), size);
         for (const DoubleFunction& function : functions_)
-            if (used.contains(function.name))
-                add(function);
+            if (const auto* builtin = find_builtin(function.name); builtin && used.contains(function.name)) {
+                require(function);
+                define(*builtin, by_component);
+            }
         return std::move(text_);
     }
 
@@ -135,16 +95,13 @@ private:
         return own_.contains({std::string(name), std::string(parameters)});
     }
 
-    void add(const DoubleFunction& function) {
-        require(function);
-        for (int size = 1; size <= 4 && function.overloads != Overloads::none; ++size) {
-            const std::string type = size == 1 ? "double" : fmt::format("dvec{}", size);
-            const bool binary = function.overloads == Overloads::binary;
-            if (!owns(function.name, binary ? type + "," + type : type))
-                text_ += overload(function, size);
-            if (function.name == "atan" && !owns("atan", type + "," + type))
-                text_ += overload({"atan", Overloads::binary, 0, {}, {}}, size);
-        }
+    /// The overloads that the author does not define.
+    template <class Define>
+    void define(const BuiltinFunction& function, Define definition) {
+        const auto promoted = [](auto type, size_t) { return double_type_of(type); };
+        for (const BuiltinOverload& overload : overloads_of(function))
+            if (!owns(function.name, listed(overload, promoted)))
+                text_ += definition(function.name, overload);
     }
 
     /// Its text, once, behind those that it needs.
@@ -178,10 +135,11 @@ std::vector<DoubleFunction> all_double_functions() {
 bool is_replaced(std::string_view name) {
     static const std::set<std::string_view> k_names = [] {
         std::set<std::string_view> names{"refract"};
-        for (const FloatFunction& function : float_functions())
-            names.insert(function.name);
+        for (const BuiltinFunction& function : builtin_functions())
+            if (function.is(Trait::in_floats))
+                names.insert(function.name);
         for (const DoubleFunction& function : all_double_functions())
-            if (function.overloads != Overloads::none)
+            if (find_builtin(function.name))
                 names.insert(function.name);
         return names;
     }();

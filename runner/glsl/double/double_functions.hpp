@@ -16,16 +16,10 @@ namespace tidemark::glsl {
 /// Stands in front of every name of ours in a promoted text.
 inline constexpr std::string_view k_ours = "tidemark_";
 
-/// How the overloads of a function follow from its text.
-enum class Overloads : unsigned char {
-    none,   ///< a helper
-    unary,  ///< the text defines `double tidemark_double_NAME(double)`; applied to each component
-    binary, ///< the same with two arguments
-};
-
+/// The text of one of GLSL's functions defines `double tidemark_double_NAME` of doubles, which its overloads
+/// apply to each component; that of a helper defines what it likes.
 struct DoubleFunction {
     std::string_view name; ///< GLSL's, or that of a helper
-    Overloads overloads;
     double ulp; ///< largest error in units in the last place, measured against MPFR; 0: see the text
     std::vector<std::string_view> needs; ///< names of helpers
     std::string_view text;

@@ -79,16 +79,11 @@ double tidemark_double_atanh(double x) {
 } // namespace
 
 std::vector<DoubleFunction> double_hyperbolics() {
-    using enum Overloads;
     return {
-        {"small_sinh", none, 0, {}, k_small_sinh},
-        {"sinh", unary, 1.8, {"exp_scaled", "small_sinh"}, k_sinh},
-        {"cosh", unary, 1.5, {"exp_scaled"}, k_cosh},
-        {"tanh", unary, 2.5, {"exp_scaled", "small_sinh"}, k_tanh},
-        {"log1p", none, 0, {"log"}, k_log1p},
-        {"asinh", unary, 1.9, {"log1p"}, k_asinh},
-        {"acosh", unary, 1.9, {"log1p"}, k_acosh},
-        {"atanh", unary, 2.5, {"log1p"}, k_atanh},
+        {"small_sinh", 0, {}, k_small_sinh},   {"sinh", 1.8, {"exp_scaled", "small_sinh"}, k_sinh},
+        {"cosh", 1.5, {"exp_scaled"}, k_cosh}, {"tanh", 2.5, {"exp_scaled", "small_sinh"}, k_tanh},
+        {"log1p", 0, {"log"}, k_log1p},        {"asinh", 1.9, {"log1p"}, k_asinh},
+        {"acosh", 1.9, {"log1p"}, k_acosh},    {"atanh", 2.5, {"log1p"}, k_atanh},
     };
 }
 

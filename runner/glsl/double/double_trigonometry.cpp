@@ -162,19 +162,18 @@ double tidemark_double_atan(double y, double x) {
 } // namespace
 
 std::vector<DoubleFunction> double_trigonometry() {
-    using enum Overloads;
     return {
-        {"angle", none, 0, {}, k_angle},
-        {"sin_cos", none, 0, {"angle"}, k_sin_cos},
-        {"sin", unary, 0.8, {"sin_cos"}, k_sin}, // |x| <= 1e12
-        {"cos", unary, 0.8, {"sin_cos"}, k_cos}, // |x| <= 1e12
-        {"tan", unary, 2.1, {"sin_cos"}, k_tan}, // |x| <= 1e12
-        {"high", none, 0, {}, k_high},
-        {"arc", none, 0, {"high"}, k_arc},
-        {"asin", unary, 0.9, {"arc"}, k_asin},
-        {"acos", unary, 0.9, {"arc"}, k_acos},
-        {"positive_atan", none, 0, {}, k_positive_atan},
-        {"atan", unary, 1.5, {"positive_atan"}, k_atan}, // of two; 0.8 of one
+        {"angle", 0, {}, k_angle},
+        {"sin_cos", 0, {"angle"}, k_sin_cos},
+        {"sin", 0.8, {"sin_cos"}, k_sin}, // |x| <= 1e12
+        {"cos", 0.8, {"sin_cos"}, k_cos}, // |x| <= 1e12
+        {"tan", 2.1, {"sin_cos"}, k_tan}, // |x| <= 1e12
+        {"high", 0, {}, k_high},
+        {"arc", 0, {"high"}, k_arc},
+        {"asin", 0.9, {"arc"}, k_asin},
+        {"acos", 0.9, {"arc"}, k_acos},
+        {"positive_atan", 0, {}, k_positive_atan},
+        {"atan", 1.5, {"positive_atan"}, k_atan}, // of two; 0.8 of one
     };
 }
 

@@ -1,6 +1,7 @@
 #include "glsl/double/float_hashes.hpp"
 
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
+#include "glsl/syntax/words.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -162,15 +163,13 @@ private:
         return std::nullopt;
     }
 
-    static bool is_plain(std::string_view type) { return is_float_type(type) || is_whole_type(type); }
-
     std::optional<FloatRegion> whole_function(const Function& function) {
         if (!function.defined() || !is_float_type(function.return_type) || function.writes_argument() ||
             reading_.macros.contains(function.name))
             return std::nullopt;
         std::set<std::string_view> locals;
         for (const Parameter& parameter : function.parameters) {
-            if (!is_plain(parameter.type) || parameter.array)
+            if (!value_type(parameter.type) || parameter.array)
                 return std::nullopt;
             locals.insert(parameter.name);
         }
@@ -191,7 +190,7 @@ private:
                 token.is("do") || token.is("struct") || token.is("discard") ||
                 token.text.starts_with("texture") || token.is("texelFetch"))
                 return false;
-            if (!is_plain(token.text) || tokens_[i + 1].kind != TokenKind::identifier)
+            if (!value_type(token.text) || tokens_[i + 1].kind != TokenKind::identifier)
                 continue;
             int depth = 0;
             for (size_t k = i + 1; k < function.body_end && !tokens_[k].is(";"); ++k) {
@@ -232,8 +231,8 @@ private:
             return true;
         if (reading_.macros.contains(token.text))
             return false;
-        return is_keyword(token.text) || is_plain(token.text) || token.text.starts_with("gl_") ||
-               (is_builtin_function(token.text) && is_call(i, end) && !reading_.defines(token.text));
+        return is_keyword(token.text) || value_type(token.text) || token.text.starts_with("gl_") ||
+               (find_builtin(token.text) && is_call(i, end) && !reading_.defines(token.text));
     }
 
     /// Every variable, macro or function from outside in [begin, end), with all that is applied to it.

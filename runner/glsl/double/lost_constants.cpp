@@ -1,5 +1,7 @@
 #include "glsl/double/lost_constants.hpp"
 
+#include "glsl/syntax/words.hpp"
+
 #include <unordered_set>
 
 namespace tidemark::glsl {
@@ -61,9 +63,7 @@ private:
         size_t i = at + 1;
         for (; i < reading_.preprocessed.code.size() && !token(i).is(";") && depth >= 0; ++i) {
             const Token& word = token(i);
-            depth += word.is("(") || word.is("[") || word.is("{")   ? 1
-                     : word.is(")") || word.is("]") || word.is("}") ? -1
-                                                                    : 0;
+            depth += nesting(word.text);
             if (depth == 0 && word.is(","))
                 value = false;
             else if (depth == 0 && word.is("="))

@@ -2,7 +2,7 @@
 
 #include "glsl/double/double_functions.hpp"
 #include "glsl/double/lost_constants.hpp"
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 #include "glsl/syntax/token_edits.hpp"
 #include "glsl/syntax/words.hpp"
 
@@ -22,18 +22,6 @@ constexpr std::string_view k_float_copy = "tidemark_float_"; ///< in front of th
 constexpr std::string_view k_inner_main = "tidemark_promoted_main";
 constexpr std::string_view k_outputs = "tidemark_output";
 
-/// A lookup whose offset or component must stay visible as a constant: its call is wrapped where it stands.
-struct WrappedCall {
-    std::string_view name;
-    unsigned floats; ///< bit n: argument n becomes a float
-};
-constexpr WrappedCall k_wrapped_calls[] = {
-    {"textureOffset", 0b1010},     {"textureLodOffset", 0b0110},     {"textureGradOffset", 0b1110},
-    {"textureProjOffset", 0b1010}, {"textureProjLodOffset", 0b0110}, {"textureProjGradOffset", 0b1110},
-    {"textureGather", 0b0010},     {"textureGatherOffset", 0b0010},  {"textureGatherOffsets", 0b0010},
-    {"texelFetchOffset", 0b0000},
-};
-
 constexpr std::string_view k_without_double[] = {"gl_FragDepth", "interpolateAtCentroid",
                                                  "interpolateAtOffset", "interpolateAtSample"};
 
@@ -51,11 +39,16 @@ std::string_view canonical(std::string_view name) {
     return name;
 }
 
+/// Whether an argument of that number is one in some overload.
+bool takes_floats(const BuiltinFunction& function, size_t argument) {
+    return std::ranges::any_of(overloads_of(function), [&](const BuiltinOverload& overload) {
+        return argument < overload.parameters.size() && is_float_type(overload.parameters[argument].type);
+    });
+}
+
 bool is_float_literal(const Token& token) {
-    if (token.kind != TokenKind::number || token.text.starts_with("0x") || token.text.starts_with("0X"))
-        return false;
-    return token.text.find_first_of(".eEfF") != std::string_view::npos && !token.text.ends_with("lf") &&
-           !token.text.ends_with("LF");
+    const auto type = token.kind == TokenKind::number ? type_of_literal(token.text) : std::nullopt;
+    return type && type->base == 'f';
 }
 
 class Promoter {
@@ -120,12 +113,12 @@ private:
             const bool floats = is_float_type(parameter.type);
             const char* comma = declared.empty() ? "" : ", ";
             const std::string name = fmt::format("a{}", &parameter - function.parameters.data());
-            declared += fmt::format("{}{} {}", comma, promoted(parameter.type), name);
+            declared += fmt::format("{}{} {}", comma, double_type_of(parameter.type), name);
             passed += floats ? fmt::format("{}{}({})", comma, parameter.type, name) : comma + name;
         }
         edits_.replace(function.name_token, fmt::format("{}{}", k_float_copy, function.name));
         edits_.after(function.body_end,
-                     fmt::format(" {} {}({}) {{ return {}{}({}); }}", promoted(function.return_type),
+                     fmt::format(" {} {}({}) {{ return {}{}({}); }}", double_type_of(function.return_type),
                                  renamed(function.name), declared, k_float_copy, function.name, passed));
     }
 
@@ -143,9 +136,6 @@ private:
 
     // Tokens
 
-    static std::string promoted(std::string_view type) {
-        return is_float_type(type) ? double_type_of(type) : std::string(type);
-    }
     static std::string renamed(std::string_view name) {
         return is_replaced(canonical(name)) ? fmt::format("{}{}", k_ours, canonical(name))
                                             : std::string(name);
@@ -200,9 +190,11 @@ private:
 
     void promote_word(size_t i) {
         const Token& token = tokens_[i];
-        if (is_float_type(token.text) ||
-            ((token.is("vec") || token.is("mat")) && reading_.places[i] == Place::macro_body && is_pasted(i)))
+        if (is_float_type(token.text))
             edits_.replace(i, double_type_of(token.text));
+        else if ((token.is("vec") || token.is("mat")) && reading_.places[i] == Place::macro_body &&
+                 is_pasted(i))
+            edits_.replace(i, fmt::format("d{}", token.text));
         else if (is_precision(token.text))
             edits_.remove(i);
         else if (token.is("precision"))
@@ -236,13 +228,14 @@ private:
         if (sampler && !known && reading_.places[i] == Place::code && i + 1 < tokens_.size() &&
             tokens_[i + 1].kind == TokenKind::identifier)
             return refuse(i, fmt::format("lookups of a '{}' have no form in double precision", name));
-        for (const WrappedCall& call : k_wrapped_calls)
-            if (call.name == name && !reading_.defines(name) && i + 1 < tokens_.size() &&
-                tokens_[i + 1].is("("))
-                wrap_call(i, call.floats);
+        const BuiltinFunction* const function = find_builtin(name);
+        if (function && takes_constants(*function) && !reading_.defines(name) && i + 1 < tokens_.size() &&
+            tokens_[i + 1].is("("))
+            wrap_call(i, *function);
     }
 
-    void wrap_call(size_t i, unsigned floats) {
+    /// A lookup whose offset or component must stay visible as a constant is wrapped where it stands.
+    void wrap_call(size_t i, const BuiltinFunction& function) {
         const size_t close = reading_.closing(i + 1, tokens_.size());
         if (close >= tokens_.size())
             return;
@@ -252,7 +245,7 @@ private:
             size_t end = first;
             while (end < close && !tokens_[end].is(","))
                 end = 1 + (tokens_[end].is("(") || tokens_[end].is("[") ? reading_.closing(end, close) : end);
-            if ((floats >> argument & 1) != 0 && end > first) {
+            if (takes_floats(function, argument) && end > first) {
                 edits_.before(first, fmt::format("{}(", k_single));
                 edits_.after(end - 1, ")");
                 used_.insert("single");
@@ -297,7 +290,7 @@ private:
         const std::string output = fmt::format("{}{}", k_outputs, outputs_.size());
         edits_.replace(code[type], plain);
         edits_.replace(code[type + 1], output);
-        edits_.after(code[type + 2], fmt::format(" {} {};", promoted(plain), name.text));
+        edits_.after(code[type + 2], fmt::format(" {} {};", double_type_of(plain), name.text));
         outputs_.push_back(fmt::format(" {} = {}({});", output, plain, name.text));
     }
 
@@ -324,7 +317,7 @@ private:
                 continue;
             std::string types;
             for (const Parameter& parameter : function.parameters)
-                types += (types.empty() ? "" : ",") + promoted(parameter.type);
+                types += (types.empty() ? "" : ",") + double_type_of(parameter.type);
             own.emplace(function.name, types);
         }
         return own;

@@ -2,7 +2,7 @@
 
 #include "glsl/flow/loop_facts.hpp"
 #include "glsl/flow/variable_states.hpp"
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <algorithm>
 #include <unordered_map>

@@ -2,6 +2,7 @@
 
 #include "glsl/syntax/number.hpp"
 #include "glsl/syntax/tree_facts.hpp"
+#include "glsl/syntax/types.hpp"
 
 #include <algorithm>
 
@@ -68,21 +69,17 @@ const Shape& Shapes::unknown(std::string_view type) {
 const Shape& Shapes::plain(std::string_view type) {
     if (const auto found = plain_.find(type); found != plain_.end())
         return *found->second;
+    const ValueType known = value_type(type).value_or(ValueType{});
     Shape shape;
     shape.type = type;
-    const size_t digits = type.find_first_of("234");
-    if (digits == type.npos) {
-        shape.kind = Shape::Kind::scalar;
-        shape.numbers = 1;
-    } else {
-        const bool matrix = type.find("mat") != type.npos;
-        shape.kind = matrix ? Shape::Kind::matrix : Shape::Kind::vector;
-        shape.length = size_t(type[digits] - '0');
-        const size_t rows = size_t(type.back() - '0');
-        constexpr std::string_view k_columns[] = {"vec2", "vec3", "vec4"};
-        shape.part = &plain(matrix ? k_columns[rows - 2] : "float");
+    shape.numbers = 1;
+    shape.kind = known.scalar()   ? Shape::Kind::scalar
+                 : known.vector() ? Shape::Kind::vector
+                                  : Shape::Kind::matrix;
+    if (!known.scalar()) {
+        shape.length = size_t(known.matrix() ? known.columns : known.rows);
+        shape.part = &plain(k_float_vectors[known.matrix() ? size_t(known.rows) - 1 : 0]);
         shape.slots = unsigned(shape.length) * shape.part->slots;
-        shape.numbers = 1;
     }
     return *(plain_[type] = &shapes_.emplace_back(std::move(shape)));
 }

@@ -2,6 +2,7 @@
 
 #include "glsl/instrument/domains.hpp"
 #include "glsl/instrument/source_rewriter.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <fmt/format.h>
 
@@ -48,45 +49,51 @@ if(placed>$out[#+2*i+1])atomicMax($out[#+2*i+1],placed);
 }}
 )";
 
-constexpr std::string_view k_normalize_overload =
-    "@ $normalize(@ x,int i,inout float m){@ r=normalize(x);$near(m,dot(x,x));"
-    "if(dot(x,x)==0.0)r=@($undefined(i,0.0,0.0));return r;}\n";
-
-/// Overloads that mix a float with vectors: bit i is set where argument i is a vector.
-std::vector<unsigned> shapes(const Domain& domain) {
-    if (domain.name == "mod")
-        return {0b11, 0b01};
-    if (domain.name == "smoothstep")
-        return {0b111, 0b100};
-    return {domain.arguments.size() > 8 ? 0b11u : 0b1u};
+/// Its domain is one of whole vectors.
+std::string normalize_overloads(std::string_view prefix) {
+    std::string text;
+    for (const std::string_view type : k_float_vectors)
+        text += spell("@ $normalize(@ x,int i,inout float m){@ r=normalize(x);$near(m,dot(x,x));"
+                      "if(dot(x,x)==0.0)r=@($undefined(i,0.0,0.0));return r;}\n",
+                      prefix, type);
+    return text;
 }
 
-std::string overloads(const Domain& domain, std::string_view prefix) {
+/// One for floats, which knows the domain, and those with vectors, part by part.
+std::string overloads(const BuiltinFunction& function, std::string_view prefix) {
     constexpr std::string_view k_names = "xyz";
-    const size_t count = 1 + size_t(std::ranges::count(domain.arguments, ','));
-    std::string passed;
-    for (size_t i = 0; i < count; ++i)
-        passed += fmt::format("{}{}", i > 0 ? "," : "", k_names[i]);
-    std::string text = fmt::format("float {0}{1}({2},int i,inout float m){{float r={1}({3});{0}near(m,{6});"
-                                   "if({4})r={0}undefined(i,{5},r);return r;}}\n",
-                                   prefix, domain.name, domain.arguments, passed, domain.undefined,
-                                   domain.told, domain.room);
-    for (const unsigned shape : shapes(domain))
-        for (size_t size = 2; size <= 4; ++size) {
-            std::string declared, parts;
-            for (size_t i = 0; i < count; ++i)
-                declared += (shape >> i & 1u) != 0 ? fmt::format("vec{} {},", size, k_names[i])
-                                                   : fmt::format("float {},", k_names[i]);
-            for (size_t part = 0; part < size; ++part) {
-                parts += fmt::format("{}{}{}(", part > 0 ? "," : "", prefix, domain.name);
-                for (size_t i = 0; i < count; ++i)
-                    parts += (shape >> i & 1u) != 0 ? fmt::format("{}[{}],", k_names[i], part)
-                                                    : fmt::format("{},", k_names[i]);
-                parts += "i,m)";
-            }
-            text += fmt::format("vec{0} {1}{2}({3}int i,inout float m){{return vec{0}({4});}}\n", size,
-                                prefix, domain.name, declared, parts);
-        }
+    const Domain& domain = *function.domain;
+    const size_t count = most_parameters(function);
+    const auto for_each = [&](auto&& spelled) {
+        std::string text;
+        for (size_t i = 0; i < count; ++i)
+            text += fmt::format("{}{}", i > 0 ? "," : "", spelled(i));
+        return text;
+    };
+    std::string undefined(domain.undefined[0].glsl);
+    if (domain.undefined[1].holds)
+        undefined += fmt::format("||{}", domain.undefined[1].glsl);
+    std::string text = fmt::format(
+        "float {0}{1}({2},int i,inout float m){{float r={1}({3});{0}near(m,{6});"
+        "if({4})r={0}undefined(i,{5},r);return r;}}\n",
+        prefix, function.name, for_each([&](size_t i) { return fmt::format("float {}", k_names[i]); }),
+        for_each([&](size_t i) { return k_names[i]; }), undefined, domain.told, domain.room);
+    for (const BuiltinOverload& overload : overloads_of(function)) {
+        const auto type = [&](size_t i) { return overload.parameters[i].type; };
+        if (overload.parameters.size() != count || overload.result == "float")
+            continue;
+        std::string parts;
+        for (int part = 0; part < value_type(overload.result)->rows; ++part)
+            parts += fmt::format("{}{}{}({},i,m)", part > 0 ? "," : "", prefix, function.name,
+                                 for_each([&](size_t i) {
+                                     return type(i) == "float" ? fmt::format("{}", k_names[i])
+                                                               : fmt::format("{}[{}]", k_names[i], part);
+                                 }));
+        text +=
+            fmt::format("{0} {1}{2}({3},int i,inout float m){{return {0}({4});}}\n", overload.result, prefix,
+                        function.name,
+                        for_each([&](size_t i) { return fmt::format("{} {}", type(i), k_names[i]); }), parts);
+    }
     return text;
 }
 
@@ -117,9 +124,8 @@ std::string float_quotients(std::string_view prefix) {
 template <class Make>
 std::string for_whole_types(Make make) {
     std::string text;
-    for (const std::string_view number : {"int", "uint"})
-        for (int size = 1; size <= 4; ++size)
-            text += make(size == 1 ? std::string(number) : fmt::format("{}vec{}", number[0], size), size);
+    for (const std::string_view type : k_whole_vectors.first<8>())
+        text += make(std::string(type), value_type(type)->rows);
     return text;
 }
 
@@ -149,10 +155,11 @@ std::string other_quotients(std::string_view prefix) {
         text += fmt::format("{0} {1}quotient({2} x,{3} y,int i,inout float m){{return x/{4};}}\n", result,
                             prefix, left, right, whole ? fmt::format("{}divisor(y,i,m)", prefix) : "y");
     };
-    for (const std::string number : {"int", "uint"}) {
+    for (const size_t kind : {0, 4}) {
+        const std::string number(k_whole_vectors[kind]);
         add(number, number, number, true);
-        for (int size = 2; size <= 4; ++size) {
-            const std::string vector = fmt::format("{}vec{}", number[0], size);
+        for (const std::string_view type : k_whole_vectors.subspan(kind + 1, 3)) {
+            const std::string vector(type);
             add(vector, vector, vector, true);
             add(vector, number, vector, true);
             add(number, vector, vector, true);
@@ -218,20 +225,16 @@ std::string conversions(std::string_view prefix) {
          {std::array<std::string_view, 3>{"toint", "-2147483648.0", "2147483648.0"},
           {"touint", "-0.99999994", "4294967296.0"}}) {
         for (int size = 1; size <= 4; ++size) {
-            const std::string type = size == 1 ? "float" : fmt::format("vec{}", size);
-            text += fmt::format("{0} {1}{2}({0} x,int i,inout float m){{", type, prefix, name);
+            text += fmt::format("{0} {1}{2}({0} x,int i,inout float m){{", k_float_vectors[size_t(size) - 1],
+                                prefix, name);
             for (int part = 0; part < size; ++part)
                 text += fmt::format("{0}near(m,min({1}-({2}),{3}-{1}));if(!({1}>={2}&&{1}<{3}))"
                                     "{0}undefined(i,{1},0.0);",
                                     prefix, part_of("x", size, part), low, high);
             text += "return x;}\n";
         }
-        const auto same = [&, name = name](const std::string& type) {
-            return fmt::format("{0} {1}{2}({0} x,int i,inout float m){{return x;}}\n", type, prefix, name);
-        };
-        text += for_whole_types([&](const std::string& type, int) { return same(type); }) + same("bool");
-        for (int size = 2; size <= 4; ++size)
-            text += same(fmt::format("bvec{}", size));
+        for (const std::string_view type : k_whole_vectors)
+            text += fmt::format("{0} {1}{2}({0} x,int i,inout float m){{return x;}}\n", type, prefix, name);
     }
     return text;
 }
@@ -270,16 +273,15 @@ void fill(std::string& text, char hole, size_t number) {
 std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> sites,
                            const DomainPreludeOptions& options) {
     const std::string& prefix = options.prefix;
-    std::vector<const Domain*> used;
-    bool kinds[8] = {}, normalizes = false;
+    std::vector<const BuiltinFunction*> used;
+    bool kinds[8] = {};
     for (const DomainSite& site : sites) {
         kinds[size_t(site.kind)] = true;
         if (site.kind != DomainKind::function)
             continue;
-        if (const Domain* domain = domain_of(domain_name(text, site.node)); !domain)
-            normalizes = true;
-        else if (std::ranges::find(used, domain) == used.end())
-            used.push_back(domain);
+        const BuiltinFunction* const function = find_builtin(called_name(text, site.node));
+        if (std::ranges::find(used, function) == used.end())
+            used.push_back(function);
     }
     const auto has = [&](DomainKind kind) { return kinds[size_t(kind)]; };
     std::string objectives(k_objectives);
@@ -290,15 +292,12 @@ std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> s
         *each = spell(*each, prefix);
     }
     std::string prelude = basis + objectives;
-    for (const Domain* domain : used)
-        prelude += overloads(*domain, prefix);
+    for (const BuiltinFunction* function : used)
+        prelude += function->name == "normalize" ? normalize_overloads(prefix) : overloads(*function, prefix);
     if (has(DomainKind::quotient))
         prelude += float_quotients(prefix) + other_quotients(prefix);
     else if (has(DomainKind::divisor))
         prelude += divisors(prefix);
-    if (normalizes)
-        for (const std::string_view type : {"float", "vec2", "vec3", "vec4"})
-            prelude += spell(k_normalize_overload, prefix, type);
     if (has(DomainKind::shift))
         prelude += shifts(prefix);
     if (has(DomainKind::index))

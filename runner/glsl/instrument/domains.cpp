@@ -2,6 +2,7 @@
 
 #include "glsl/instrument/domain_prelude.hpp"
 #include "glsl/instrument/source_rewriter.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <fmt/format.h>
 
@@ -151,10 +152,14 @@ DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, Domain
     return DomainWatcher(text, facts).run(scope);
 }
 
-std::string_view domain_fault(std::string_view name) {
-    if (const Domain* domain = domain_of(name))
-        return domain->fault;
-    return name == k_quotient ? "of 0 and 0" : "of a vector without length";
+std::string_view domain_fault(std::string_view name, float told) {
+    const BuiltinFunction* const function = find_builtin(name);
+    if (!function || !function->domain)
+        return "of 0 and 0"; // a quotient
+    const Domain& domain = *function->domain;
+    const UndefinedWhere* const broken =
+        domain.broken(domain.told == "y" ? Arguments{0, told, 0} : Arguments{told, 0, 0});
+    return (broken ? broken : domain.undefined)->fault;
 }
 
 } // namespace tidemark::glsl

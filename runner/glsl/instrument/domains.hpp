@@ -66,7 +66,8 @@ DomainRoom room_of(const DomainWatch& watch, std::span<const uint32_t> words, si
 /// `facts` are the text's own.
 DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, DomainScope scope);
 
-/// "of a negative number": what is wrong with the argument where a float function of that name is undefined.
-std::string_view domain_fault(std::string_view name);
+/// "of a negative number": what is wrong where a float function of that name is undefined; `told` is the
+/// argument that was written down.
+std::string_view domain_fault(std::string_view name, float told);
 
 } // namespace tidemark::glsl

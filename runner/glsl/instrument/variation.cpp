@@ -3,6 +3,7 @@
 #include "glsl/analysis/float_operation.hpp"
 #include "glsl/instrument/source_rewriter.hpp"
 #include "glsl/instrument/watch.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +11,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-constexpr std::string_view k_vectors[] = {"vec2", "vec3", "vec4"};
-constexpr std::string_view k_wholes[] = {"int",   "ivec2", "ivec3", "ivec4", "uint",  "uvec2",
-                                         "uvec3", "uvec4", "bool",  "bvec2", "bvec3", "bvec4"};
 
 constexpr std::string_view k_unit =
     R"(uniform int $mode;
@@ -47,11 +44,12 @@ return abs(h)>65504.0?uintBitsToFloat((b&0x80000000u)|0x7f800000u):h;}
 /// Overloads of a function of one float, part by part.
 std::string vector_overloads(std::string_view function, std::string_view prefix) {
     std::string text;
-    for (const std::string_view type : k_vectors) {
+    for (int size = 2; size <= 4; ++size) {
         std::string parts;
-        for (int i = 0; i < type.back() - '0'; ++i)
+        for (int i = 0; i < size; ++i)
             parts += fmt::format("{}{}{}(v[{}])", i > 0 ? "," : "", prefix, function, i);
-        text += fmt::format("{0} {1}{2}({0} v){{return {0}({3});}}\n", type, prefix, function, parts);
+        text +=
+            fmt::format("vec{0} {1}{2}(vec{0} v){{return vec{0}({3});}}\n", size, prefix, function, parts);
     }
     return text;
 }
@@ -67,77 +65,41 @@ std::string other_overloads(std::string_view function, std::string_view prefix) 
             text += fmt::format("mat{0}x{1} {2}{3}(mat{0}x{1} v){{return mat{0}x{1}({4});}}\n", columns, rows,
                                 prefix, function, parts);
         }
-    for (const std::string_view type : k_wholes)
+    for (const std::string_view type : k_whole_vectors)
         text += fmt::format("{0} {1}{2}({0} v){{return v;}}\n", type, prefix, function);
     return text;
 }
 
-} // namespace
-
-Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
-    const SyntaxTree& tree = text.tree();
-    const std::string prefix = fresh_prefix(text);
-    Variation result{{}, prefix + "mode"};
+/// The text with all that `change(node, edits)` does to its nodes, children first; it tells whether it did
+/// anything.
+template <class Change>
+Variation vary(const ParsedText& text, const std::string& mode, const std::string& prelude, Change change) {
+    Variation result{{}, mode};
     SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        if (tree[id].kind != NodeKind::call)
-            continue;
-        const std::string_view name = called_name(text, id);
-        if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
-            continue;
-        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
-        ++result.places;
-    }
-    std::string prelude = spell(k_unit, prefix);
-    for (const std::string_view name : {"sin", "cos"})
-        prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
+    for (NodeId id = 1; id < text.tree().nodes.size(); ++id)
+        result.places += change(id, edits) ? 1 : 0;
     result.text = headers_with_buffers(text) + prelude + edits.text();
     return result;
 }
-
-Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
-    const SyntaxTree& tree = text.tree();
-    const std::string prefix = fresh_prefix(text);
-    Variation result{{}, prefix + "mode"};
-    SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        const std::string_view name = tree[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
-        if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
-            continue;
-        const auto meanings = facts.names.find(name);
-        if (meanings == facts.names.end() || !meanings->second.uniform)
-            continue;
-        edits.wrap(id, prefix + "input(", ")");
-        ++result.places;
-    }
-    result.text = headers_with_buffers(text) + spell(k_unit, prefix) + spell(k_input, prefix) +
-                  vector_overloads("input", prefix) + edits.text();
-    return result;
-}
-
-namespace {
 
 /// Every result of an operation, an assignment or a call led through `$off` where `is_meant` says so.
 template <class IsMeant>
 Variation vary_results(const ParsedText& text, std::string_view off, IsMeant is_meant) {
     const SyntaxTree& tree = text.tree();
     const std::string prefix = fresh_prefix(text);
-    Variation result{{}, prefix + "mode"};
-    SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+    const std::string prelude = spell("uniform int $mode;\n", prefix) + spell(off, prefix) +
+                                vector_overloads("off", prefix) + other_overloads("off", prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
         if (!is_meant(id) || must_stay_constant(text, id))
-            continue;
+            return false;
         if (tree[id].kind != NodeKind::assign) {
             edits.wrap(id, prefix + "off(", ")");
         } else {
             const std::string target = words_of(text, tree.child(id, 0));
             edits.wrap(id, "(", fmt::format(",{}={}off({}))", target, prefix, target));
         }
-        ++result.places;
-    }
-    result.text = headers_with_buffers(text) + spell("uniform int $mode;\n", prefix) + spell(off, prefix) +
-                  vector_overloads("off", prefix) + other_overloads("off", prefix) + edits.text();
-    return result;
+        return true;
+    });
 }
 
 /// Arithmetic by an operator.
@@ -145,9 +107,38 @@ bool is_operation(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind != NodeKind::call && is_float_operation(text, facts, id);
 }
 
-constexpr std::string_view k_inexact[] = {"sqrt", "inversesqrt", "pow", "exp", "exp2", "log", "log2"};
-
 } // namespace
+
+Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    std::string prelude = spell(k_unit, prefix);
+    for (const std::string_view name : {"sin", "cos"})
+        prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = tree[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
+            return false;
+        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
+        return true;
+    });
+}
+
+Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
+    const std::string prefix = fresh_prefix(text);
+    const std::string prelude =
+        spell(k_unit, prefix) + spell(k_input, prefix) + vector_overloads("input", prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = text.tree()[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
+        if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
+            return false;
+        const auto meanings = facts.names.find(name);
+        if (meanings == facts.names.end() || !meanings->second.uniform)
+            return false;
+        edits.wrap(id, prefix + "input(", ")");
+        return true;
+    });
+}
 
 Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
     return vary_results(text, k_lot, [&](NodeId id) {
@@ -155,7 +146,8 @@ Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
             return text.word_of(id).front() == '/';
         const std::string_view name =
             text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
-        return !facts.function(name) && std::ranges::find(k_inexact, name) != std::end(k_inexact);
+        const BuiltinFunction* const builtin = facts.function(name) ? nullptr : find_builtin(name);
+        return builtin && builtin->is(Trait::inexact);
     });
 }
 
@@ -169,20 +161,17 @@ Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
 
 Variation vary_precision(const ParsedText& text, const TreeFacts&) {
     const SyntaxTree& tree = text.tree();
-    Variation result;
-    SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+    const std::string header = "#extension GL_ARB_gpu_shader5 : enable\n";
+    return vary(text, {}, header, [&](NodeId id, SourceRewriter& edits) {
         if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
-            continue;
+            return false;
         const NodeId type = tree.child(id, 0);
         if (class_of_type(type_name(text, type)) != TypeClass::floating ||
             has_qualifier(text, type, "const") || has_qualifier(text, type, "precise"))
-            continue;
+            return false;
         edits.wrap(type, "precise ", "");
-        ++result.places;
-    }
-    result.text = headers_with_buffers(text) + "#extension GL_ARB_gpu_shader5 : enable\n" + edits.text();
-    return result;
+        return true;
+    });
 }
 
 } // namespace tidemark::glsl

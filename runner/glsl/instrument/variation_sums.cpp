@@ -18,11 +18,6 @@ namespace {
 // it, rounded. Which functions these are the driver finds out from the types; those where nothing is
 // contracted (whole numbers, products of matrices) add and multiply as they are.
 
-/// A number or a vector of 1 to 4 of them.
-std::string shape(std::string_view number, std::string_view vector, int size) {
-    return size == 1 ? std::string(number) : fmt::format("{}{}", vector, size);
-}
-
 /// `make(left, right, result)` of the sizes that an operator takes.
 template <class Make>
 std::string for_sizes(Make make) {
@@ -36,8 +31,8 @@ std::string for_sizes(Make make) {
 
 std::string float_overloads() {
     return for_sizes([](int left, int right, int result) {
-        const auto single = [](int size) { return shape("float", "vec", size); };
-        const auto wide = [](int size) { return shape("double", "dvec", size); };
+        const auto single = [](int size) { return k_float_vectors[size_t(size) - 1]; };
+        const auto wide = [&](int size) { return double_type_of(single(size)); };
         return fmt::format("{5} $product({0} a,{1} b){{return $mode==1?{3}(a)*{4}(b):{5}(a*b);}}\n"
                            "{2} $sum({3} a,{1} b){{return {2}(a+{4}(b));}}\n"
                            "{2} $sum({0} a,{4} b){{return {2}({3}(a)+b);}}\n"
@@ -54,11 +49,9 @@ std::string plain(std::string_view name, std::string_view left, char op, std::st
 
 std::string whole_overloads() {
     std::string text;
-    for (const std::string_view number : {"int", "uint"})
+    for (const size_t kind : {0, 4})
         text += for_sizes([&](int left, int right, int result) {
-            const auto whole = [&](int size) {
-                return shape(number, number == "int" ? "ivec" : "uvec", size);
-            };
+            const auto whole = [&](int size) { return k_whole_vectors[kind + size_t(size) - 1]; };
             return plain("product", whole(left), '*', whole(right), whole(result)) +
                    plain("sum", whole(left), '+', whole(right), whole(result));
         });
@@ -71,7 +64,7 @@ std::string matrix_overloads() {
     for (int columns = 2; columns <= 4; ++columns)
         for (int rows = 2; rows <= 4; ++rows) {
             const std::string type = matrix(columns, rows);
-            const std::string row = shape("", "vec", columns), column = shape("", "vec", rows);
+            const auto row = k_float_vectors[size_t(columns) - 1], column = k_float_vectors[size_t(rows) - 1];
             for (const auto& [name, op] : {std::pair("product", '*'), std::pair("sum", '+')})
                 text += plain(name, type, op, "float", type) + plain(name, "float", op, type, type);
             text += plain("product", type, '*', row, column) + plain("product", column, '*', type, row) +

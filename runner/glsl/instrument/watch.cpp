@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace tidemark::glsl {
 namespace {
@@ -19,7 +20,8 @@ bool contains(const std::vector<NodeId>& ids, NodeId id) {
 class Watcher {
 public:
     Watcher(const ParsedText& text, const TreeFacts& facts, const WatchRequest& request)
-        : text_(text), tree_(text.tree()), facts_(facts), request_(request), prefix_(fresh_prefix(text)) {
+        : text_(text), tree_(text.tree()), facts_(facts), request_(request), prefix_(fresh_prefix(text)),
+          edits_(text) {
         if (request.capture != k_no_node) {
             result_.operands = operands_of(request.capture);
             call_paths_ = find_call_paths(text, facts, request.capture);
@@ -35,10 +37,10 @@ public:
     }
 
     Watch run() {
-        result_.text = headers_with_buffers(text_) + watch_prelude(options_);
-        for (NodeId part = tree_[0].first_child; part != k_no_node; part = tree_[part].next)
+        for (const NodeId part : tree_.children(0))
             global(part);
-        result_.text += main_function();
+        result_.text = headers_with_buffers(text_) + watch_prelude(options_) + edits_.text() +
+                       fmt::format("\nvoid main(){{{}main();{}}}\n", prefix_, flush());
         return std::move(result_);
     }
 
@@ -46,23 +48,7 @@ private:
     /// Whether what is around is led through us already.
     enum class Cover { open, covered };
 
-    void put(std::string_view words) {
-        result_.text += words;
-        result_.text += ' ';
-    }
-    void put_words(size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            put(text_.word(i));
-            if (text_.word(i) == ";" || text_.word(i) == "{")
-                result_.text.back() = '\n';
-        }
-    }
     std::string ours(std::string_view name) const { return prefix_ + std::string(name); }
-
-    std::string main_function() const {
-        std::string text = fmt::format("\nvoid main(){{{}main();{}}}\n", prefix_, flush());
-        return text;
-    }
 
     std::string flush() const {
         if (request_.map_width > 0)
@@ -75,16 +61,15 @@ private:
     // Declarations.
 
     void global(NodeId id) {
-        if (tree_[id].kind == NodeKind::function)
-            return function(id);
-        emit(id, Cover::open);
-        result_.text += '\n';
-        for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next)
-            if (tree_[child].kind == NodeKind::type)
-                structure_functions(child);
+        if (tree_[id].kind == NodeKind::function && text_.word_of(id) == "main")
+            edits_.replace(tree_[id].word, ours("main"));
+        visit(id, Cover::open);
+        for (const NodeId child : tree_.children(id))
+            if (tree_[child].kind == NodeKind::type && tree_[id].kind != NodeKind::function)
+                structure_functions(id, child);
     }
 
-    void structure_functions(NodeId type) {
+    void structure_functions(NodeId declaration, NodeId type) {
         const std::string_view name = type_name(text_, type);
         const auto structure = facts_.structures.find(name);
         if (tree_.child(type, 0) == k_no_node || structure == facts_.structures.end())
@@ -92,99 +77,51 @@ private:
         for (const StructureMember& member : structure->second)
             if (class_of_type(member.type) == TypeClass::sampler)
                 return;
-        result_.text += structure_overloads(options_, facts_, name);
+        edits_.wrap(declaration, "", "\n" + structure_overloads(options_, facts_, name));
     }
 
-    void function(NodeId id) {
-        const Node& node = tree_[id];
-        const bool is_main = text_.word_of(id) == "main";
-        const NodeId body = body_of(id);
-        put_words(node.begin, node.word);
-        put(is_main ? ours("main") : text_.word_of(id));
-        if (body == k_no_node) {
-            put_words(node.word + 1, node.end);
-            return;
-        }
-        put_words(node.word + 1, tree_[body].begin);
-        put("{\n");
-        children(body, tree_[body].begin + 1, Cover::open);
-        result_.text += '\n';
+    // Everything else. What is inside is led through us before what is around it.
+
+    void children(NodeId id, Cover cover) {
+        for (const NodeId child : tree_.children(id))
+            visit(child, cover);
     }
 
-    NodeId body_of(NodeId function) const {
-        for (NodeId part = tree_[function].first_child; part != k_no_node; part = tree_[part].next)
-            if (tree_[part].kind == NodeKind::block)
-                return part;
-        return k_no_node;
-    }
-
-    // Everything else: what stands between the children is copied, and most nodes need no more.
-
-    void children(NodeId id, size_t from, Cover cover) {
-        size_t copied = from;
-        for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next) {
-            put_words(copied, tree_[child].begin);
-            emit(child, cover);
-            copied = tree_[child].end;
-        }
-        put_words(copied, tree_[id].end);
-    }
-
-    void raw(NodeId id) { put_words(tree_[id].begin, tree_[id].end); }
-
-    void emit(NodeId id, Cover cover) {
-        const Node& node = tree_[id];
-        switch (node.kind) {
+    void visit(NodeId id, Cover cover) {
+        switch (tree_[id].kind) {
         case NodeKind::type:
         case NodeKind::structure:
         case NodeKind::parameter:
         case NodeKind::label:
-        case NodeKind::prefix:
-        case NodeKind::postfix: return prefix_or_raw(id, cover);
+        case NodeKind::postfix: return; // constant, or its operand must stay as it is
+        case NodeKind::prefix: return is_change(text_, id) ? void() : children(id, cover);
         case NodeKind::declaration: return declaration(id);
         case NodeKind::declarator: return declarator(id);
         case NodeKind::call: return call(id, cover);
         case NodeKind::binary: return binary(id, cover);
-        case NodeKind::assign: return assign(id, cover);
+        case NodeKind::assign: return assign(id);
         case NodeKind::comma: return comma(id, cover);
         case NodeKind::jump: return jump(id);
         case NodeKind::loop_for:
         case NodeKind::loop_while:
         case NodeKind::loop_do: return loop(id);
-        default: return children(id, node.begin, cover);
+        default: return children(id, cover);
         }
-    }
-
-    /// ++ and -- need their operand as it is; what else comes here must stay constant.
-    void prefix_or_raw(NodeId id, Cover cover) {
-        const std::string_view op = text_.word_of(id);
-        if (tree_[id].kind == NodeKind::prefix && op != "++" && op != "--")
-            children(id, tree_[id].begin, cover);
-        else
-            raw(id);
     }
 
     void declaration(NodeId id) {
         const NodeId type = tree_.child(id, 0);
         const bool constant = has_qualifier(text_, type, "const") || has_qualifier(text_, type, "uniform");
         const bool es_global = tree_[id].parent == 0 && text_.is_es();
-        if (constant || es_global)
-            raw(id);
-        else
-            children(id, tree_[id].begin, Cover::open);
+        if (!constant && !es_global)
+            children(id, Cover::open);
     }
 
     /// The value may be watched; brackets must stay constant.
     void declarator(NodeId id) {
-        size_t copied = tree_[id].begin;
-        for (NodeId part = tree_[id].first_child; part != k_no_node; part = tree_[part].next) {
-            if (is_bracket(text_, part))
-                continue;
-            put_words(copied, tree_[part].begin);
-            emit(part, Cover::open);
-            copied = tree_[part].end;
-        }
-        put_words(copied, tree_[id].end);
+        for (const NodeId part : tree_.children(id))
+            if (!is_bracket(text_, part))
+                visit(part, Cover::open);
     }
 
     bool wanted(NodeId id, Cover cover) const {
@@ -198,149 +135,101 @@ private:
         return false;
     }
 
-    /// Opens what leads `id` through us; how many parentheses are to be closed by `close`.
-    Cover open(NodeId id, Cover cover) {
-        if (wanted(id, cover)) {
-            put(ours("P("));
-            return Cover::covered;
-        }
-        if (contains(request_.repaired, id)) {
-            put(ours("R("));
-            return Cover::open;
-        }
-        return cover;
+    Cover inside(NodeId id, Cover cover) const {
+        return wanted(id, cover) ? Cover::covered : contains(request_.repaired, id) ? Cover::open : cover;
     }
 
-    void close(NodeId id, Cover cover) {
+    void lead(NodeId id, Cover cover) {
         if (wanted(id, cover))
-            put(fmt::format(",{})", id));
+            edits_.wrap(id, ours("P("), fmt::format(",{})", id));
         else if (contains(request_.repaired, id))
-            put(")");
+            edits_.wrap(id, ours("R("), ")");
     }
 
     void binary(NodeId id, Cover cover) {
-        const Cover inside = open(id, cover);
-        const NodeId left = tree_.child(id, 0);
-        const NodeId right = tree_.child(id, 1);
-        operand(id, left, inside);
-        put_words(tree_[left].end, tree_[right].begin);
-        operand(id, right, inside);
-        close(id, cover);
+        operand(id, tree_.child(id, 0), inside(id, cover));
+        operand(id, tree_.child(id, 1), inside(id, cover));
+        lead(id, cover);
     }
 
-    /// An operand of the node that is captured is written down on its way.
+    /// Of an operand of the node that is captured: the word of the buffer that it is written down at.
+    std::optional<size_t> slot_of(NodeId operation, NodeId operand) const {
+        const auto slot = std::ranges::find(result_.operands, operand);
+        if (operation != request_.capture || slot == result_.operands.end())
+            return std::nullopt;
+        return WatchLayout::k_operands + size_t(slot - result_.operands.begin()) * WatchLayout::k_slot;
+    }
+
     void operand(NodeId operation, NodeId id, Cover cover) {
-        const auto slot = std::find(result_.operands.begin(), result_.operands.end(), id);
-        const bool captured = operation == request_.capture && slot != result_.operands.end();
-        if (captured)
-            put(ours("C("));
-        emit(id, cover);
-        if (captured)
-            put(fmt::format(",{})", WatchLayout::k_operands +
-                                        size_t(slot - result_.operands.begin()) * WatchLayout::k_slot));
+        visit(id, cover);
+        if (const auto slot = slot_of(operation, id))
+            edits_.wrap(id, ours("C("), fmt::format(",{})", *slot));
     }
 
     void call(NodeId id, Cover cover) {
         const std::string_view name = called_name(text_, id);
-        const bool on_the_way = std::binary_search(call_paths_.calls.begin(), call_paths_.calls.end(), id);
-        const bool nothing = on_the_way && facts_.functions.at(name).returns_nothing;
-        if (on_the_way)
-            put(nothing ? fmt::format("({}push({}),", prefix_, id)
-                        : fmt::format("{0}K({0}push({1}),", prefix_, id));
-        const Cover inside = open(id, cover);
         // What a function of the author's gets is watched before it goes in, for in there it has no
         // statement.
-        arguments(id, facts_.function(name) ? Cover::open : inside);
-        close(id, cover);
-        if (on_the_way)
-            put(nothing ? fmt::format(",{}pop())", prefix_) : std::string(")"));
+        arguments(id, facts_.function(name) ? Cover::open : inside(id, cover));
+        lead(id, cover);
+        if (!std::ranges::binary_search(call_paths_.calls, id))
+            return;
+        if (facts_.functions.at(name).returns_nothing)
+            edits_.wrap(id, fmt::format("({}push({}),", prefix_, id), fmt::format(",{}pop())", prefix_));
+        else
+            edits_.wrap(id, fmt::format("{0}K({0}push({1}),", prefix_, id), ")");
     }
 
     void arguments(NodeId id, Cover cover) {
         const NodeId callee = tree_.child(id, 0);
         const std::string_view name = called_name(text_, id);
         if (tree_[callee].kind == NodeKind::member) // .length()
-            return raw(id);
-        put_words(tree_[callee].begin, tree_[callee].end);
-        size_t copied = tree_[callee].end;
+            return;
         size_t index = 0;
-        for (NodeId part = tree_[callee].next; part != k_no_node; part = tree_[part].next, ++index) {
-            put_words(copied, tree_[part].begin);
-            if (!name.empty() && facts_.writes_argument(name, index))
-                raw(part);
-            else
+        for (NodeId part = tree_[callee].next; part != k_no_node; part = tree_[part].next, ++index)
+            if (name.empty() || !facts_.writes_argument(name, index))
                 operand(id, part, cover);
-            copied = tree_[part].end;
-        }
-        put_words(copied, tree_[id].end);
     }
 
     /// `target op= value` becomes `(target op= value, P(target))`, if the target can be read once more.
-    void assign(NodeId id, Cover cover) {
+    void assign(NodeId id) {
         const NodeId target = tree_.child(id, 0);
-        const NodeId value = tree_.child(id, 1);
         const bool compound = is_float_operation(text_, facts_, id);
         const bool probed = compound && wanted(id, Cover::open);
         const bool mended = compound && contains(request_.repaired, id);
-        const Cover inside = probed ? Cover::covered : Cover::open;
-        if (probed || mended)
-            put("(");
-        if (probed && id == request_.capture) {
-            operand(id, target, cover);
-            put(",");
-        }
-        raw(target);
-        put_words(tree_[target].end, tree_[value].begin);
-        operand(id, value, inside);
-        if (!probed && !mended)
-            return;
-        put(",");
+        operand(id, tree_.child(id, 1), probed ? Cover::covered : Cover::open);
+        const std::string again = words_of(text_, target);
         if (mended) {
-            raw(target);
-            put(fmt::format("={}R(", prefix_));
-        } else {
-            put(ours("P("));
+            edits_.wrap(id, "(", fmt::format(",{0}={1}R({0}))", again, prefix_));
+        } else if (probed) {
+            const auto slot = slot_of(id, target);
+            edits_.wrap(id, slot ? fmt::format("({}C({},{}),", prefix_, again, *slot) : "(",
+                        fmt::format(",{}P({},{}))", prefix_, again, id));
         }
-        raw(target);
-        put(mended ? std::string("))") : fmt::format(",{}))", id));
     }
 
     /// The value of the first is dropped: nobody else will see it.
     void comma(NodeId id, Cover cover) {
-        const NodeId first = tree_.child(id, 0);
-        const NodeId second = tree_.child(id, 1);
-        emit(first, Cover::open);
-        put_words(tree_[first].end, tree_[second].begin);
-        emit(second, cover);
+        visit(tree_.child(id, 0), Cover::open);
+        visit(tree_.child(id, 1), cover);
     }
 
     void jump(NodeId id) {
-        if (text_.word_of(id) != "discard")
-            return raw(id);
-        put(fmt::format("{{{}discard;}}", flush()));
+        if (text_.word_of(id) == "discard")
+            edits_.wrap(id, "{" + flush(), "}");
     }
 
     void loop(NodeId id) {
-        const auto counted = std::find(result_.loops.begin(), result_.loops.end(), id);
+        children(id, Cover::open);
+        const auto counted = std::ranges::find(result_.loops, id);
         if (counted == result_.loops.end())
-            return children(id, tree_[id].begin, Cover::open);
-        const size_t index = size_t(counted - result_.loops.begin());
+            return;
+        const auto index = counted - result_.loops.begin();
         const NodeId body = tree_[id].kind == NodeKind::loop_do    ? tree_.child(id, 0)
                             : tree_[id].kind == NodeKind::loop_for ? tree_.child(id, 3)
                                                                    : tree_.child(id, 1);
-        put(fmt::format("{{if({0}h==0){0}L{1}=0;", prefix_, index));
-        size_t copied = tree_[id].begin;
-        for (NodeId part = tree_[id].first_child; part != k_no_node; part = tree_[part].next) {
-            put_words(copied, tree_[part].begin);
-            if (part == body)
-                put(fmt::format("{{if({0}h==0)++{0}L{1};", prefix_, index));
-            emit(part, Cover::open);
-            if (part == body)
-                put("}");
-            copied = tree_[part].end;
-        }
-        put_words(copied, tree_[id].end);
-        put("}");
+        edits_.wrap(body, fmt::format("{{if({0}h==0)++{0}L{1};", prefix_, index), "}");
+        edits_.wrap(id, fmt::format("{{if({0}h==0){0}L{1}=0;", prefix_, index), "}");
     }
 
     /// What of an operation can be written down: no numbers of the text, no samplers, nothing that is written
@@ -381,6 +270,7 @@ private:
     PreludeOptions options_;
     CallPaths call_paths_;
     Watch result_;
+    SourceRewriter edits_;
 };
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "glsl/syntax/tree_facts.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,24 +46,10 @@ struct WatchLayout {
     static constexpr size_t k_words = k_operands + k_most_operands * k_slot;
 };
 
-/// The type of a slot: 0 where nothing was written.
-enum class SlotType : unsigned {
-    none = 0,
-    floating = 1,
-    integer = 5,
-    unsigned_integer = 9,
-    boolean = 13,
-    matrix = 100
-};
-
-/// How a slot's type is written down: vectors as their class plus components - 1, matrices as 100 + 10 *
-/// columns + rows.
-struct SlotShape {
-    SlotType type = SlotType::none;
-    int columns = 1;
-    int rows = 1;
-};
-SlotShape slot_shape(unsigned code);
+/// The type of a slot: scalars and vectors by their place in k_vectors, from 1; matrices as 100 + 10 *
+/// columns + rows; 0, and nothing, where none was written.
+std::optional<ValueType> slot_type(unsigned code);
+inline constexpr int k_matrix_slot = 100;
 
 struct Watch {
     std::string text;

@@ -10,9 +10,6 @@
 namespace tidemark::glsl {
 namespace {
 
-constexpr std::array<std::string_view, 4> k_floats{"float", "vec2", "vec3", "vec4"};
-constexpr std::array<std::string_view, 12> k_wholes{"int",   "ivec2", "ivec3", "ivec4", "uint",  "uvec2",
-                                                    "uvec3", "uvec4", "bool",  "bvec2", "bvec3", "bvec4"};
 constexpr std::array<std::string_view, 4> k_doubles{"double", "dvec2", "dvec3", "dvec4"};
 
 constexpr std::string_view k_any_bad =
@@ -43,7 +40,7 @@ constexpr std::string_view k_pop = "@ $K(int n,@ v){--$depth;return v;}\n";
 /// How a slot holds a value of `type`: its code, then its numbers as bits.
 std::string store(std::string_view prefix, std::string_view type, int code, int components) {
     constexpr std::string_view k_parts = "xyzw";
-    const std::string_view to_bits = code < int(SlotType::integer) ? "floatBitsToUint" : "uint";
+    const std::string_view to_bits = type == "float" || type.starts_with("vec") ? "floatBitsToUint" : "uint";
     std::string text = fmt::format("void {0}store(int k,{1} v){{{0}out[k]={2}u;", prefix, type, code);
     for (int i = 0; i < components; ++i)
         text += fmt::format("{}out[k+{}]={}(v{});", prefix, i + 1, to_bits,
@@ -53,7 +50,7 @@ std::string store(std::string_view prefix, std::string_view type, int code, int 
 
 std::string store_matrix(std::string_view prefix, int columns, int rows) {
     std::string text = fmt::format("void {0}store(int k,mat{1}x{2} v){{{0}out[k]={3}u;", prefix, columns,
-                                   rows, 100 + 10 * columns + rows);
+                                   rows, k_matrix_slot + 10 * columns + rows);
     for (int i = 0; i < columns * rows; ++i)
         text += fmt::format("{}out[k+{}]=floatBitsToUint(v[{}][{}]);", prefix, i + 1, i / rows, i % rows);
     return text + "}\n";
@@ -82,10 +79,10 @@ public:
         for_each_matrix([&](int c, int r) { text_ += matrix_functions(options_.prefix, c, r); });
         if (options_.capture)
             add_records();
-        for (const auto type : k_floats)
+        for (const auto type : k_float_vectors)
             add_type(type, true);
         for_each_matrix([&](int c, int r) { add_type(fmt::format("mat{}x{}", c, r), true); });
-        for (const auto type : k_wholes)
+        for (const auto type : k_whole_vectors)
             add_type(type, false);
         if (options_.doubles)
             for (const auto type : k_doubles)
@@ -119,10 +116,8 @@ private:
             text_ +=
                 spell(fmt::format("$out[{}]=uint($L{});", WatchLayout::k_loops + i, i), options_.prefix, {});
         text_ += "}\n";
-        for (size_t i = 0; i < k_floats.size(); ++i)
-            text_ += store(options_.prefix, k_floats[i], int(SlotType::floating) + int(i), int(i) + 1);
-        for (size_t i = 0; i < k_wholes.size(); ++i)
-            text_ += store(options_.prefix, k_wholes[i], int(SlotType::integer) + int(i), int(i % 4) + 1);
+        for (size_t i = 0; i < std::size(k_vectors); ++i)
+            text_ += store(options_.prefix, k_vectors[i], int(i) + 1, int(i % 4) + 1);
         for_each_matrix([&](int c, int r) { text_ += store_matrix(options_.prefix, c, r); });
     }
 
@@ -165,14 +160,10 @@ std::string structure_overloads(const PreludeOptions& options, const TreeFacts& 
     return text;
 }
 
-SlotShape slot_shape(unsigned code) {
-    if (code >= unsigned(SlotType::matrix) + 22 && code <= unsigned(SlotType::matrix) + 44)
-        return {SlotType::matrix, int(code - 100) / 10, int(code - 100) % 10};
-    for (const SlotType type :
-         {SlotType::boolean, SlotType::unsigned_integer, SlotType::integer, SlotType::floating})
-        if (code >= unsigned(type) && code < unsigned(type) + 4)
-            return {type, 1, int(code - unsigned(type)) + 1};
-    return {};
+std::optional<ValueType> slot_type(unsigned code) {
+    if (code >= k_matrix_slot + 22 && code <= k_matrix_slot + 44)
+        return ValueType{'f', int(code - k_matrix_slot) / 10, int(code - k_matrix_slot) % 10};
+    return code >= 1 && code <= std::size(k_vectors) ? value_type(k_vectors[code - 1]) : std::nullopt;
 }
 
 } // namespace tidemark::glsl

@@ -3,7 +3,6 @@
 #include "glsl/specialise/constant_folding.hpp"
 #include "glsl/specialise/globals.hpp"
 #include "glsl/specialise/loop_invariant_code_motion.hpp"
-#include "glsl/specialise/value_types.hpp"
 #include "glsl/syntax/tree_facts.hpp"
 #include "glsl/syntax/word_edits.hpp"
 

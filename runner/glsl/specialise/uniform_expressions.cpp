@@ -1,6 +1,6 @@
 #include "glsl/specialise/uniform_expressions.hpp"
 
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 #include "glsl/syntax/tree_facts.hpp"
 
 #include <algorithm>
@@ -188,9 +188,9 @@ auto UniformExpressions::call_of(std::string_view callee, std::span<const ValueT
     }
     if (const auto built = value_type(callee))
         return FrameValue{*built};
-    const PureBuiltin* builtin = find_pure_builtin(callee);
-    const auto type = builtin ? type_of_call(*builtin, arguments) : std::nullopt;
-    return type ? Value({*type, false, builtin->costly}) : std::nullopt;
+    const BuiltinFunction* builtin = find_builtin(callee);
+    const auto type = builtin && builtin->is(Trait::pure) ? type_of_call(*builtin, arguments) : std::nullopt;
+    return type ? Value({*type, false, builtin->is(Trait::costly)}) : std::nullopt;
 }
 
 std::optional<PureFunction> UniformExpressions::pure_function(std::string_view name) const {
@@ -246,8 +246,8 @@ std::optional<PureFunction> UniformExpressions::examine(const Global& function) 
                 return std::nullopt;
             pure.uniform = pure.uniform || called->uniform;
             pure.costly = pure.costly || called->costly;
-        } else if (const PureBuiltin* builtin = find_pure_builtin(name)) {
-            pure.costly = pure.costly || builtin->costly;
+        } else if (const BuiltinFunction* builtin = find_builtin(name); builtin && builtin->is(Trait::pure)) {
+            pure.costly = pure.costly || builtin->is(Trait::costly);
         } else if (!value_type(name)) {
             return std::nullopt;
         }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "glsl/specialise/globals.hpp"
-#include "glsl/specialise/value_types.hpp"
+#include "glsl/syntax/types.hpp"
 
 #include <optional>
 #include <span>

@@ -1,6 +1,6 @@
 #include "glsl/syntax/functions.hpp"
 
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/words.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,5 +1,7 @@
 #include "glsl/syntax/reading.hpp"
 
+#include "glsl/syntax/words.hpp"
+
 #include <algorithm>
 
 namespace tidemark::glsl {
@@ -11,9 +13,9 @@ std::vector<size_t> find_closing(const std::vector<text::Token>& tokens) {
     std::vector<size_t> open;
     for (size_t i = 0; i < tokens.size(); ++i) {
         const text::Token& token = tokens[i];
-        if (token.is("(") || token.is("[") || token.is("{")) {
+        if (nesting(token.text) > 0) {
             open.push_back(i);
-        } else if (!open.empty() && (token.is(")") || token.is("]") || token.is("}"))) {
+        } else if (!open.empty() && nesting(token.text) < 0) {
             closing[open.back()] = i;
             open.pop_back();
         }

@@ -1,22 +1,11 @@
 #include "glsl/syntax/tree_facts.hpp"
 
-#include "glsl/syntax/builtins.hpp"
+#include "glsl/syntax/builtin_functions.hpp"
 
 #include <algorithm>
 
 namespace tidemark::glsl {
 namespace {
-
-bool is_digits_shape(std::string_view text) {
-    const auto digit = [](char c) { return c >= '2' && c <= '4'; };
-    return (text.size() == 1 && digit(text[0])) ||
-           (text.size() == 3 && digit(text[0]) && text[1] == 'x' && digit(text[2]));
-}
-
-bool is_whole_number(std::string_view digits) {
-    const bool hexadecimal = digits.size() > 1 && (digits[1] == 'x' || digits[1] == 'X');
-    return hexadecimal || digits.find_first_of(".eEfF") == std::string_view::npos;
-}
 
 class Collector {
 public:
@@ -46,7 +35,10 @@ private:
 
     bool is_whole(NodeId id) const {
         switch (tree_[id].kind) {
-        case NodeKind::literal: return is_whole_number(text_.word_of(id));
+        case NodeKind::literal: {
+            const auto type = type_of_literal(text_.word_of(id));
+            return type && type->base != 'f';
+        }
         case NodeKind::name: {
             const auto found = facts_.names.find(text_.word_of(id));
             return found != facts_.names.end() && found->second.only_whole();
@@ -121,20 +113,6 @@ private:
 
 } // namespace
 
-TypeClass class_of_type(std::string_view word) {
-    if (word == "float" || (word.starts_with("vec") && is_digits_shape(word.substr(3))) ||
-        (word.starts_with("mat") && is_digits_shape(word.substr(3))))
-        return TypeClass::floating;
-    if (word == "int" || word == "uint" || word == "bool")
-        return TypeClass::whole;
-    if (word.size() == 5 && (word[0] == 'i' || word[0] == 'u' || word[0] == 'b') &&
-        word.substr(1).starts_with("vec") && is_digits_shape(word.substr(4)))
-        return TypeClass::whole;
-    if (word.starts_with("sampler") || word.starts_with("isampler") || word.starts_with("usampler"))
-        return TypeClass::sampler;
-    return word == "void" ? TypeClass::nothing : TypeClass::none;
-}
-
 std::string_view type_name(const ParsedText& text, NodeId type) {
     const SyntaxTree& tree = text.tree();
     const NodeId structure = tree.child(type, 0);
@@ -184,8 +162,8 @@ std::string_view called_name(const ParsedText& text, NodeId call) {
 }
 
 bool TreeFacts::is_type(std::string_view word) const {
-    return structures.contains(word) || class_of_type(word) != TypeClass::none || word == "double" ||
-           (word.size() > 4 && word[0] == 'd' && class_of_type(word.substr(1)) == TypeClass::floating);
+    return structures.contains(word) || class_of_type(word) != TypeClass::none ||
+           !float_type_of(word).empty();
 }
 
 const FunctionFacts* TreeFacts::function(std::string_view name) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
+#include "glsl/syntax/types.hpp"
 
 #include <string_view>
 #include <unordered_map>
@@ -10,11 +11,6 @@
 #include <vector>
 
 namespace tidemark::glsl {
-
-enum class TypeClass : unsigned char { none, floating, whole, sampler, structure, nothing };
-
-/// Of a word: `vec3` is floating, `bvec2` whole, `void` nothing; doubles and unknown names are none.
-TypeClass class_of_type(std::string_view word);
 
 /// A name with all that it is declared as.
 struct Meanings {

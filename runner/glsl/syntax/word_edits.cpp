@@ -1,5 +1,7 @@
 #include "glsl/syntax/word_edits.hpp"
 
+#include "glsl/syntax/words.hpp"
+
 #include <algorithm>
 
 namespace tidemark::glsl {
@@ -24,8 +26,7 @@ bool WordEdits::stands_alone(size_t begin, size_t end) const {
     for (auto at = std::lower_bound(code.begin(), code.end(), size_t(first_from_[begin]));
          at != code.end() && *at < first_from_[end]; ++at) {
         const text::Token& token = text_.tokens()[*at];
-        depth += token.is("(") || token.is("[") || token.is("{");
-        depth -= token.is(")") || token.is("]") || token.is("}");
+        depth += nesting(token.text);
         if (depth < 0)
             return false;
     }

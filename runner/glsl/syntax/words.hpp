@@ -1,9 +1,10 @@
-// The names that the front end looks for in a text: words that a desktop driver reserves, and names of old
-// APIs. What ShaderToy's prologue declares: scene/host_uniforms.hpp.
+// The words that the front end looks for in a text: what a desktop driver reserves, keywords, names of old
+// APIs, brackets. What ShaderToy's prologue declares: scene/host_uniforms.hpp.
 #pragma once
 
 #include "scene/host_uniforms.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -78,17 +79,26 @@ inline constexpr std::string_view k_reserved_words[] = {"packed",
                                                         "cast",
                                                         "noperspective"};
 
-/// Types that can be built from one zero.
-inline constexpr std::string_view k_plain_types[] = {
-    "float",  "int",    "uint",   "bool",   "vec2",   "vec3",   "vec4",   "ivec2", "ivec3", "ivec4",
-    "uvec2",  "uvec3",  "uvec4",  "bvec2",  "bvec3",  "bvec4",  "mat2",   "mat3",  "mat4",  "mat2x2",
-    "mat2x3", "mat2x4", "mat3x2", "mat3x3", "mat3x4", "mat4x2", "mat4x3", "mat4x4"};
+/// Words of the language that are neither types nor functions; sorted.
+inline constexpr std::string_view k_keywords[] = {
+    "break",     "case",   "centroid", "const",   "continue", "default", "discard",   "do",
+    "else",      "false",  "flat",     "for",     "highp",    "if",      "in",        "inout",
+    "invariant", "layout", "lowp",     "mediump", "out",      "precise", "precision", "return",
+    "smooth",    "struct", "switch",   "true",    "uniform",  "void",    "while"};
+static_assert(std::ranges::is_sorted(k_keywords));
+
+inline bool is_keyword(std::string_view word) {
+    return std::ranges::binary_search(k_keywords, word);
+}
 
 inline bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
-    for (const std::string_view candidate : words)
-        if (candidate == word)
-            return true;
-    return false;
+    return std::ranges::find(words, word) != words.end();
+}
+
+/// 1 for a parenthesis, bracket or brace that opens, -1 for one that closes, else 0.
+inline int nesting(std::string_view word) {
+    const size_t sign = word.size() == 1 ? std::string_view("([{)]}").find(word[0]) : word.npos;
+    return sign == word.npos ? 0 : sign < 3 ? 1 : -1;
 }
 
 inline bool is_precision(std::string_view word) {

@@ -46,7 +46,7 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
                            site.to_unsigned ? "uint" : "int");
     default: break;
     }
-    return fmt::format("{} {} ({}", name, glsl::domain_fault(name), to_shortest(number));
+    return fmt::format("{} {} ({}", name, glsl::domain_fault(name, number), to_shortest(number));
 }
 
 std::string place_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site) {

@@ -41,7 +41,7 @@ std::string variable_of(const WatchedText& watched, NodeId target) {
 /// A number that stands in the text.
 std::optional<ShaderValue> literal(std::string_view digits) {
     if (digits.starts_with("0x") || digits.starts_with("0X")) {
-        ShaderValue value{{glsl::SlotType::unsigned_integer, 1, 1}, {}};
+        ShaderValue value{{'u'}, {}};
         const auto read =
             std::from_chars(digits.data() + 2, digits.data() + digits.size(), value.bits[0], 16);
         return read.ec == std::errc{} ? std::optional(value) : std::nullopt;
@@ -50,7 +50,7 @@ std::optional<ShaderValue> literal(std::string_view digits) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error != std::errc{})
         return std::nullopt;
-    ShaderValue value{{glsl::SlotType::floating, 1, 1}, {}};
+    ShaderValue value{{}, {}};
     value.bits[0] = std::bit_cast<uint32_t>(number);
     return value;
 }

@@ -34,7 +34,7 @@ bool same(const PixelBits& a, const PixelBits& b) {
 }
 
 std::string to_text(const PixelBits& bits) {
-    ShaderValue value{{glsl::SlotType::floating, 1, 4}, {}};
+    ShaderValue value{{'f', 1, 4}, {}};
     std::copy(bits.begin(), bits.end(), value.bits.begin());
     return to_string(value);
 }

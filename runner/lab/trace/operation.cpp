@@ -1,5 +1,7 @@
 #include "lab/trace/operation.hpp"
 
+#include "glsl/syntax/builtin_functions.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,90 +12,31 @@
 namespace tidemark::lab {
 namespace {
 
-using glsl::SlotType;
+using glsl::Arguments;
 
 bool is_finite_word(uint32_t word) {
     return (word & 0x7f800000u) != 0x7f800000u;
 }
 
-/// The operands at one component; a single number goes with every component.
-struct Arguments {
-    double a = 0;
-    double b = 0;
-    double c = 0;
-};
-
-/// What is wrong with the arguments of a function that works number by number.
-struct Rule {
-    std::string_view name;
-    std::string_view reason;
-    bool (*broken)(const Arguments&);
-};
-
-constexpr Rule k_rules[] = {
-    {"/", "0 / 0", [](const Arguments& x) { return x.b == 0 && x.a == 0; }},
-    {"/", "division by zero", [](const Arguments& x) { return x.b == 0; }},
-    {"mod", "mod by zero", [](const Arguments& x) { return x.b == 0; }},
-    {"pow", "pow of a negative base is undefined", [](const Arguments& x) { return x.a < 0; }},
-    {"pow", "pow of 0 with an exponent that is not positive is undefined",
-     [](const Arguments& x) { return x.a == 0 && x.b <= 0; }},
-    {"sqrt", "square root of a negative number", [](const Arguments& x) { return x.a < 0; }},
-    {"inversesqrt", "inverse square root of a negative number", [](const Arguments& x) { return x.a < 0; }},
-    {"inversesqrt", "inverse square root of zero", [](const Arguments& x) { return x.a == 0; }},
-    {"log", "logarithm of a negative number", [](const Arguments& x) { return x.a < 0; }},
-    {"log", "logarithm of zero", [](const Arguments& x) { return x.a == 0; }},
-    {"log2", "logarithm of a negative number", [](const Arguments& x) { return x.a < 0; }},
-    {"log2", "logarithm of zero", [](const Arguments& x) { return x.a == 0; }},
-    {"asin", "asin outside of [-1, 1]", [](const Arguments& x) { return std::abs(x.a) > 1; }},
-    {"acos", "acos outside of [-1, 1]", [](const Arguments& x) { return std::abs(x.a) > 1; }},
-    {"acosh", "acosh below 1", [](const Arguments& x) { return x.a < 1; }},
-    {"atanh", "atanh outside of (-1, 1)", [](const Arguments& x) { return std::abs(x.a) >= 1; }},
-    {"atan", "atan(0, 0) is undefined", [](const Arguments& x) { return x.a == 0 && x.b == 0; }},
-    {"smoothstep", "smoothstep between equal edges", [](const Arguments& x) { return x.a == x.b; }},
-};
-
-/// The function itself, where it works number by number.
-struct Function {
-    std::string_view name;
-    double (*of)(const Arguments&);
-};
-
-constexpr Function k_functions[] = {
-    {"+", [](const Arguments& x) { return x.a + x.b; }},
-    {"-", [](const Arguments& x) { return x.a - x.b; }},
-    {"*", [](const Arguments& x) { return x.a * x.b; }},
-    {"/", [](const Arguments& x) { return x.a / x.b; }},
-    {"pow", [](const Arguments& x) { return std::pow(x.a, x.b); }},
-    {"exp", [](const Arguments& x) { return std::exp(x.a); }},
-    {"exp2", [](const Arguments& x) { return std::exp2(x.a); }},
-    {"log", [](const Arguments& x) { return std::log(x.a); }},
-    {"log2", [](const Arguments& x) { return std::log2(x.a); }},
-    {"sqrt", [](const Arguments& x) { return std::sqrt(x.a); }},
-    {"inversesqrt", [](const Arguments& x) { return 1 / std::sqrt(x.a); }},
-    {"sin", [](const Arguments& x) { return std::sin(x.a); }},
-    {"cos", [](const Arguments& x) { return std::cos(x.a); }},
-    {"tan", [](const Arguments& x) { return std::tan(x.a); }},
-    {"sinh", [](const Arguments& x) { return std::sinh(x.a); }},
-    {"cosh", [](const Arguments& x) { return std::cosh(x.a); }},
-    {"tanh", [](const Arguments& x) { return std::tanh(x.a); }},
-    {"asin", [](const Arguments& x) { return std::asin(x.a); }},
-    {"acos", [](const Arguments& x) { return std::acos(x.a); }},
-    {"abs", [](const Arguments& x) { return std::abs(x.a); }},
-    {"fract", [](const Arguments& x) { return x.a - std::floor(x.a); }},
-    {"floor", [](const Arguments& x) { return std::floor(x.a); }},
-    {"min", [](const Arguments& x) { return std::min(x.a, x.b); }},
-    {"max", [](const Arguments& x) { return std::max(x.a, x.b); }},
-    {"mod", [](const Arguments& x) { return x.a - x.b * std::floor(x.a / x.b); }},
-    {"mix", [](const Arguments& x) { return x.a * (1 - x.c) + x.b * x.c; }},
-    {"radians", [](const Arguments& x) { return x.a * 0.017453292519943295; }},
-    {"degrees", [](const Arguments& x) { return x.a * 57.29577951308232; }},
-};
+/// What an operator or a built-in function gives, where it works number by number; nullptr: not known.
+auto value_of(std::string_view name) -> double (*)(const Arguments&) {
+    if (name == "+")
+        return [](const Arguments& a) { return a.x + a.y; };
+    if (name == "-")
+        return [](const Arguments& a) { return a.x - a.y; };
+    if (name == "*")
+        return [](const Arguments& a) { return a.x * a.y; };
+    if (name == "/")
+        return [](const Arguments& a) { return a.x / a.y; };
+    const glsl::BuiltinFunction* const function = glsl::find_builtin(name);
+    return function ? function->value : nullptr;
+}
 
 class Explainer {
 public:
     Explainer(std::string_view name, const std::vector<std::optional<ShaderValue>>& operands,
               const ShaderValue& result)
-        : name_(name), operands_(operands), result_(result) {}
+        : name_(name), function_(glsl::find_builtin(name)), operands_(operands), result_(result) {}
 
     Explanation run() const {
         for (size_t i = 0; i < operands_.size(); ++i)
@@ -101,16 +44,15 @@ public:
                 return {OriginCause::carried, {}, i};
         if (name_.starts_with("uintBits") || name_.starts_with("intBits") || name_.starts_with("unpack"))
             return {OriginCause::operation, "the bits are those of no finite number"};
-        if (const auto reason = of_vectors(); !reason.empty())
-            return {OriginCause::operation, std::string(reason)};
+        if (auto reason = of_vectors(); !reason.empty())
+            return {OriginCause::operation, std::move(reason)};
         if (!by_number())
             return {};
         for (size_t i = 0; i < result_.size(); ++i)
             if (!is_finite_word(result_.bits[i]))
-                if (const auto reason = of_numbers(arguments(i)); !reason.empty())
-                    return {OriginCause::operation, std::string(reason)};
-        return is_known_function() ? Explanation{OriginCause::undefined, "an undefined value", 0}
-                                   : Explanation{};
+                if (auto reason = of_numbers(arguments(i)); !reason.empty())
+                    return {OriginCause::operation, std::move(reason)};
+        return value_of(name_) ? Explanation{OriginCause::undefined, "an undefined value", 0} : Explanation{};
     }
 
 private:
@@ -127,7 +69,7 @@ private:
         for (const auto& operand : operands_) {
             if (operand->size() != 1 && operand->size() != result_.size())
                 return false;
-            matrices += operand->shape.columns > 1;
+            matrices += operand->type.matrix();
         }
         return name_ != "*" ||
                (matrices < 2 && (matrices == 0 || operands_[0]->size() == 1 || operands_[1]->size() == 1));
@@ -143,19 +85,16 @@ private:
         return {at(0), at(1), at(2)};
     }
 
-    std::string_view of_numbers(const Arguments& arguments) const {
-        for (const Rule& rule : k_rules)
-            if (rule.name == name_ && (name_ != "atan" || operands_.size() == 2) && rule.broken(arguments))
-                return rule.reason;
-        for (const Function& function : k_functions)
-            if (function.name == name_ && !(std::abs(function.of(arguments)) <= double(FLT_MAX)))
-                return "overflow: beyond the largest float";
-        return {};
-    }
-
-    bool is_known_function() const {
-        return std::any_of(std::begin(k_functions), std::end(k_functions),
-                           [&](const Function& function) { return function.name == name_; });
+    std::string of_numbers(const Arguments& arguments) const {
+        if (name_ == "/" && arguments.y == 0)
+            return arguments.x == 0 ? "0 / 0" : "division by zero";
+        if (function_ && function_->domain && operands_.size() == most_parameters(*function_))
+            if (const auto* broken = function_->domain->broken(arguments))
+                return fmt::format("{} {}", name_, broken->fault);
+        const auto value = value_of(name_);
+        return value && !(std::abs(value(arguments)) <= double(FLT_MAX))
+                   ? "overflow: beyond the largest float"
+                   : "";
     }
 
     static double squares(const ShaderValue& value) {
@@ -166,23 +105,20 @@ private:
     }
 
     /// Functions of whole vectors.
-    std::string_view of_vectors() const {
-        constexpr std::string_view k_lengths[] = {"length", "normalize", "distance",
-                                                  "dot",    "cross",     "reflect"};
-        if (std::find(std::begin(k_lengths), std::end(k_lengths), name_) == std::end(k_lengths) || !known())
+    std::string of_vectors() const {
+        if (!function_ || !function_->is(glsl::Trait::sums_squares) || !known())
             return {};
         double largest = 0;
         for (const auto& operand : operands_)
             largest = std::max(largest, squares(*operand));
-        // Squares this small are none: a float of normal size cannot hold them.
-        if (name_ == "normalize" && largest < double(FLT_MIN))
-            return largest == 0 ? "normalize of a zero vector"
-                                : "normalize of a vector whose squares underflow";
-        return largest > double(FLT_MAX) / 4 ? "overflow: the squares are beyond the largest float"
-                                             : std::string_view{};
+        if (function_->domain)
+            if (const auto* broken = function_->domain->broken({largest}))
+                return fmt::format("{} {}", name_, broken->fault);
+        return largest > double(FLT_MAX) / 4 ? "overflow: the squares are beyond the largest float" : "";
     }
 
     std::string_view name_;
+    const glsl::BuiltinFunction* function_; ///< nullptr: an operator
     const std::vector<std::optional<ShaderValue>>& operands_;
     const ShaderValue& result_;
 };
@@ -190,24 +126,20 @@ private:
 } // namespace
 
 double ShaderValue::number(size_t i) const {
-    switch (shape.type) {
-    case SlotType::integer: return double(int32_t(bits[i]));
-    case SlotType::unsigned_integer:
-    case SlotType::boolean: return double(bits[i]);
-    default: return double(std::bit_cast<float>(bits[i]));
-    }
+    return type.base == 'f'   ? double(std::bit_cast<float>(bits[i]))
+           : type.base == 'i' ? double(int32_t(bits[i]))
+                              : double(bits[i]);
 }
 
 bool ShaderValue::finite() const {
-    if (shape.type != SlotType::floating && shape.type != SlotType::matrix)
-        return true;
-    return std::all_of(bits.begin(), bits.begin() + long(size()), is_finite_word);
+    return type.base != 'f' || std::all_of(bits.begin(), bits.begin() + long(size()), is_finite_word);
 }
 
 std::optional<ShaderValue> read_slot(std::span<const uint32_t> words, size_t slot) {
-    ShaderValue value{glsl::slot_shape(words[slot]), {}};
-    if (value.shape.type == SlotType::none)
+    const auto type = glsl::slot_type(words[slot]);
+    if (!type)
         return std::nullopt;
+    ShaderValue value{*type, {}};
     std::copy_n(words.begin() + long(slot) + 1, value.bits.size(), value.bits.begin());
     return value;
 }
@@ -223,29 +155,17 @@ std::string to_shortest(float number) {
 std::string to_string(const ShaderValue& value) {
     const auto number = [&](size_t i) -> std::string {
         const uint32_t bits = value.bits[i];
-        switch (value.shape.type) {
-        case SlotType::boolean: return bits != 0 ? "true" : "false";
-        case SlotType::integer:
-        case SlotType::unsigned_integer: {
-            const std::string digits = fmt::format("{:.0f}", value.number(i));
-            const bool large = std::abs(value.number(i)) >= 0x10000; // of hashes and masks
-            return large ? fmt::format("{} ({:#x})", digits, bits) : digits;
-        }
-        default: return to_shortest(std::bit_cast<float>(bits));
-        }
+        if (value.type.base == 'f')
+            return to_shortest(std::bit_cast<float>(bits));
+        if (value.type.base == 'b')
+            return bits != 0 ? "true" : "false";
+        const std::string digits = fmt::format("{:.0f}", value.number(i));
+        const bool large = std::abs(value.number(i)) >= 0x10000; // of hashes and masks
+        return large ? fmt::format("{} ({:#x})", digits, bits) : digits;
     };
     if (value.size() == 1)
         return number(0);
-    std::string text = value.shape.type == SlotType::matrix
-                           ? value.shape.columns == value.shape.rows
-                                 ? fmt::format("mat{}(", value.shape.rows)
-                                 : fmt::format("mat{}x{}(", value.shape.columns, value.shape.rows)
-                           : fmt::format("{}vec{}(",
-                                         value.shape.type == SlotType::integer            ? "i"
-                                         : value.shape.type == SlotType::unsigned_integer ? "u"
-                                         : value.shape.type == SlotType::boolean          ? "b"
-                                                                                          : "",
-                                         value.shape.rows);
+    std::string text = to_string(value.type) + "(";
     for (size_t i = 0; i < value.size(); ++i)
         text += (i > 0 ? ", " : "") + number(i);
     return text + ")";

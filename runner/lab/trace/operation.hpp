@@ -15,10 +15,10 @@ namespace tidemark::lab {
 
 /// A number, vector or matrix of a shader. Matrices column by column.
 struct ShaderValue {
-    glsl::SlotShape shape;
+    glsl::ValueType type;
     std::array<uint32_t, 16> bits{};
 
-    size_t size() const { return size_t(shape.columns * shape.rows); }
+    size_t size() const { return size_t(type.columns * type.rows); }
     /// Any type as a number.
     double number(size_t i) const;
     bool finite() const;

@@ -58,6 +58,9 @@ TEST(Overloads, most_texts_have_none) {
     EXPECT_FALSE(overloads("float f(float mix) { return mix(1.0, 2.0, 0.5); }"));
     EXPECT_FALSE(overloads("#if 0\nfloat mix(vec2 a) { return a.x; }\n#endif\n"));
     EXPECT_TRUE(overloads("float mix(vec2 a) { return a.x; }"));
+    EXPECT_TRUE(overloads("uint packHalf2x16(float a) { return uint(a); }"));
+    EXPECT_FALSE(overloads("float fma(vec2 a) { return a.x; }"));             // the site has no such function
+    EXPECT_FALSE(overloads("vec4 textureOffset(vec2 a) { return a.xyxy; }")); // its offset must stay constant
     EXPECT_EQ(join("float f() { return mix(1.0, 2.0, 0.5); }").functions, "");
 }
 

@@ -216,7 +216,7 @@ TEST(Specialise, works_out_once_what_a_loop_would_work_out_in_every_turn) {
                       "float map(vec2 p) { float angle = 0.3 * iTime; p *= turn(angle); return p.x; }\n"
                       "void main() { int i = 0; while (i++ < 9) map(vec2(i)); }"),
               "mat2 turn(float a) { float s = sin(a), c = cos(a); return mat2(c, -s, s, c); } "
-              "float tidemark_hoisted0 = 0.3 * iTime; mat2x2 tidemark_hoisted1 = turn ( tidemark_hoisted0 ); "
+              "float tidemark_hoisted0 = 0.3 * iTime; mat2 tidemark_hoisted1 = turn ( tidemark_hoisted0 ); "
               "float map(vec2 p) { float angle = 0.3 * iTime; p *= tidemark_hoisted1 ; return p.x; } "
               "void main() { int i = 0; while (i++ < 9) map(vec2(i)); }");
 }

@@ -1,5 +1,5 @@
 float root(float x) {
-    return sqrt(x); // born NaN: square root of a negative number; called from 6
+    return sqrt(x); // born NaN: sqrt of a negative number; called from 6
 }
 vec2 roots(float x) {
     float good = root(x);

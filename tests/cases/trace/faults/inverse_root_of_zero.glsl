@@ -1,5 +1,5 @@
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec2 uv = fragCoord / iResolution.xy;
-    float falloff = inversesqrt(floor(uv.x)); // born +Inf: inverse square root of zero
+    float falloff = inversesqrt(floor(uv.x)); // born +Inf: inversesqrt of a number that is not above 0
     fragColor = vec4(falloff);
 }

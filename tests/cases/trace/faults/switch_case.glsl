@@ -6,7 +6,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
         v = 1.0;
         break;
     default:
-        v = log(v - 4.0); // born NaN: logarithm of a negative number
+        v = log(v - 4.0); // born NaN: log of a number that is not above 0
     }
     fragColor = vec4(v);
 }

@@ -1,4 +1,4 @@
-#include "glsl/specialise/value_types.hpp"
+#include "glsl/syntax/types.hpp"
 
 #include <fmt/format.h>
 
@@ -6,30 +6,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-using Result = PureBuiltin::Result;
-
-constexpr PureBuiltin k_builtins[] = {
-    {"sin", Result::first, true},          {"cos", Result::first, true},
-    {"tan", Result::first, true},          {"asin", Result::first, true},
-    {"acos", Result::first, true},         {"atan", Result::widest, true},
-    {"sinh", Result::first, true},         {"cosh", Result::first, true},
-    {"tanh", Result::first, true},         {"exp", Result::first, true},
-    {"exp2", Result::first, true},         {"log", Result::first, true},
-    {"log2", Result::first, true},         {"pow", Result::widest, true},
-    {"sqrt", Result::first, true},         {"inversesqrt", Result::first, true},
-    {"normalize", Result::first, true},    {"length", Result::number, true},
-    {"distance", Result::number, true},    {"abs", Result::first, false},
-    {"sign", Result::first, false},        {"floor", Result::first, false},
-    {"ceil", Result::first, false},        {"fract", Result::first, false},
-    {"round", Result::first, false},       {"trunc", Result::first, false},
-    {"radians", Result::first, false},     {"degrees", Result::first, false},
-    {"mod", Result::widest, false},        {"min", Result::widest, false},
-    {"max", Result::widest, false},        {"clamp", Result::widest, false},
-    {"mix", Result::widest, false},        {"step", Result::widest, false},
-    {"smoothstep", Result::widest, false}, {"dot", Result::number, false},
-    {"cross", Result::vector3, false},     {"reflect", Result::first, false},
-};
 
 int digit(char c) {
     return c >= '2' && c <= '4' ? c - '0' : 0;
@@ -57,6 +33,8 @@ std::optional<ValueType> value_type(std::string_view name) {
 }
 
 std::string to_string(const ValueType& type) {
+    if (type.matrix() && type.columns == type.rows)
+        return fmt::format("mat{}", type.rows);
     if (type.matrix())
         return fmt::format("mat{}x{}", type.columns, type.rows);
     const std::string_view scalar = type.base == 'f'   ? "float"
@@ -114,30 +92,23 @@ std::optional<ValueType> type_of_member(const ValueType& vector, std::string_vie
     return std::nullopt;
 }
 
-const PureBuiltin* find_pure_builtin(std::string_view name) {
-    const auto found = std::find_if(std::begin(k_builtins), std::end(k_builtins),
-                                    [&](const PureBuiltin& builtin) { return builtin.name == name; });
-    return found == std::end(k_builtins) ? nullptr : found;
+TypeClass class_of_type(std::string_view word) {
+    if (const auto type = value_type(word))
+        return type->base == 'f' ? TypeClass::floating : TypeClass::whole;
+    if (word.starts_with("sampler") || word.starts_with("isampler") || word.starts_with("usampler"))
+        return TypeClass::sampler;
+    return word == "void" ? TypeClass::nothing : TypeClass::none;
 }
 
-std::optional<ValueType> type_of_call(const PureBuiltin& builtin, std::span<const ValueType> arguments) {
-    if (arguments.empty() ||
-        std::any_of(arguments.begin(), arguments.end(), [](const ValueType& type) { return type.matrix(); }))
-        return std::nullopt;
-    ValueType type = arguments[0];
-    for (const ValueType& argument : arguments) {
-        type.rows = builtin.result == Result::widest ? std::max(type.rows, argument.rows) : type.rows;
-        type.base = argument.base == 'f' ? 'f' : type.base;
-    }
-    constexpr std::string_view k_of_ints_too[] = {"abs", "sign", "min", "max", "clamp"};
-    if (std::find(std::begin(k_of_ints_too), std::end(k_of_ints_too), builtin.name) ==
-        std::end(k_of_ints_too))
-        type.base = 'f';
-    if (builtin.result == Result::number)
-        return ValueType{};
-    if (builtin.result == Result::vector3)
-        return ValueType{'f', 1, 3};
-    return type;
+std::string double_type_of(std::string_view type) {
+    return type == "float" ? "double" : is_float_type(type) ? fmt::format("d{}", type) : std::string(type);
+}
+
+std::string_view float_type_of(std::string_view double_type) {
+    if (double_type == "double")
+        return "float";
+    return double_type.starts_with('d') && is_float_type(double_type.substr(1)) ? double_type.substr(1)
+                                                                                : std::string_view{};
 }
 
 } // namespace tidemark::glsl
