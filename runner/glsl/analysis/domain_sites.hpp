@@ -39,8 +39,8 @@ struct Domain {
     std::string_view name;
     std::string_view arguments; ///< of its overload for floats
     std::string_view undefined;
-    std::string_view room; ///< how far it is to there: not above 0 where it is undefined
-    std::string_view told; ///< the argument that is written down
+    std::string_view room;     ///< how far it is to there: not above 0 where it is undefined
+    std::string_view argument; ///< the argument that is written down
     std::string_view fault;
 };
 const Domain* domain_of(std::string_view name);

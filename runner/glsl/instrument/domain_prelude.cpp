@@ -22,17 +22,17 @@ uniform int $count;
 uniform int $width;
 float $none;
 vec4 $place(){return vec4((gl_FragCoord.xy-0.5)*float($stride)+vec2($left,$down)+0.5,gl_FragCoord.zw);}
-void $note(int i,uint told,uint limit){
+void $note(int i,uint argument,uint limit){
 atomicAdd($out[4*i],1u);
 atomicMax($out[4*i+1],~uint(int(gl_FragCoord.x)+$width*int(gl_FragCoord.y)));
-atomicMax($out[4*i+2],told);
+atomicMax($out[4*i+2],argument);
 atomicMax($out[4*i+3],limit);
 }
-float $undefined(int i,float told,float plain){
-uint bits=floatBitsToUint(told);
+float $undefined(int i,float argument,float plain){
+uint bits=floatBitsToUint(argument);
 $note(i,bits<<1|bits>>31,0u);
 return $number==i?$value:$number<0?plain:0.0;}
-void $whole(int i,int told,uint limit){$note(i,uint(told)<<1|uint(told)>>31,limit);}
+void $whole(int i,int argument,uint limit){$note(i,uint(argument)<<1|uint(argument)>>31,limit);}
 void $near(inout float m,float room){m=room<m?room:m;}
 )";
 
@@ -70,7 +70,7 @@ std::string overloads(const Domain& domain, std::string_view prefix) {
     std::string text = fmt::format("float {0}{1}({2},int i,inout float m){{float r={1}({3});{0}near(m,{6});"
                                    "if({4})r={0}undefined(i,{5},r);return r;}}\n",
                                    prefix, domain.name, domain.arguments, passed, domain.undefined,
-                                   domain.told, domain.room);
+                                   domain.argument, domain.room);
     for (const unsigned shape : shapes(domain))
         for (size_t size = 2; size <= 4; ++size) {
             std::string declared, parts;

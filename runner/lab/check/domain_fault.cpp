@@ -24,8 +24,8 @@ bool is_bound(const glsl::DomainSite& site, const DomainReading& reading) {
 std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite& site,
                             const DomainReading& reading) {
     const std::string_view name = glsl::domain_name(text, site.node);
-    const auto whole = int32_t(reading.told);
-    const float number = std::bit_cast<float>(reading.told);
+    const auto whole = int32_t(reading.argument);
+    const float number = std::bit_cast<float>(reading.argument);
     const std::string excerpt = fmt::format("`{}`", shortened(text.excerpt(site.node)));
     switch (site.kind) {
     case DomainKind::quotient:
