@@ -42,7 +42,7 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
                    : fmt::format("{}: texel {} outside of 0 to {}, which is 0 on the site and here", excerpt,
                                  whole, reading.limit);
     case DomainKind::conversion:
-        return fmt::format("{} is {}, which no {} holds", excerpt, to_shortest(number),
+        return fmt::format("{} is {}, outside of the range of {}", excerpt, to_shortest(number),
                            site.to_unsigned ? "uint" : "int");
     default: break;
     }
