@@ -30,8 +30,8 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
     repeatable(
         command
             .add_option("--channel", request.channels,
-                        "What iChannelN reads, of Image or another pass: a file, noise, keyboard or none; "
-                        "to test with: black, white, nan, texel")
+                        "What iChannelN reads, of Image or another pass: a file, a name as in a directive "
+                        "(noise, keyboard), none; to test with: black, white, nan, texel")
             ->type_name("[PASS:]N=FILE|noise|none"));
     command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
         ->type_name("DIR")

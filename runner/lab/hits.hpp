@@ -21,8 +21,8 @@ struct Hits {
     void append(const Hits& other);
 };
 
-/// From the RGBA32F picture that mainHit makes. A distance that is no number, or below 0 but not a miss, is
-/// no answer; nor is one whose evaluations are no number from 0 on, which count as 0.
+/// From the RGBA32F picture that mainHit makes. A distance that is NaN, or below 0 but not a miss, is
+/// no answer; nor is one whose evaluations are NaN or below 0, which count as 0.
 Hits hits_of(const image::Image& image);
 
 /// A first hit that is off by more has met another wave, or stopped on its way to this one.

@@ -4,6 +4,18 @@
 
 namespace tidemark::scene {
 
+std::optional<ChannelInput> generated_input(std::string_view name) {
+    std::optional<ChannelInput> found;
+    const auto offer = [&]<class Kind>(std::type_identity<Kind>) {
+        if (k_traits<Kind>.by_name && k_traits<Kind>.name == name)
+            found = Kind{};
+    };
+    [&]<class... Kinds>(std::type_identity<std::variant<Kinds...>>) {
+        (offer(std::type_identity<Kinds>()), ...);
+    }(std::type_identity<ChannelInput>());
+    return found;
+}
+
 std::span<const std::filesystem::path> input_files(const ChannelInput& input) {
     return std::visit(
         []<class Kind>(const Kind& kind) -> std::span<const std::filesystem::path> {

@@ -1,5 +1,6 @@
-// What `iChannelN` may read: a type for each kind of input, and one table of what the house asks of a kind. A
-// new kind is a type, its place in ChannelInput and its row. Values only; nothing is loaded here.
+// What `iChannelN` may read: a type for each kind of input, and one table of what the program needs to know
+// of a kind. A new kind is a type, its place in ChannelInput and its row. Values only; nothing is loaded
+// here.
 #pragma once
 
 #include "scene/sampling.hpp"
@@ -131,13 +132,14 @@ enum class Changes { never, with_clock, with_keys, with_passes };
 struct InputTraits {
     size_t kind;                ///< k_kind of its type
     std::string_view name;      ///< as `inspect` calls one without a file
+    bool by_name;               ///< a directive and `--channel` ask for it by that name
     std::string_view site_type; ///< `ctype` in ShaderToy's JSON; empty: it is not exported
     ReadsFrom from;
     Changes changes;
     bool loaded;                        ///< iChN.loaded: there is something to read
     bool default_input;                 ///< may stand at a channel that nobody named an input for
     std::optional<TextureKind> texture; ///< nothing: each input says it, `texture()`
-    Sampling sampling;                  ///< where a directive names it
+    Sampling sampling;                  ///< where a directive or its name asks for it
 };
 
 template <class Kind, class... Kinds>
@@ -157,18 +159,18 @@ inline constexpr auto k_input_traits = [] {
     using enum TextureKind;
     constexpr std::nullopt_t each = std::nullopt; // says it itself
     return std::to_array<InputTraits>({
-        // kind             name             site_type   from     changes      loaded  default  texture  sampling
-        {k_kind<Unbound>,    "none",          "",         nothing, never,       false,  true,    each,    {}},
-        {k_kind<Noise>,      "noise",         "texture",  nothing, never,       true,   true,    each,    k_texture_sampling},
-        {k_kind<Picture>,    "picture",       "texture",  file,    never,       true,   false,   flat,    {}},
-        {k_kind<PassOutput>, "pass",          "buffer",   pass,    with_passes, true,   false,   each,    {}},
-        {k_kind<Cubemap>,    "cubemap",       "cubemap",  files,   never,       true,   false,   cube,    k_unflipped},
-        {k_kind<Volume>,     "volume",        "volume",   file,    never,       true,   false,   volume,  k_unflipped},
-        {k_kind<Keyboard>,   "keyboard",      "keyboard", nothing, with_keys,   true,   false,   flat,    k_keyboard_sampling},
-        {k_kind<Music>,      "silent signal", "music",    file,    with_clock,  true,   false,   flat,    {}},
-        {k_kind<Video>,      "video",         "video",    file,    with_clock,  true,   false,   flat,    {}},
-        {k_kind<StandIn>,    "stand-in",      "texture",  nothing, never,       true,   false,   each,    {}},
-        {k_kind<Constant>,   "one value",     "texture",  nothing, never,       true,   false,   flat,    {}},
+        // kind             name             by_name  site_type   from     changes      loaded  default  texture  sampling
+        {k_kind<Unbound>,    "none",          false,   "",         nothing, never,       false,  true,    each,    {}},
+        {k_kind<Noise>,      "noise",         true,    "texture",  nothing, never,       true,   true,    each,    k_texture_sampling},
+        {k_kind<Picture>,    "picture",       false,   "texture",  file,    never,       true,   false,   flat,    {}},
+        {k_kind<PassOutput>, "pass",          false,   "buffer",   pass,    with_passes, true,   false,   each,    {}},
+        {k_kind<Cubemap>,    "cubemap",       false,   "cubemap",  files,   never,       true,   false,   cube,    k_unflipped},
+        {k_kind<Volume>,     "volume",        false,   "volume",   file,    never,       true,   false,   volume,  k_unflipped},
+        {k_kind<Keyboard>,   "keyboard",      true,    "keyboard", nothing, with_keys,   true,   false,   flat,    k_keyboard_sampling},
+        {k_kind<Music>,      "silent signal", false,   "music",    file,    with_clock,  true,   false,   flat,    {}},
+        {k_kind<Video>,      "video",         false,   "video",    file,    with_clock,  true,   false,   flat,    {}},
+        {k_kind<StandIn>,    "stand-in",      false,   "texture",  nothing, never,       true,   false,   each,    {}},
+        {k_kind<Constant>,   "one value",     false,   "texture",  nothing, never,       true,   false,   flat,    {}},
     });
 }();
 // clang-format on
@@ -188,6 +190,9 @@ inline constexpr const InputTraits& k_traits = k_input_traits[k_kind<Kind>];
 constexpr const InputTraits& traits_of(const ChannelInput& input) {
     return k_input_traits[input.index()];
 }
+
+/// The input that a directive or `--channel` asks for by a name of the table; nothing for any other name.
+std::optional<ChannelInput> generated_input(std::string_view name);
 
 /// The files that it is read from.
 std::span<const std::filesystem::path> input_files(const ChannelInput& input);

@@ -174,7 +174,8 @@ private:
     /// What the scene brings along.
     Json own_file(const Channel& channel) {
         const auto files = input_files(channel.input);
-        const std::string source = files.empty() ? "stand-in" : relative(files.front());
+        const std::string source =
+            files.empty() ? std::string(traits_of(channel.input).name) : relative(files.front());
         warn(channel.where, fmt::format("ShaderToy has no '{}': choose something there", source));
         return {{"id", 0}, {"src", source}, {"ctype", traits_of(channel.input).site_type}};
     }

@@ -88,8 +88,8 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
     // The person's own path: no bounds.
     Channel channel;
     channel.input = test ? *test : input_of_name(what, {});
-    if (traits_of(channel.input).changes == Changes::with_keys)
-        channel.sampling = k_keyboard_sampling;
+    if (const InputTraits& traits = traits_of(channel.input); traits.by_name)
+        channel.sampling = traits.sampling;
     pass->channels[size_t(number[0] - '0')] = channel;
     note_files(scene, channel);
     return {};

@@ -61,10 +61,8 @@ bool names_a_pass(std::string_view name) {
 }
 
 ChannelInput input_of_name(std::string_view name, const fs::path& folder, PictureAs picture) {
-    if (name == "noise")
-        return Noise{};
-    if (name == "keyboard")
-        return Keyboard{};
+    if (auto generated = generated_input(name))
+        return *std::move(generated);
     if (names_a_pass(name))
         return Unbound{};
     fs::path file = (folder / name).lexically_normal();

@@ -16,8 +16,8 @@ MediaKind media_kind_of(const std::filesystem::path& file);
 /// What a file is that no extension says to be something else.
 enum class PictureAs { flat, cubemap };
 
-/// `noise`, `keyboard`, or a file relative to `folder`: picture or cubemap, sound, video or volume. What
-/// names a pass (`self`, `buffer_a`, a shader's file) is Unbound.
+/// A name of the table of inputs (`noise`, `keyboard`), or a file relative to `folder`: picture or cubemap,
+/// sound, video or volume. What names a pass (`self`, `buffer_a`, a shader's file) is Unbound.
 ChannelInput input_of_name(std::string_view name, const std::filesystem::path& folder,
                            PictureAs picture = PictureAs::flat);
 

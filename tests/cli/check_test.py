@@ -122,7 +122,7 @@ class Check(ProgramTest):
                                           " : vec4(uv, 0.0, 1.0);\n}\n")
         entry = self.verdicts(scene, "--probe", "inputs")["inputs"]
         self.assertEqual(entry["verdict"], "pass")
-        self.assertIn("NaN in iChannel0 comes to 50 % of the pixels", entry["found"])
+        self.assertIn("NaN in iChannel0 spreads to 50 % of the pixels", entry["found"])
 
     def test_the_inputs_of_buffers_are_asked_too(self):
         folder = self.folder / "project"
@@ -133,8 +133,8 @@ class Check(ProgramTest):
                   "    c = vec4(%s texture(iChannel1, p / iResolution.xy).r);\n}\n")
         (folder / "buffer_a.glsl").write_text(buffer % "0.5 *")
         entry = self.verdicts(folder, "--probe", "inputs")["inputs"]
-        self.assertEqual(entry["found"], "all numbers finite in 5 situations; "
-                                         "NaN in iChannel1 of Buffer A comes to 100 % of the pixels")
+        self.assertEqual(entry["found"], "no NaN or infinity in 5 situations; "
+                                         "NaN in iChannel1 of Buffer A spreads to 100 % of the pixels")
         (folder / "buffer_a.glsl").write_text(buffer % "1.0 /")
         entry = self.verdicts(folder, "--probe", "inputs")["inputs"]
         self.assertEqual(entry["verdict"], "fail")
@@ -229,7 +229,7 @@ class Check(ProgramTest):
         self.assertEqual(self.verdicts(smooth, "--probe", "sine")["sine"]["verdict"], "pass")
 
     def test_what_hangs_on_the_last_bit_is_told(self):
-        for text, manner in (("fract(p.x * 15625.3 + 0.37)", "products that go into sums unrounded"),
+        for text, manner in (("fract(p.x * 15625.3 + 0.37)", "fused multiply-add"),
                              ("fract(0.3 * p.x + (1e6 + iTime) - (1e6 - iTime))", "sums added up from the other end"),
                              ("fract(1e6 * sqrt(p.x))", "quotients, roots, powers and logarithms a unit off"),
                              ("fract(iTime * 1e5 + p.x)", "iTime, iResolution and iMouse a unit in the last place")):
@@ -237,7 +237,7 @@ class Check(ProgramTest):
                 scene = self.write("bits.glsl", f"void mainImage(out vec4 c, in vec2 p) {{ c = vec4({text}); }}\n")
                 entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
                 self.assertEqual(entry["verdict"], "warn", entry["found"])
-                self.assertRegex(entry["found"], "^another picture with " + manner)
+                self.assertRegex(entry["found"], "^the picture changes visibly with " + manner)
                 self.assertRegex(entry["found"], manner + r"[^,]*: \d+\.\d dB, 1 % of the pixels by 0\.\d+ or more")
 
     def test_a_product_and_a_sum_of_two_are_the_same_everywhere(self):
@@ -250,7 +250,7 @@ class Check(ProgramTest):
         scene = self.write("edge.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
                                         "    float a = 1.1 + 0.01 * p.x;\n    c = vec4(sqrt(a * a - a * a) / 2.0);\n}\n")
         found = self.verdicts(scene, "--probe", "rounding")["rounding"]["found"]
-        self.assertRegex(found, r"unrounded: 0 pixels without a number become \d+, \d+\.\d dB over the rest")
+        self.assertRegex(found, r"fused multiply-add: 0 pixels with NaN or infinity become \d+, \d+\.\d dB over the rest")
 
     def test_a_variable_without_a_value_is_named(self):
         scene = self.write("sum.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float sum;\n"
@@ -259,8 +259,8 @@ class Check(ProgramTest):
         self.assertEqual(entry["verdict"], "warn")
         self.assertEqual(entry["found"],
                          "without a value, which is 0 on ShaderToy's site and here, and anything elsewhere: "
-                         f"sum ({scene}:4, on some way to there); every way through the functions that run was "
-                         "followed, whatever its conditions are")
+                         f"sum ({scene}:4, on some path); every path through the functions that run was "
+                         "followed, whatever the conditions")
 
     def test_structs_branches_outs_and_returns_without_a_value_are_named(self):
         scene = self.write("ways.glsl", "struct I { float d; }; struct S { I i; vec3 n; };\n"
@@ -275,9 +275,9 @@ class Check(ProgramTest):
                                         "        branch); }\n")
         entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
         self.assertEqual(entry["verdict"], "warn")
-        for said in (f"s ({scene}:3, on some way to there)", f"branch ({scene}:12, on some way to there)",
-                     f"hit ({scene}:4, an `out` that some way to the end does not write)",
-                     f"side ({scene}:7, on some way to its end without a `return`)"):
+        for said in (f"s ({scene}:3, on some path)", f"branch ({scene}:12, on some path)",
+                     f"hit ({scene}:4, an `out` that some path does not write)",
+                     f"side ({scene}:7, on some path without a `return`)"):
             self.assertIn(said, entry["found"])
 
     def test_what_every_way_assigns_is_not_named(self):
@@ -287,15 +287,15 @@ class Check(ProgramTest):
                                         "    c = vec4(a, side(p.x, b), v); c.x += b; }\n")
         entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
         self.assertEqual((entry["verdict"], entry["found"]),
-                         ("pass", "nothing is read without a value: every way through the functions that run was "
-                                  "followed, whatever its conditions are"))
+                         ("pass", "nothing is read without a value: every path through the functions that run was "
+                                  "followed, whatever the conditions"))
 
     def test_a_derivative_where_neighbours_went_another_way_is_named(self):
         scene = self.write("edge.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
                                         "    if (p.x > p.y)\n        c += fwidth(p.x);\n}\n")
         entry = self.verdicts(scene, "--probe", "divergence")["divergence"]
         self.assertEqual(entry["verdict"], "warn")
-        self.assertIn(f"fwidth ({scene}:4, parted at {scene}:3)", entry["found"])
+        self.assertIn(f"fwidth ({scene}:4, neighbours may branch at {scene}:3)", entry["found"])
 
     def test_a_derivative_behind_an_early_return_is_named(self):
         scene = self.write("edge.glsl", "float soft(float x) { return fwidth(x); }\n"
@@ -303,8 +303,8 @@ class Check(ProgramTest):
                                         "    if (p.x > p.y)\n        return;\n    c += fwidth(p.x) + soft(p.y);\n}\n")
         entry = self.verdicts(scene, "--probe", "divergence")["divergence"]
         self.assertEqual(entry["verdict"], "warn")
-        self.assertIn(f"fwidth ({scene}:1, called behind the return at {scene}:5), "
-                      f"fwidth ({scene}:6, behind the return at {scene}:5)", entry["found"])
+        self.assertIn(f"fwidth ({scene}:1, called after the return at {scene}:5), "
+                      f"fwidth ({scene}:6, after the return at {scene}:5)", entry["found"])
 
     def test_halves_are_drawn_where_the_text_asks_for_them(self):
         text = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract((p.x + 2048.0) * 0.5)); }\n"
@@ -313,7 +313,7 @@ class Check(ProgramTest):
         scene = self.write("medium.glsl", "precision mediump float;\n" + text)
         entry = self.verdicts(scene, "--probe", "mediump")["mediump"]
         self.assertEqual(entry["verdict"], "warn", entry["found"])
-        self.assertIn("sums and products in halves", entry["found"])
+        self.assertIn("sums and products in half floats", entry["found"])
 
     def test_sound_shaders_stay_silent(self):
         probes = [word for name in ("unassigned", "undefined", "sine", "rounding", "divergence", "mediump")
@@ -369,11 +369,17 @@ class Check(ProgramTest):
     def test_an_unknown_probe_names_those_there_are(self):
         result = self.run_program("check", str(self.write("sound.glsl", SOUND)), "--probe", "luck")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("--probe luck: there are times, frames", result.stderr)
+        self.assertIn("--probe luck: there are times, ", result.stderr)
 
     def test_a_probe_answers_to_its_name_of_version_0_1(self):
         found = self.verdicts(self.write("sound.glsl", SOUND), "--probe", "jumps", "--probe", "witnesses")
         self.assertEqual(set(found), {"time_discontinuity", "overstep"})
+
+    def test_a_promise_is_read_under_its_name_of_version_0_1(self):
+        scene = self.write("over.glsl", FAULTS["overstep"])
+        for name in ("most_overstep_percent", "most_witness_percent"):
+            self.write("over.check.json", f'{{"{name}": 100}}')
+            self.assertEqual(self.verdicts(scene, "--probe", "overstep")["overstep"]["verdict"], "pass")
 
     def test_list_needs_no_scene(self):
         self.assertIn(b"overstep", self.succeed("check", "--list").stdout)

@@ -120,7 +120,7 @@ class NotANumber(Truth):
             self.assertAlmostEqual(mine["rmse"] / whole["rmse"], 1, places=4)
             self.assertAlmostEqual(mine["psnr_db"], whole["psnr_db"], places=3)
             self.assertEqual((mine["no_truth_pixels"], mine["non_finite_pixels"]), (18, 18))
-        self.assertIn("the truth about the pictures is NaN or infinite in 18 pixels, of which no error is told",
+        self.assertIn("the truth about the pictures is NaN or infinite in 18 pixels, whose error is unknown",
                       study["verdict"])
         self.assertIn("is NaN or infinite in 18 pixels", self.words)
         self.assertIn("It is NaN or infinite in 18 pixels", self.page())

@@ -32,7 +32,7 @@ TEST_F(Threads, OnePixelThatIsAnotherFails) {
         return picture;
     });
     EXPECT_EQ(answer.verdict, Verdict::fail);
-    EXPECT_EQ(answer.sentence, "1 of 27200 pixels are others when one thread draws them all");
+    EXPECT_EQ(answer.sentence, "1 of 27200 pixels differ when one thread draws them all");
     EXPECT_TRUE(answer.where && answer.picture);
 }
 
@@ -41,7 +41,7 @@ TEST_F(Threads, WithoutAWayToDrawSoThereIsNoAnswer) {
     const Answer answer =
         ask([](const FrameState&) -> Result<image::Image> { return fail(ErrorCode::timed_out, "too slow"); });
     EXPECT_EQ(answer.verdict, Verdict::not_applicable);
-    EXPECT_EQ(answer.sentence, "not to be had: too slow");
+    EXPECT_EQ(answer.sentence, "it could not be drawn with one thread: too slow");
 }
 
 } // namespace

@@ -29,12 +29,12 @@ Json to_json(const Diagnostic& diagnostic) {
             {"message", diagnostic.message}};
 }
 
-/// What the driver says of the texts as the site would compile them. One place is told once: of Common, that
-/// stands in front of every pass, and of what was `found` by reading.
+/// What the driver says of the texts as the site would compile them. One place is reported once: of Common,
+/// that stands in front of every pass, and of what was `found` by reading.
 void add_refusals(const scene::Scene& scene, Diagnostics& found) {
-    const auto is_told = [&found](const SourceLocation& where) {
-        return std::ranges::any_of(found, [&](const Diagnostic& told) {
-            return told.where.line > 0 && told.where.file == where.file && told.where.line == where.line;
+    const auto is_known = [&found](const SourceLocation& where) {
+        return std::ranges::any_of(found, [&](const Diagnostic& known) {
+            return known.where.line > 0 && known.where.file == where.file && known.where.line == where.line;
         });
     };
     for (const scene::Pass& pass : scene.passes) {
@@ -45,7 +45,7 @@ void add_refusals(const scene::Scene& scene, Diagnostics& found) {
         auto refusals = glsl::parse_driver_log(linked.error(), source);
         std::erase_if(refusals, [&](const glsl::DriverMessage& refusal) {
             return refusal.follows || refusal.diagnostic.severity != Severity::error ||
-                   is_told(refusal.diagnostic.where);
+                   is_known(refusal.diagnostic.where);
         });
         for (auto& [refusal, follows] : refusals) {
             if (refusal.where.file.empty())

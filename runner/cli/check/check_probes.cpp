@@ -143,12 +143,12 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
         const auto run = run_forked(
             [&](const Tell& tell) {
                 if (auto done = ask_all(request, scene, promises, probes, start, tell); !done)
-                    tell(dump(told(done.error())));
+                    tell(dump(to_json(done.error())));
             },
             left,
             [&](std::string_view line) {
                 const Json json = Json::parse(line);
-                if (auto error = told_error(json))
+                if (auto error = error_of(json))
                     heard = fail(*std::move(error));
                 if (!heard)
                     return;

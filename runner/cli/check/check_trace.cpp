@@ -38,7 +38,7 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
                            : "every pixel is finite; --hidden looks for a NaN that was masked on "
                              "the way\n";
     if (!run.ended.empty())
-        text += fmt::format("  note: {}: what is said above is not the whole\n", run.ended);
+        text += fmt::format("  note: {}: the above is incomplete\n", run.ended);
     const int code = run.found ? exit_code(ErrorCode::check_failed) : 0;
     return put(options.json ? dump(json, 2) + "\n" : text).map([code] { return code; });
 }

@@ -1,8 +1,8 @@
 #include "cli/check/one_thread.hpp"
 
 #include "base/try.hpp"
+#include "cli/check/error_json.hpp"
 #include "cli/check/state_json.hpp"
-#include "cli/check/told.hpp"
 #include "cli/supervisor.hpp"
 #include "gl/capabilities.hpp"
 #include "platform/headless_context.hpp"
@@ -23,7 +23,7 @@ Result<image::Image> picture(const scene::Scene& scene, const std::string& devic
 }
 
 /// By their bits: JSON knows no NaN.
-Json told(const image::Image& picture) {
+Json bits_of(const image::Image& picture) {
     Json bits = Json::array();
     for (const float sample : picture.f32())
         bits.push_back(std::bit_cast<uint32_t>(sample));
@@ -36,7 +36,7 @@ Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const std::st
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
         ::setenv("LP_NUM_THREADS", "0", 1); // none beside the one that asks
         const auto drawn = picture(scene, device, frame_state_of(Json::parse(question)));
-        tell(dump(drawn ? told(*drawn) : told(drawn.error())));
+        tell(dump(drawn ? bits_of(*drawn) : to_json(drawn.error())));
     });
 }
 
@@ -51,7 +51,7 @@ Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& s
     if (run.output.empty())
         return fail(ErrorCode::load, crash_text(run.signal, run.doing));
     const Json bits = Json::parse(run.output);
-    if (auto error = told_error(bits))
+    if (auto error = error_of(bits))
         return fail(*std::move(error));
     image::Image picture(state.extent, 3, image::SampleType::f32);
     std::ranges::transform(bits, picture.f32().begin(),

@@ -11,7 +11,7 @@ namespace tidemark::cli {
 /// A process that sleeps until `drawn_by` wakes it. To be made before this one has a context.
 Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const std::string& device);
 
-/// Whether the driver of the context that is current is one that can be told.
+/// Whether the driver of the context that is current lets itself be set to one thread.
 bool counts_threads();
 
 /// Once: RGB of Image as ProbeBench::picture has it.

@@ -1,7 +1,7 @@
 // A probe that was asked, with its answer, and its way from the process that asks to the one that reports.
 #pragma once
 
-#include "cli/check/told.hpp"
+#include "cli/check/error_json.hpp"
 #include "cli/check/trace_apart.hpp"
 #include "lab/check/probe.hpp"
 

@@ -14,9 +14,9 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr std::chrono::milliseconds k_between_frames_told(200);
+constexpr std::chrono::milliseconds k_between_frames_sent(200);
 
-Json told(const lab::NanTrace& trace) {
+Json message_of(const lab::NanTrace& trace) {
     return {{"text", to_text(trace)}, {"trace", to_json(trace)}};
 }
 
@@ -26,18 +26,18 @@ Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const Trac
     const render::FrameState state = job.request.states(job.request.frame);
     auto renderer = TRY(render::Renderer::create(scene, {state.extent, image::SampleType::f32, state.pass}));
     lab::TraceRequest request = job.request;
-    request.progress = [&](const lab::NanTrace& found) { tell(dump(told(found))); };
-    auto told_last = std::chrono::steady_clock::now();
+    request.progress = [&](const lab::NanTrace& found) { tell(dump(message_of(found))); };
+    auto last_sent = std::chrono::steady_clock::now();
     request.stepping = [&](int frame) {
-        if (const auto now = std::chrono::steady_clock::now(); now - told_last > k_between_frames_told) {
-            told_last = now;
+        if (const auto now = std::chrono::steady_clock::now(); now - last_sent > k_between_frames_sent) {
+            last_sent = now;
             tell(dump(Json{{"frame", frame}}));
         }
     };
     return lab::trace_nan(renderer, request);
 }
 
-/// The last of what was found, and the frame that was told last.
+/// The last of what was found, and the frame that was sent last.
 struct Heard {
     Json line;
     int frame = -1;
@@ -59,15 +59,15 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
         [&](const Tell& tell) {
             const auto found = trace(scene, job, tell);
             if (!found)
-                tell(dump(told(found.error())));
+                tell(dump(to_json(found.error())));
             else
-                tell(dump(*found ? told(**found) : Json{{"finite", true}}));
+                tell(dump(*found ? message_of(**found) : Json{{"finite", true}}));
         },
         seconds, [&](std::string_view text) { heard.hear(text); });
     if (!run)
         return fail(run.error());
     const Json& line = heard.line;
-    if (auto error = told_error(line))
+    if (auto error = error_of(line))
         return fail(*std::move(error));
     TraceFound result;
     result.found = line.contains("trace");

@@ -2,7 +2,7 @@
 // nor a shader without end is more than an answer.
 #pragma once
 
-#include "cli/check/told.hpp"
+#include "cli/check/error_json.hpp"
 #include "lab/trace/nan_trace.hpp"
 #include "scene/scene.hpp"
 
@@ -16,7 +16,7 @@ struct TraceJob {
     lab::TraceRequest request;
 };
 
-/// The best that was told until the end.
+/// The best that was reported until the end.
 struct TraceFound {
     bool found = false;  ///< something is not finite
     std::string text{};  ///< for people, whole lines

@@ -14,9 +14,9 @@ using Names = std::unordered_set<std::string_view>;
 
 /// Finds what may differ between pixels, what is made of such values, or set where they decided the way; and
 /// from that, where neighbours part.
-class Partings {
+class DivergentRegions {
 public:
-    Partings(const ParsedText& text, const TreeFacts& facts)
+    DivergentRegions(const ParsedText& text, const TreeFacts& facts)
         : text_(text), tree_(text.tree()), facts_(facts), differs_(tree_.nodes.size(), false) {
         names_.insert("gl_FragCoord");
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
@@ -32,8 +32,9 @@ public:
             return DivergentBranch{condition};
         if (const NodeId exit = exit_before(function, node); exit != k_no_node)
             return DivergentBranch{exit, true};
-        const auto parted = parted_functions_.find(function == k_no_node ? "" : text_.word_of(function));
-        return parted == parted_functions_.end() ? std::nullopt : std::optional(parted->second);
+        const auto divergent =
+            divergent_functions_.find(function == k_no_node ? "" : text_.word_of(function));
+        return divergent == divergent_functions_.end() ? std::nullopt : std::optional(divergent->second);
     }
 
 private:
@@ -60,7 +61,7 @@ private:
         for (NodeId inner = node, outer = tree_[node].parent; inner != scope && inner != k_no_node;
              inner = outer, outer = tree_[outer].parent)
             if (const NodeId condition = condition_over(inner, outer);
-                condition != k_no_node && (differs_[condition] || parted_loops_.contains(outer)))
+                condition != k_no_node && (differs_[condition] || divergent_loops_.contains(outer)))
                 return condition;
         return k_no_node;
     }
@@ -141,7 +142,7 @@ private:
                 add(names_, text_.word_of(base_of(tree_, first)));
             return;
         case NodeKind::declarator:
-            if (differs_[id] || (first != k_no_node && parted(id)))
+            if (differs_[id] || (first != k_no_node && is_divergent(id)))
                 add(names_, text_.word_of(id));
             return;
         case NodeKind::call: call(id); return;
@@ -152,15 +153,15 @@ private:
     }
 
     /// By a condition, or where the function is called.
-    bool parted(NodeId id) const {
+    bool is_divergent(NodeId id) const {
         const NodeId function = tree_.around(id, NodeKind::function);
-        return function != k_no_node && (parted_functions_.contains(text_.word_of(function)) ||
+        return function != k_no_node && (divergent_functions_.contains(text_.word_of(function)) ||
                                          condition_within(function, id) != k_no_node);
     }
 
     /// Behind an exit a function's own variables are for those who stayed; behind a `continue` nothing is.
     bool set_by_some(NodeId assignment) const {
-        if (parted(assignment))
+        if (is_divergent(assignment))
             return true;
         const NodeId function = tree_.around(assignment, NodeKind::function);
         const NodeId exit = exit_before(function, assignment);
@@ -176,9 +177,9 @@ private:
         const std::string_view name = called_name(text_, id);
         const FunctionFacts* function = name.empty() ? nullptr : facts_.function(name);
         if (function) {
-            if (auto parting = before(id)) {
-                parting->called = true;
-                found_ += parted_functions_.emplace(name, *parting).second;
+            if (auto branch = before(id)) {
+                branch->called = true;
+                found_ += divergent_functions_.emplace(name, *branch).second;
             }
             if (discarding_.contains(name))
                 leave(id);
@@ -206,14 +207,14 @@ private:
         const bool continues = tree_[id].kind == NodeKind::jump && text_.word_of(id) == "continue";
         if (discards)
             add(discarding_, text_.word_of(function));
-        if (returns && (differs_[id] || parted(id)))
+        if (returns && (differs_[id] || is_divergent(id)))
             add(functions_, text_.word_of(function));
         if (returns || discards)
             leave(id, function, discards && partly_.contains(called_name_or_none(id)));
         else if (const NodeId around = left_by(id); around != k_no_node && continues)
             leave(id, body_of(around), false);
         else if (around != k_no_node && condition_within(around, id) != k_no_node)
-            found_ += parted_loops_.insert(around).second;
+            found_ += divergent_loops_.insert(around).second;
     }
 
     /// `partly`: of itself, whatever is around it.
@@ -233,7 +234,7 @@ private:
             add(partly_, text_.word_of(function));
         for (NodeId around = tree_[id].parent; around != function; around = tree_[around].parent)
             if (is_loop(tree_[around].kind))
-                found_ += parted_loops_.insert(around).second;
+                found_ += divergent_loops_.insert(around).second;
     }
 
     std::string_view called_name_or_none(NodeId id) const {
@@ -266,10 +267,10 @@ private:
     Names functions_;           ///< by what they give back
     Names discarding_;          ///< functions that may
     Names partly_;              ///< functions in which some pixels are discarded
-    std::unordered_map<std::string_view, DivergentBranch> parted_functions_; ///< by where they are called
+    std::unordered_map<std::string_view, DivergentBranch> divergent_functions_; ///< by where they are called
     std::unordered_map<NodeId, std::vector<Exit>> exits_; ///< of a function, as they stand in it
     std::unordered_map<NodeId, Names> locals_;            ///< of a function
-    std::unordered_set<NodeId> parted_loops_;
+    std::unordered_set<NodeId> divergent_loops_;
 };
 
 } // namespace
@@ -286,7 +287,7 @@ std::vector<Divergent> find_divergent(const ParsedText& text, const TreeFacts& f
                            (builtin->is(Trait::implicit_lod) && sampler != k_no_node &&
                             tree[sampler].kind == NodeKind::name && has_mipmaps(text.word_of(sampler))));
     };
-    std::optional<Partings> partings; // most texts need none
+    std::optional<DivergentRegions> regions; // most texts need none
     std::vector<Divergent> found;
     for (NodeId id = 1; id < tree.nodes.size(); ++id) {
         if (tree[id].kind != NodeKind::call || !needs_neighbours(id))
@@ -294,10 +295,10 @@ std::vector<Divergent> find_divergent(const ParsedText& text, const TreeFacts& f
         const NodeId function = tree.around(id, NodeKind::function);
         if (function == k_no_node || !reached.contains(text.word_of(function)))
             continue;
-        if (!partings)
-            partings.emplace(text, facts);
-        if (const auto parting = partings->before(id))
-            found.push_back({id, *parting});
+        if (!regions)
+            regions.emplace(text, facts);
+        if (const auto branch = regions->before(id))
+            found.push_back({id, *branch});
     }
     std::ranges::sort(found, {}, [&](const Divergent& each) { return tree[each.call].begin; });
     return found;

@@ -23,17 +23,17 @@ uniform int $count;
 uniform int $width;
 float $none;
 vec4 $place(){return vec4((gl_FragCoord.xy-0.5)*float($stride)+vec2($left,$down)+0.5,gl_FragCoord.zw);}
-void $note(int i,uint told,uint limit){
+void $note(int i,uint argument,uint limit){
 atomicAdd($out[4*i],1u);
 atomicMax($out[4*i+1],~uint(int(gl_FragCoord.x)+$width*int(gl_FragCoord.y)));
-atomicMax($out[4*i+2],told);
+atomicMax($out[4*i+2],argument);
 atomicMax($out[4*i+3],limit);
 }
-float $undefined(int i,float told,float plain){
-uint bits=floatBitsToUint(told);
+float $undefined(int i,float argument,float plain){
+uint bits=floatBitsToUint(argument);
 $note(i,bits<<1|bits>>31,0u);
 return $number==i?$value:$number<0?plain:0.0;}
-void $whole(int i,int told,uint limit){$note(i,uint(told)<<1|uint(told)>>31,limit);}
+void $whole(int i,int argument,uint limit){$note(i,uint(argument)<<1|uint(argument)>>31,limit);}
 void $near(inout float m,float room){m=room<m?room:m;}
 )";
 
@@ -77,7 +77,7 @@ std::string overloads(const BuiltinFunction& function, std::string_view prefix) 
         "float {0}{1}({2},int i,inout float m){{float r={1}({3});{0}near(m,{6});"
         "if({4})r={0}undefined(i,{5},r);return r;}}\n",
         prefix, function.name, for_each([&](size_t i) { return fmt::format("float {}", k_names[i]); }),
-        for_each([&](size_t i) { return k_names[i]; }), undefined, domain.told, domain.room);
+        for_each([&](size_t i) { return k_names[i]; }), undefined, domain.argument, domain.room);
     for (const BuiltinOverload& overload : overloads_of(function)) {
         const auto type = [&](size_t i) { return overload.parameters[i].type; };
         if (overload.parameters.size() != count || overload.result == "float")

@@ -152,13 +152,13 @@ DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, Domain
     return DomainWatcher(text, facts).run(scope);
 }
 
-std::string_view domain_fault(std::string_view name, float told) {
+std::string_view domain_fault(std::string_view name, float argument) {
     const BuiltinFunction* const function = find_builtin(name);
     if (!function || !function->domain)
         return "of 0 and 0"; // a quotient
     const Domain& domain = *function->domain;
     const UndefinedWhere* const broken =
-        domain.broken(domain.told == "y" ? Arguments{0, told, 0} : Arguments{told, 0, 0});
+        domain.broken(domain.argument == "y" ? Arguments{0, argument, 0} : Arguments{argument, 0, 0});
     return (broken ? broken : domain.undefined)->fault;
 }
 

@@ -1,6 +1,6 @@
 // A shader that watches how near its values come to where GLSL leaves them undefined, and which way its
 // comparisons go. Text in, text out; what it sees goes into a buffer of words whose layout stands here. It
-// can be told to take another value for what such a call gives, as another GPU may, and to draw a part of its
+// can be made to take another value for what such a call gives, as another GPU may, and to draw a part of its
 // picture: every so many pixels from a corner on.
 #pragma once
 
@@ -49,10 +49,10 @@ struct DomainLayout {
 
 /// What is known of a site behind a draw.
 struct DomainReading {
-    uint32_t count = 0; ///< how often it was undefined
-    uint32_t pixel = 0; ///< the first that saw it
-    uint32_t told = 0;  ///< bits: a float, or of whole sites an int
-    uint32_t limit = 0; ///< of an index: the last one there is; of a quotient 1: of whole numbers
+    uint32_t count = 0;    ///< how often it was undefined
+    uint32_t pixel = 0;    ///< the first that saw it
+    uint32_t argument = 0; ///< bits: a float, or of whole sites an int
+    uint32_t limit = 0;    ///< of an index: the last one there is; of a quotient 1: of whole numbers
 };
 DomainReading reading_of(const DomainWatch& watch, std::span<const uint32_t> words, size_t site);
 
@@ -66,8 +66,8 @@ DomainRoom room_of(const DomainWatch& watch, std::span<const uint32_t> words, si
 /// `facts` are the text's own.
 DomainWatch watch_domains(const ParsedText& text, const TreeFacts& facts, DomainScope scope);
 
-/// "of a negative number": what is wrong where a float function of that name is undefined; `told` is the
+/// "of a negative number": what is wrong where a float function of that name is undefined; `argument` is the
 /// argument that was written down.
-std::string_view domain_fault(std::string_view name, float told);
+std::string_view domain_fault(std::string_view name, float argument);
 
 } // namespace tidemark::glsl

@@ -29,7 +29,7 @@ struct UndefinedWhere {
 struct Domain {
     UndefinedWhere undefined[2]; ///< there may be only one
     std::string_view room;       ///< GLSL: how far it is to there; not above 0 where it is undefined
-    std::string_view told = "x"; ///< the argument that is written down
+    std::string_view argument = "x"; ///< the argument that is written down
 
     /// What is wrong with the arguments; nullptr: nothing.
     const UndefinedWhere* broken(const Arguments& arguments) const;

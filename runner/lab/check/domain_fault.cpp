@@ -24,8 +24,8 @@ bool is_bound(const glsl::DomainSite& site, const DomainReading& reading) {
 std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite& site,
                             const DomainReading& reading) {
     const std::string_view name = glsl::domain_name(text, site.node);
-    const auto whole = int32_t(reading.told);
-    const float number = std::bit_cast<float>(reading.told);
+    const auto whole = int32_t(reading.argument);
+    const float number = std::bit_cast<float>(reading.argument);
     const std::string excerpt = fmt::format("`{}`", shortened(text.excerpt(site.node)));
     switch (site.kind) {
     case DomainKind::quotient:
@@ -42,7 +42,7 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
                    : fmt::format("{}: texel {} outside of 0 to {}, which is 0 on the site and here", excerpt,
                                  whole, reading.limit);
     case DomainKind::conversion:
-        return fmt::format("{} is {}, which no {} holds", excerpt, to_shortest(number),
+        return fmt::format("{} is {}, outside of the range of {}", excerpt, to_shortest(number),
                            site.to_unsigned ? "uint" : "int");
     default: break;
     }

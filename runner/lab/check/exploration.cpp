@@ -166,30 +166,30 @@ private:
         for (size_t i = 0; i < watch.sites.size(); ++i)
             if (const glsl::DomainReading reading = reading_of(watch, words, i);
                 reading.count > 0 && outside_.insert({pass.text.pass, i}).second)
-                tell(pass, preview, grid, at, i, reading);
+                record(pass, preview, grid, at, i, reading);
         finite_ = finite_ && finite;
     }
 
     void reach(size_t objective, bool reached) { reached_[objective] = reached_[objective] || reached; }
 
     /// What is new, with its operand in the first pixel that showed it.
-    void tell(WatchedPass& pass, const PassPreview& preview, const PixelGrid& grid, const FrameState& at,
-              size_t site, glsl::DomainReading reading) {
+    void record(WatchedPass& pass, const PassPreview& preview, const PixelGrid& grid, const FrameState& at,
+                size_t site, glsl::DomainReading reading) {
         const glsl::DomainWatch& watch = pass.watched.watch();
         const std::string place = place_of_site(*pass.text.text, watch.sites[site]);
         if (place.empty())
             return;
-        Outside& told =
+        Outside& seen =
             result_.outside.emplace_back(Outside{at, grid, is_bound(watch.sites[site], reading), {}});
         if (pass.text.pass != bench_.scene().image_index())
-            told.where.pass = bench_.scene().passes[pass.text.pass].name;
-        if (!told.bound)
+            seen.where.pass = bench_.scene().passes[pass.text.pass].name;
+        if (!seen.bound)
             return;
         const glm::ivec2 pixel = pass.watched.pixel(grid, reading.pixel);
         const auto alone = reading_of(watch, pass.watched.draw(preview, {0, pixel.x, pixel.y}), site);
         if (alone.count > 0)
             reading = alone;
-        told.sentence = fmt::format("{}: {}, at pixel {},{} at {:.6g} s", place,
+        seen.sentence = fmt::format("{}: {}, at pixel {},{} at {:.6g} s", place,
                                     domain_sentence(*pass.text.text, watch.sites[site], reading), pixel.x,
                                     pixel.y, at.seconds());
     }

@@ -11,7 +11,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// The picture in grey, pixels that are no number magenta.
+/// The picture in grey, pixels with a NaN or an infinity magenta.
 struct Marked {
     image::Image map;
     size_t bad = 0; ///< pixels
@@ -40,11 +40,11 @@ std::string kinds(const image::FiniteCensus& census) {
     return text;
 }
 
-/// Nothing when the scene as it stands is finite; otherwise what `times` has said already.
+/// Nothing when the scene as it stands is finite; otherwise `times` has reported it already.
 Result<std::optional<Answer>> known_before(ProbeBench& bench) {
     const auto passes = TRY(bench.passes(plain_state()));
     if (not_finite(bench, plain_state(), passes))
-        return Answer{Verdict::not_applicable, "not finite as the scene stands: see times"};
+        return Answer{Verdict::not_applicable, "NaN or infinity in the scene as it stands: see times"};
     return std::optional<Answer>{};
 }
 
@@ -58,8 +58,8 @@ std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& stat
             continue;
         Marked shown = marked(pass.picture);
         Answer answer{Verdict::fail,
-                      fmt::format("{} of {} pixels of {} ({}), first at pixel {},{}", shown.bad,
-                                  pass.picture.extent.pixels(), pass.pass, kinds(census),
+                      fmt::format("{} in {} of {} pixels of {}, first at pixel {},{}", kinds(census),
+                                  shown.bad, pass.picture.extent.pixels(), pass.pass,
                                   census.first_non_finite->x, census.first_non_finite->y),
                       state, std::move(shown.map), true};
         answer.where->pass = pass.pass == bench.scene().image().name ? "" : pass.pass;
@@ -84,11 +84,11 @@ Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states) {
             answer = *std::move(fault);
     }
     answer.sentence += bad > 0 ? fmt::format("; in {} of {} situations", bad, states.size())
-                               : fmt::format("all numbers finite in {} situations", states.size());
+                               : fmt::format("no NaN or infinity in {} situations", states.size());
     if (subnormal > 0)
-        answer.sentence += fmt::format("; subnormal ones in {}", subnormal);
+        answer.sentence += fmt::format("; subnormal numbers in {}", subnormal);
     if (beyond_half > 0)
-        answer.sentence += fmt::format("; beyond the range of halves in {}", beyond_half);
+        answer.sentence += fmt::format("; numbers too large for half floats in {}", beyond_half);
     return answer;
 }
 

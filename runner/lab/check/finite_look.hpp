@@ -13,7 +13,7 @@ namespace tidemark::lab {
 std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
                                  const std::vector<PassPicture>& passes);
 
-/// Asks the same of every situation; the first bad one is told.
+/// Asks the same of every situation; the first bad one is reported.
 Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states);
 
 /// As `look`, of situations that are new only where the plain one is clean.

@@ -54,9 +54,10 @@ std::string alikeness(const image::Image& before, const image::Image& after) {
         for (size_t i = pixel * channels; i < (pixel + 1) * channels; ++i)
             squares += std::pow(double(before.f32()[i]) - double(after.f32()[i]), 2);
     }
-    const std::string counted = fmt::format("{} pixels without a number become {}", none_before, none_after);
+    const std::string counted =
+        fmt::format("{} pixels with NaN or infinity become {}", none_before, none_after);
     return numbers == 0
-               ? counted + ", and no pixel has one in both"
+               ? counted + ", and no pixel is finite in both"
                : fmt::format("{}, {} over the rest", counted, decibels(squares / double(numbers * channels)));
 }
 

@@ -36,11 +36,11 @@ std::span<const Probe> all_probes() {
         {"knobs", "NaN or infinity with each knob at both ends and in the middle of its range", ask_knobs},
         {"hashes", "random numbers from large sines or products, which differ from one GPU to the next",
          ask_hashes},
-        {"unassigned", "variables, members and `out` that some way leaves without a value, missing returns",
+        {"unassigned", "variables, members and `out` that some path leaves without a value, missing returns",
          ask_unassigned},
         {"divergence",
-         "derivatives, and textures that choose a mipmap, where neighbouring pixels may have gone "
-         "another way",
+         "derivatives, and textures that choose a mipmap, where neighbouring pixels may have taken "
+         "another branch",
          ask_divergence},
         {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
          ask_repeats},
@@ -59,7 +59,8 @@ std::span<const Probe> all_probes() {
          "scene states (mainHit, march_field)",
          ask_gradient},
         {"lipschitz_sweep",
-         "the same, and distances that are no number, with each knob at both ends, at 0, 1/2, 2 and 4 times "
+         "rays with a sample below the surface, and distances that are NaN, with each knob at both ends, at "
+         "0, 1/2, 2 and 4 times "
          "its value within its range, and with defined heights and scales so (mainHit)",
          ask_lipschitz_sweep},
         {"grazing",
@@ -69,7 +70,8 @@ std::span<const Probe> all_probes() {
         {"far", "flicker before a far plane that moves by a thousandth (mainHit, knob far_distance)",
          ask_far},
         {"self_intersection",
-         "waves whose steepness adds up to 0.75, 0.99, 1 and 1.5: from 1 on crests fold over (mainHit, knob "
+         "waves whose steepness adds up to 0.75, 0.99, 1 and 1.5: from 1 on crests intersect themselves "
+         "(mainHit, knob "
          "of a steepness)",
          ask_self_intersection},
         {"octaves",
@@ -78,18 +80,17 @@ std::span<const Probe> all_probes() {
         {"mouse_edge",
          "a click in the first column or row that is taken for none, and shows another view than the next",
          ask_mouse_edge},
-        {"camera",
-         "turns of the picture under a one-pixel step of the mouse, up and across; no number at a pole",
+        {"camera", "turns of the picture under a one-pixel step of the mouse, up and across; NaN at a pole",
          ask_camera},
         {"time_discontinuity",
          "cuts: an instant that is less like the next than before and after, at every number in the text",
          ask_time_discontinuity},
-        {"horizon", "until when float and double show the same, to 1/255 in 99 % of the pixels", ask_horizon},
-        {"rays", "until when rays meet the same in float and double, to a pixel's width in 99 % (mainHit)",
+        {"horizon", "until when float and double agree, to 1/255 in 99 % of the pixels", ask_horizon},
+        {"rays", "until when rays hit the same in float and double, to a pixel's width in 99 % (mainHit)",
          ask_rays},
         {"epsilon",
-         "rays that run out of steps in float and not in double: they wait for a value that rounding "
-         "keeps away (mainHit)",
+         "rays that run out of steps in float and not in double: they wait for a smaller value than "
+         "rounding allows (mainHit)",
          ask_epsilon},
         {"places",
          "the camera below the surface, high above, and 10 to 1e6 units away: finite, and the same in float "
@@ -107,13 +108,12 @@ std::span<const Probe> all_probes() {
          ask_search},
         {"undefined",
          "pow of a negative number, sqrt, log, acos and their kind outside of their domain, normalize of "
-         "nothing, smoothstep with equal edges, mod by 0, 0 / 0: where the picture hangs on what a GPU makes "
-         "of "
-         "it",
+         "a zero vector, smoothstep with equal edges, mod by 0, 0 / 0: where the picture depends on what a "
+         "GPU makes of it",
          ask_undefined},
         {"bounds",
          "indices outside of an array, shifts by 32 and more, whole numbers divided by 0, texels outside of "
-         "a texture, floats that no int holds, where the search came to them",
+         "a texture, floats outside of the range of an int, where the search came to them",
          ask_bounds},
         {"sine",
          "the picture with sines and cosines a unit in the last place up and down, and reduced and rounded "
@@ -121,7 +121,7 @@ std::span<const Probe> all_probes() {
          ask_sine},
         {"rounding",
          "the picture with iTime, iResolution and iMouse a unit larger, with everything `precise`, with "
-         "products that go into sums unrounded, with sums added up from the other end, and with quotients, "
+         "fused multiply-add, with sums added up from the other end, and with quotients, "
          "roots, powers and logarithms a unit off: apart by as much",
          ask_rounding},
         {"mediump",

@@ -26,7 +26,7 @@ using DrawElsewhere = std::function<Result<image::Image>(const FrameState&)>;
 
 class ProbeBench {
 public:
-    /// `with_one_thread`: empty where the driver cannot be told to draw so.
+    /// `with_one_thread`: empty where the driver does not let itself be set so.
     ProbeBench(const scene::Scene& scene, Promises promises, DrawElsewhere with_one_thread = {});
 
     const scene::Scene& scene() const { return scene_; }
@@ -35,7 +35,7 @@ public:
     /// RGB of Image, floats. A scene with feedback is drawn from its start, first_frame_of that state.
     Result<image::Image> picture(const FrameState& state,
                                  glsl::Precision precision = glsl::Precision::single);
-    /// All passes that are drawn, but cubemaps.
+    /// All passes that are drawn, but cubemaps. Alpha is what a buffer's text wrote; Image's is always 1.
     Result<std::vector<PassPicture>> passes(const FrameState& state);
 
     const DrawElsewhere& with_one_thread() const { return with_one_thread_; }

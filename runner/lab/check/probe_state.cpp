@@ -15,6 +15,14 @@ FrameState plain_state(Extent extent) {
     return state_at(1, extent);
 }
 
+std::vector<FrameState> usual_moments() {
+    std::vector<FrameState> states;
+    for (const double time :
+         {0.0, 1e-6, 1.0, 60.0, 62.83 - 1 / 60.0, 62.83 + 1 / 60.0, 1e3, 1e4, 1e5, 1e6, 16777216.0, -5.0})
+        states.push_back(state_at(time));
+    return states;
+}
+
 FrameState with_mouse(render::Mouse mouse, FrameState state) {
     state.mouse = mouse;
     return state;

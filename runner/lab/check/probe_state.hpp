@@ -5,6 +5,8 @@
 #include "render/frame_state.hpp"
 #include "scene/scene.hpp"
 
+#include <vector>
+
 namespace tidemark::lab {
 
 using render::FrameState;
@@ -16,6 +18,8 @@ inline constexpr Extent k_probe_extent{64, 36};
 FrameState state_at(double seconds, Extent extent = k_probe_extent);
 /// One second in.
 FrameState plain_state(Extent extent = k_probe_extent);
+/// The moments that `times` looks at, from 0 to 16777216 s and one before 0: for any probe that samples time.
+std::vector<FrameState> usual_moments();
 FrameState with_mouse(render::Mouse mouse, FrameState state = plain_state());
 
 /// From here on a scene with feedback is drawn: from its start would take days, where nobody asks for a

@@ -26,11 +26,7 @@ std::string middle_of(const scene::Knob& knob) {
 } // namespace
 
 Result<Answer> ask_times(ProbeBench& bench) {
-    std::vector<FrameState> states;
-    for (const double time :
-         {0.0, 1e-6, 1.0, 60.0, 62.83 - 1 / 60.0, 62.83 + 1 / 60.0, 1e3, 1e4, 1e5, 1e6, 16777216.0, -5.0})
-        states.push_back(state_at(time));
-    return look(bench, states);
+    return look(bench, usual_moments());
 }
 
 Result<Answer> ask_frames(ProbeBench& bench) {
@@ -51,7 +47,7 @@ Result<Answer> ask_frames(ProbeBench& bench) {
     if (fault)
         fault->sentence = fmt::format("from frame {} on: {}", seen, fault->sentence);
     return fault ? *std::move(fault)
-                 : Answer{Verdict::pass, fmt::format("all numbers finite in the first {} frames{}", seen,
+                 : Answer{Verdict::pass, fmt::format("no NaN or infinity in the first {} frames{}", seen,
                                                      seen < k_frames ? ": no more were drawn in 5 s" : "")};
 }
 
@@ -101,14 +97,17 @@ Result<Answer> ask_search(ProbeBench& bench) {
         return plain;
     const auto explored = TRY(explore(bench));
     const std::string unread =
-        (explored)->left_out.empty() ? "" : "; not guided by the text: " + (explored)->left_out;
+        (explored)->left_out.empty()
+            ? ""
+            : "; at random alone, as the text cannot be followed: " + (explored)->left_out;
     if ((explored)->not_finite.empty())
-        return Answer{Verdict::pass, "all numbers finite; " + (explored)->sentence + unread};
+        return Answer{Verdict::pass, "no NaN or infinity; " + (explored)->sentence + unread};
     const FrameState& where = (explored)->not_finite.front();
     const auto passes = TRY(bench.passes(where));
     auto fault = not_finite(bench, where, passes);
     if (!fault)
-        return Answer{Verdict::warn, "a pixel was not finite, and is when it is drawn again", where};
+        return Answer{Verdict::warn, "a pixel was NaN or infinite, and finite when it was drawn again",
+                      where};
     fault->sentence += "; " + (explored)->sentence + unread;
     return *std::move(fault);
 }

@@ -154,10 +154,11 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
     const std::vector<FrameState> views = views_over_time();
     const auto furthest = TRY(furthest_of(bench, views));
     if (furthest == 0 || std::isinf(furthest))
-        return Answer{Verdict::not_applicable, "no ray meets the surface"};
+        return Answer{Verdict::not_applicable, "no ray hits the surface"};
     auto search = SlopeSearch::create(bench, furthest, glsl::Precision::single);
     if (!search)
-        return Answer{Verdict::not_applicable, "not to be asked: " + to_string(search.error())};
+        return Answer{Verdict::not_applicable,
+                      "the field does not compile on its own: " + to_string(search.error())};
     Steep found = search->steepest(views);
     const double stated = bench.promises().largest_slope;
     double slack = 1.05; // over so short a step the roundings of a field in floats are slopes, too
@@ -168,13 +169,14 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
             slack = 1.001;
         }
     Answer answer{Verdict::pass, fmt::format("the field's slope along a ray reaches {:.3g}", found.slope)};
-    answer.sentence += std::isinf(stated) ? std::string("; the scene states no bound, largest_slope,")
-                                          : fmt::format(" of the {:g} that the scene states,", stated);
+    answer.sentence += std::isinf(stated)
+                           ? std::string("; the scene states no bound (largest_slope in NAME.check.json),")
+                           : fmt::format(", where the scene states at most {:g},", stated);
     answer.sentence += fmt::format(" at {:g} s, pixel {:.2f},{:.2f}, distance {:.4g}", found.view.seconds(),
                                    found.pixel.x, found.pixel.y, found.distance);
     if (found.slope > stated * slack) {
         answer.verdict = Verdict::fail;
-        answer.sentence += ": steps that trust it are too long";
+        answer.sentence += ": steps that rely on that bound are too long";
         answer.where = found.view;
         answer.picture = TRY(map_of(bench, found));
     }

@@ -33,7 +33,7 @@ Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promis
                   {},
                   {}};
     if (answer.verdict == Verdict::fail) {
-        answer.sentence += fmt::format("; allowed: {:g} %", promised);
+        answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)", promised);
         answer.where = where;
         answer.picture = std::move(map);
     }
@@ -111,7 +111,7 @@ std::vector<FrameState> stiff_states(const ProbeBench& bench) {
 Result<Answer> ask_overstep(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench, true);
-    return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_witness_percent,
+    return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_overstep_percent,
                         "take a sample below the surface");
 }
 
@@ -129,13 +129,15 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
         const std::string set = to_string(merged(state.knobs.empty() ? state.definitions : state.knobs));
         const auto hits = TRY(bench.hits(state));
         if (const double nothing = unanswered(hits); nothing > 0)
-            return Answer{Verdict::fail,
-                          fmt::format("{}: {:.3g} % of the distances are no number", set, nothing), state};
+            return Answer{
+                Verdict::fail,
+                fmt::format("{}: {:.3g} % of the distances are NaN, infinite or negative", set, nothing),
+                state};
         const double overstepping = flagged(hits, glsl::k_hit_negative);
         if (overstepping <= most)
             continue;
         most = overstepping;
-        answer = {overstepping > bench.promises().most_witness_percent ? Verdict::warn : Verdict::pass,
+        answer = {overstepping > bench.promises().most_overstep_percent ? Verdict::warn : Verdict::pass,
                   fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
                               "{:.3g} % run out of steps",
                               set, overstepping, flagged(hits, glsl::k_hit_exhausted)),

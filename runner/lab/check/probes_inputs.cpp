@@ -71,7 +71,7 @@ Result<Answer> ask_inputs(ProbeBench& bench) {
         return answer;
     for (const Input& input : inputs) {
         const auto spread = TRY(spread_of_nan(bench, input));
-        answer->sentence += fmt::format("; NaN in {} comes to {:.3g} % of the pixels", input.name, spread);
+        answer->sentence += fmt::format("; NaN in {} spreads to {:.3g} % of the pixels", input.name, spread);
     }
     return answer;
 }

@@ -29,11 +29,12 @@ Result<Answer> ask_repeats(ProbeBench& bench) {
     const auto first = TRY(bench.picture(state));
     const auto same = [&](const Result<image::Image>& other) { return other && other->bytes == first.bytes; };
     const auto say_no = [&](const char* when) {
-        return Answer{Verdict::fail, fmt::format("another picture {}{}", when, bench.see_bounds()), state,
-                      first};
+        return Answer{Verdict::fail,
+                      fmt::format("the same inputs give another picture {}{}", when, bench.see_bounds()),
+                      state, first};
     };
     if (!same(bench.picture(state)))
-        return say_no("at once again");
+        return say_no("when drawn again at once");
     (void)bench.picture(state_at(7));
     if (!same(bench.picture(state)))
         return say_no("after another frame");
@@ -44,16 +45,17 @@ Result<Answer> ask_repeats(ProbeBench& bench) {
 
 Result<Answer> ask_threads(ProbeBench& bench) {
     if (!bench.with_one_thread())
-        return Answer{Verdict::not_applicable, "this driver cannot be told how many threads to draw with"};
+        return Answer{Verdict::not_applicable, "this driver does not let us choose its number of threads"};
     // Drivers deal out squares of 64 pixels.
     const FrameState state = state_at(2, {200, 136});
     const auto alone = bench.with_one_thread()(state);
     if (!alone)
-        return Answer{Verdict::not_applicable, "not to be had: " + alone.error().message};
+        return Answer{Verdict::not_applicable,
+                      "it could not be drawn with one thread: " + alone.error().message};
     auto together = TRY(bench.picture(state));
     if (const size_t different = different_pixels(*alone, together))
         return Answer{Verdict::fail,
-                      fmt::format("{} of {} pixels are others when one thread draws them all{}", different,
+                      fmt::format("{} of {} pixels differ when one thread draws them all{}", different,
                                   state.extent.pixels(), bench.see_bounds()),
                       state, std::move(together)};
     return Answer{Verdict::pass, "the same bytes whether many threads draw or one"};
@@ -73,7 +75,7 @@ struct Sweep {
     }
 };
 
-/// The step that changes the picture most beside its neighbours, and the first picture with no numbers in it.
+/// The step that changes the picture most beside its neighbours, and the first picture that is not finite.
 struct Swept {
     bool changes = false;
     double most = 0; ///< dB less than the steps before and after it
@@ -114,17 +116,18 @@ Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const
     if (found.not_finite) {
         const auto untouched = TRY(bench.picture(plain_state(sweep.extent)));
         if (image::census(untouched).non_finite() > 0)
-            return Answer{Verdict::not_applicable, "not finite without the mouse either: see times"};
+            return Answer{Verdict::not_applicable, "NaN or infinity without the mouse, too: see times"};
         return show(*found.not_finite,
-                    fmt::format("the picture is not finite with the mouse at {} = {} of {}", sweep.axis,
+                    fmt::format("NaN or infinity in the picture with the mouse at {} = {} of {}", sweep.axis,
                                 *found.not_finite, sweep.length));
     }
     if (found.most > k_turn)
         return show(
             found.step + 1,
-            fmt::format("the mouse from {} = {} to {} of {} turns the picture: {:.1f} dB, {:.1f} less than "
-                        "the steps beside it",
-                        sweep.axis, found.step, found.step + 1, sweep.length, found.psnr, found.most));
+            fmt::format(
+                "the picture jumps where the mouse goes from {} = {} to {} of {}: PSNR {:.1f} dB, {:.1f} "
+                "dB less than for the steps beside it",
+                sweep.axis, found.step, found.step + 1, sweep.length, found.psnr, found.most));
     return std::optional<Answer>{};
 }
 
@@ -150,8 +153,8 @@ Result<Answer> ask_camera(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, "the mouse changes nothing"};
     return Answer{
         Verdict::pass,
-        fmt::format("the picture turns evenly: no step of the mouse by a pixel changes it by more than "
-                    "{:.1f} dB more than the steps beside it",
+        fmt::format("the picture turns evenly: the PSNR of a step of the mouse by a pixel is at most "
+                    "{:.1f} dB less than for the steps beside it",
                     most)};
 }
 
@@ -172,8 +175,8 @@ Result<Answer> ask_mouse_edge(ProbeBench& bench) {
         if (next - edge > k_turn)
             return Answer{
                 Verdict::fail,
-                fmt::format("a click in {0} 0 shows another view than in {0} 1: {1:.1f} dB, and {2:.1f} "
-                            "from there to the next",
+                fmt::format("a click in {0} 0 shows another view than in {0} 1: PSNR {1:.1f} dB, from {0} 1 "
+                            "to 2 {2:.1f} dB",
                             name, edge, next),
                 clicked(first), pictures[0]};
     }
@@ -183,7 +186,7 @@ Result<Answer> ask_mouse_edge(ProbeBench& bench) {
         return fail(!untouched ? untouched.error() : corner.error());
     if (image::compare(*untouched, *corner)->equal())
         return Answer{Verdict::not_applicable, "a click changes nothing"};
-    return Answer{Verdict::pass, "clicks at the edges are clicks; the first one in the corner changes the "
+    return Answer{Verdict::pass, "a click at the edge is taken for a click; one in the corner changes the "
                                  "picture: " +
                                      alikeness(*untouched, *corner)};
 }

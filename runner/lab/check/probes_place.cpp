@@ -67,10 +67,11 @@ Result<std::string> broken(ProbeBench& bench, const FrameState& state) {
     const auto passes = TRY(bench.passes(state));
     for (const PassPicture& pass : passes)
         if (const size_t count = image::census(pass.picture).non_finite(); count > 0)
-            return fmt::format("{} samples of {} are no number", count, pass.pass);
+            return fmt::format("{} samples of {} are NaN or infinite", count, pass.pass);
     const auto hits = TRY(bench.hits(state));
     const double lost = unanswered(hits);
-    return lost > 0 ? fmt::format("{:.3g} % of the distances are no number", lost) : std::string();
+    return lost > 0 ? fmt::format("{:.3g} % of the distances are NaN, infinite or negative", lost)
+                    : std::string();
 }
 
 std::string place_of(const FrameState& state) {
@@ -79,7 +80,7 @@ std::string place_of(const FrameState& state) {
                                : to_string(state.knobs);
 }
 
-/// How far out rays meet the same in float and double.
+/// How far out rays hit the same in float and double.
 Result<Answer> how_far(ProbeBench& bench) {
     double good = 0;
     for (const double distance : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
@@ -90,7 +91,7 @@ Result<Answer> how_far(ProbeBench& bench) {
         const auto both = float_mismatch(bench, state);
         if (!both)
             return Answer{Verdict::pass,
-                          "finite below, above and to 1e6 units away; not to be had in double"};
+                          "no NaN or infinity below, above and to 1e6 units away; cannot be drawn in double"};
         if (both->mismatched_percent <= k_same) {
             good = distance;
             continue;
@@ -98,16 +99,17 @@ Result<Answer> how_far(ProbeBench& bench) {
         const bool kept = good >= bench.promises().space_horizon;
         return Answer{
             kept ? Verdict::pass : Verdict::fail,
-            fmt::format("good to {:g} units away; at {:g} {:.3g} % of the rays meet something else than "
-                        "in double",
-                        good, distance, both->mismatched_percent),
+            fmt::format(
+                "float and double agree to {:g} units away; at {:g} units {:.3g} % of the rays hit something "
+                "else in float",
+                good, distance, both->mismatched_percent),
             state, both->map};
     }
     return Answer{Verdict::pass,
-                  "float and double meet the same to 1e6 units away; finite below and high above"};
+                  "float and double agree to 1e6 units away; no NaN or infinity below and high above"};
 }
 
-/// Mouse heights at which part of the rays meet something and part nothing: the horizon is in sight.
+/// Mouse heights at which part of the rays hit something and part nothing: the horizon is in sight.
 Result<std::vector<FrameState>> views_of_the_horizon(ProbeBench& bench) {
     std::vector<FrameState> views;
     std::vector<FrameState> candidates;
@@ -129,7 +131,7 @@ Result<std::vector<FrameState>> views_of_the_horizon(ProbeBench& bench) {
     return views;
 }
 
-/// A picture of an odd height whose middle row looks exactly level, where the camera can be told to.
+/// A picture of an odd height whose middle row looks exactly level, where the camera can be set so.
 std::optional<FrameState> level_view(const scene::Scene& scene) {
     FrameState state = state_at(10, {k_ray_extent.width, k_ray_extent.height + 1});
     if (has_orbit_camera(scene)) {
@@ -166,13 +168,14 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
     if (const auto level = level_view(bench.scene()))
         views.push_back(*level);
     if (views.empty())
-        return Answer{Verdict::not_applicable, "the mouse never turns the horizon into sight"};
+        return Answer{Verdict::not_applicable, "the horizon is in sight at no height of the mouse"};
     Answer answer;
     double most = -1;
     for (const FrameState& view : views) {
         const auto hits = TRY(bench.hits(view));
         if (const double lost = unanswered(hits); lost > 0)
-            return Answer{Verdict::fail, fmt::format("{:.3g} % of the distances are no number", lost), view};
+            return Answer{Verdict::fail,
+                          fmt::format("{:.3g} % of the distances are NaN, infinite or negative", lost), view};
         const double out = flagged(hits, glsl::k_hit_exhausted);
         if (out <= most)
             continue;
@@ -187,7 +190,8 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
     }
     if (most > bench.promises().most_exhausted_percent) {
         answer.verdict = Verdict::fail;
-        answer.sentence += fmt::format("; allowed: {:g} %", bench.promises().most_exhausted_percent);
+        answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)",
+                                       bench.promises().most_exhausted_percent);
     } else {
         answer.where.reset();
         answer.picture.reset();
@@ -225,11 +229,11 @@ Result<Answer> ask_far(ProbeBench& bench) {
         answer.where = view;
     }
     answer.sentence =
-        fmt::format("{:.3g} % of the rays meet something else before the far plane when it moves by "
+        fmt::format("{:.3g} % of the rays hit something else before the far plane when it moves by "
                     "a thousandth",
                     most);
     if (beyond > 0)
-        answer.sentence += "; some meet something beyond it";
+        answer.sentence += "; some hit something beyond it";
     answer.verdict = most > k_same || beyond > 0 ? Verdict::fail : Verdict::pass;
     if (answer.verdict == Verdict::pass)
         answer.where.reset();

@@ -56,7 +56,8 @@ public:
             (seen.gap > k_visible_gap ? visible : hardly).push_back(seen.sentence);
         if (visible.empty())
             return {Verdict::pass, sound + ": " + (hardly.empty() ? "the same picture" : listed(hardly))};
-        Answer answer{Verdict::warn, "another picture with " + listed(visible), k_state, std::move(picture_)};
+        Answer answer{Verdict::warn, "the picture changes visibly with " + listed(visible), k_state,
+                      std::move(picture_)};
         answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
         return answer;
     }
@@ -130,7 +131,7 @@ Result<Answer> ask_sine(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, to_string(done.error())};
     if (!probe.asked())
         return Answer{Verdict::not_applicable, "the scene has no sine"};
-    return probe.answer("other GPUs' sines");
+    return probe.answer("no visible difference with other GPUs' sines");
 }
 
 Result<Answer> ask_rounding(ProbeBench& bench) {
@@ -138,7 +139,7 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
     const Manner manners[] = {
         {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger"}}},
         {glsl::vary_precision, {{0, "everything `precise`"}}},
-        {glsl::vary_contraction, {{1, "products that go into sums unrounded"}}},
+        {glsl::vary_contraction, {{1, "fused multiply-add"}}},
         {glsl::vary_order, {{0, "sums added up from the other end"}}},
         {glsl::vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}},
     };
@@ -151,21 +152,21 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
         }
     if (!probe.asked())
         return Answer{Verdict::not_applicable, left_out.empty() ? "nothing is computed" : why};
-    Answer answer = probe.answer("stable when rounded otherwise");
+    Answer answer = probe.answer("no visible difference with other roundings");
     if (!left_out.empty())
-        answer.sentence += "; not to be had: " + listed(left_out);
+        answer.sentence += "; not tried, as the driver or the text does not allow it: " + listed(left_out);
     return answer;
 }
 
 Result<Answer> ask_mediump(ProbeBench& bench) {
     PortabilityProbe probe(bench);
-    if (auto done =
-            probe.add({glsl::vary_halves, {{1, "sums and products in halves, as phones have `mediump`"}}});
+    if (auto done = probe.add(
+            {glsl::vary_halves, {{1, "sums and products in half floats, as phones have `mediump`"}}});
         !done)
         return Answer{Verdict::not_applicable, to_string(done.error())};
     if (!probe.asked())
         return Answer{Verdict::not_applicable, "nothing is `mediump` or `lowp`"};
-    return probe.answer("in halves");
+    return probe.answer("no visible difference in half floats");
 }
 
 } // namespace tidemark::lab

@@ -14,7 +14,7 @@ namespace tidemark::lab {
 namespace {
 
 Answer without_doubles(const Error& error) {
-    return {Verdict::not_applicable, "not to be had in double: " + to_string(error)};
+    return {Verdict::not_applicable, "cannot be drawn in double: " + to_string(error)};
 }
 
 } // namespace
@@ -34,16 +34,18 @@ Result<Answer> ask_rays(ProbeBench& bench) {
             continue;
         }
         const bool kept = good >= bench.promises().time_horizon;
-        return Answer{kept        ? Verdict::pass
-                      : good == 0 ? Verdict::warn
-                                  : Verdict::fail,
-                      fmt::format("{}; at {:g} s {:.3g} % of the rays meet something else than in double, by "
-                                  "more than a pixel's width",
-                                  good == 0 ? std::string("never good") : fmt::format("good to {:g} s", good),
-                                  time, both->mismatched_percent),
-                      state, both->map};
+        return Answer{
+            kept        ? Verdict::pass
+            : good == 0 ? Verdict::warn
+                        : Verdict::fail,
+            fmt::format(
+                "{}; at {:g} s {:.3g} % of the rays hit something else in float, by more than a pixel",
+                good == 0 ? std::string("float and double never agree")
+                          : fmt::format("float and double agree up to {:g} s", good),
+                time, both->mismatched_percent),
+            state, both->map};
     }
-    return Answer{Verdict::pass, "float and double meet the same up to 1e6 s, to a pixel's width"};
+    return Answer{Verdict::pass, "float and double agree up to 1e6 s, to a pixel's width"};
 }
 
 /// A solver that waits for a smaller value than the rounding of its field leaves will wait in vain; in
@@ -73,7 +75,8 @@ Result<Answer> ask_epsilon(ProbeBench& bench) {
     }
     if (most > std::max(bench.promises().most_exhausted_percent, k_same)) {
         answer.verdict = Verdict::fail;
-        answer.sentence += ": the solver waits for a value below the rounding of its field";
+        answer.sentence +=
+            ": the solver waits for a value below the rounding error of its field; raise its hit distance";
     } else {
         answer.where.reset();
         answer.picture.reset();
@@ -132,21 +135,22 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
             return Answer{Verdict::warn,
                           fmt::format("{} = {:g}: {}", count.name, octaves, to_string(hits.error()))};
         if (const double lost = unanswered(*hits); lost > 0)
-            return Answer{
-                Verdict::fail,
-                fmt::format("{} = {:g}: {:.3g} % of the distances are no number", count.name, octaves, lost),
-                state};
+            return Answer{Verdict::fail,
+                          fmt::format("{} = {:g}: {:.3g} % of the distances are NaN, infinite or negative",
+                                      count.name, octaves, lost),
+                          state};
     }
     const FrameState state = with_octaves(count, extremes.most);
     const auto both = float_mismatch(bench, state);
     if (!both)
         return without_doubles(both.error());
-    Answer answer{Verdict::pass,
-                  fmt::format("with {} = {:g} {:.3g} % of the rays meet something else than in double",
-                              count.name, extremes.most, both->mismatched_percent)};
+    Answer answer{
+        Verdict::pass,
+        fmt::format("with {} = {:g} {:.3g} % of the rays hit something else in float than in double",
+                    count.name, extremes.most, both->mismatched_percent)};
     if (both->mismatched_percent > k_same) {
         answer.verdict = extremes.stated ? Verdict::fail : Verdict::warn;
-        answer.sentence += ": floats do not hold the coordinates of so fine a lattice";
+        answer.sentence += ": the coordinates of the finest octave are beyond what floats hold";
         answer.where = state;
         answer.picture = both->map;
     }
@@ -181,7 +185,7 @@ Result<Answer> ask_self_intersection(ProbeBench& bench) {
     if (knob != bench.scene().knobs.end())
         for (const double part : knob->value)
             sum += std::abs(part);
-    // A factor of another name, like a foam's, is not told from waves' where it alone moves no ray.
+    // Where it alone moves no ray, a factor of another name, like a foam's, is taken for that of waves.
     if (sum == 0)
         return Answer{Verdict::not_applicable, "no knob is a steepness of waves"};
     const auto as_is = TRY(bench.hits(typical_view()));
@@ -207,14 +211,16 @@ Result<Answer> ask_self_intersection(ProbeBench& bench) {
         }
         return Answer{
             inside || steepness < 1 ? Verdict::fail : Verdict::warn,
-            fmt::format("steepness that adds up to {:g}: crests fold over{}: {:.3g} % of the rays meet "
-                        "something else than in double, {:.3g} % of the distances are no number",
-                        steepness, inside ? "" : ", beyond the knob's range", both->mismatched_percent, lost),
+            fmt::format(
+                "waves whose steepness adds up to {:g}{} intersect themselves: {:.3g} % of the rays hit "
+                "something else in float than in double, {:.3g} % of the distances are NaN, infinite or "
+                "negative",
+                steepness, inside ? "" : " (beyond the knob's range)", both->mismatched_percent, lost),
             state, both->map};
     }
     if (!moves)
-        return Answer{Verdict::not_applicable, fmt::format("{} moves no ray", knob->name)};
-    return Answer{Verdict::pass, fmt::format("no crest folds over, with {} that adds up to {:g} and less",
+        return Answer{Verdict::not_applicable, fmt::format("{} changes no ray", knob->name)};
+    return Answer{Verdict::pass, fmt::format("no wave intersects itself where {} adds up to {:g} or less",
                                              knob->name, calm)};
 }
 

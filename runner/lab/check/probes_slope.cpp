@@ -36,7 +36,7 @@ std::vector<double> slopes(FieldBench& bench, double step, const FrameState& sta
     return slopes;
 }
 
-/// The median of the angles between two slopes, degrees; none where no ray meets the surface in both.
+/// The median of the angles between two slopes, degrees; none where no ray hits the surface in both.
 std::optional<double> median_angle(const std::vector<double>& slopes, const std::vector<double>& truth) {
     std::vector<double> angles;
     for (size_t i = 0; i < slopes.size(); ++i)
@@ -75,10 +75,11 @@ Result<Answer> ask_normals(ProbeBench& bench) {
     const FieldQuestion question{k_slope_hit, {{.name = "tidemark_step"}}};
     auto in_float = FieldBench::create(bench.scene(), question, glsl::Precision::single);
     if (!in_float)
-        return Answer{Verdict::not_applicable, "not to be asked: " + to_string(in_float.error())};
+        return Answer{Verdict::not_applicable,
+                      "the field does not compile on its own: " + to_string(in_float.error())};
     auto in_double = FieldBench::create(bench.scene(), question, glsl::Precision::promoted);
     if (!in_double)
-        return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(in_double.error())};
+        return Answer{Verdict::not_applicable, "cannot be drawn in double: " + to_string(in_double.error())};
 
     const FrameState view = typical_view();
     const std::vector<double> truth = slopes(*in_double, 1e-6, view);
@@ -94,7 +95,7 @@ Result<Answer> ask_normals(ProbeBench& bench) {
     for (const double step : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
         const auto angle = median_angle(slopes(*in_float, step, view), truth);
         if (!angle)
-            return Answer{Verdict::not_applicable, "no ray meets the surface"};
+            return Answer{Verdict::not_applicable, "no ray hits the surface"};
         range += fmt::format("{}{:.2g} over {:g}", range.empty() ? "" : ", ", *angle, step);
         if (*angle < best) {
             best = *angle;
@@ -106,7 +107,8 @@ Result<Answer> ask_normals(ProbeBench& bench) {
         if (!angle)
             return Answer{
                 Verdict::fail,
-                fmt::format("over the scene's own {:g} no slope is a number; best is {:g}", step, best_step),
+                fmt::format("every slope over the scene's own {:g} is NaN or infinite; best is {:g}", step,
+                            best_step),
                 view};
         if (*angle > k_visible_angle)
             return Answer{

@@ -79,7 +79,7 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
         const auto as_is = TRY(bench.picture(state));
         auto truth = bench.picture(state, glsl::Precision::promoted);
         if (!truth)
-            return Answer{Verdict::not_applicable, "not to be had in double: " + to_string(truth.error())};
+            return Answer{Verdict::not_applicable, "cannot be drawn in double: " + to_string(truth.error())};
         const double difference = p99_difference(as_is, *truth);
         if (difference <= k_visible_gap) {
             good = time;
@@ -89,25 +89,26 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
         const std::string found =
             good == 0
                 ? fmt::format(
-                      "float and double differ from the first second on: by {:.3g} in 1 % of the pixels "
-                      "at 1 s, which is not the clock's doing",
+                      "float and double differ already at 1 s, by {:.3g} or more in 1 % of the pixels: "
+                      "not because of a large iTime",
                       difference)
-                : fmt::format("good to {:g} s; at {:g} s, where iTime moves in steps of {:.2g} s, 1 % of "
+                : fmt::format("float and double agree up to {:g} s; at {:g} s, where iTime moves in steps of "
+                              "{:.2g} s, 1 % of "
                               "the pixels are off by {:.3g} or more",
                               good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
                               difference);
         return Answer{kept ? Verdict::pass : good == 0 ? Verdict::warn : Verdict::fail, found, state, as_is};
     }
-    return Answer{Verdict::pass, "float and double show the same up to 1e6 s"};
+    return Answer{Verdict::pass, "float and double agree up to 1e6 s"};
 }
 
 namespace {
 
-/// What hangs on no promise is a warning: a cut may be meant. That the clock starts again is not.
-Answer told(const Jump& jump, double moment, bool promised) {
+/// What no promise covers is a warning: a cut may be meant. That the clock starts again is not.
+Answer answer_of(const Jump& jump, double moment, bool promised) {
     const std::string elsewhere =
         std::isinf(jump.elsewhere) ? "no change" : fmt::format("{:.1f} dB", jump.elsewhere);
-    const char* const consequence = jump.wraps ? " and is there what it was at 0 s"
+    const char* const consequence = jump.wraps ? " back to the one of 0 s"
                                     : promised
                                         ? ""
                                         : "; a scene that cuts may say so: \"skip\" in its .check.json";
@@ -129,7 +130,7 @@ Result<Answer> ask_time_discontinuity(ProbeBench& bench) {
         const auto jump = TRY(jump_at(bench, period));
         if (!(jump.drop() > promises.smoothest_jump) || jump.psnr > k_close_psnr)
             continue;
-        Answer found = told(jump, period, promises.stated.contains("smoothest_jump"));
+        Answer found = answer_of(jump, period, promises.stated.contains("smoothest_jump"));
         if (std::pair(found.verdict, jump.drop()) > std::pair(answer.verdict, worst)) {
             worst = jump.drop();
             answer = std::move(found);
@@ -143,7 +144,8 @@ Result<Answer> ask_time_discontinuity(ProbeBench& bench) {
 Result<Answer> ask_hashes(ProbeBench& bench) {
     const auto hashes = bench.hashes();
     if (!hashes)
-        return Answer{Verdict::not_applicable, "not to be read: " + to_string(hashes.error())};
+        return Answer{Verdict::not_applicable,
+                      "the scene cannot be promoted to double: " + to_string(hashes.error())};
     std::vector<std::string> found; // of each pass: what stands in Common more than once
     for (const glsl::KeptHash& hash : *hashes) {
         const std::string said = fmt::format("{}:{}{}", hash.where.file, hash.where.line,
@@ -153,7 +155,7 @@ Result<Answer> ask_hashes(ProbeBench& bench) {
     }
     if (found.empty())
         return Answer{Verdict::pass, "no random numbers from large sines"};
-    return Answer{Verdict::warn, "fract of a large sine, another number on every GPU: " + listed(found)};
+    return Answer{Verdict::warn, "fract of a large sine gives other numbers on every GPU: " + listed(found)};
 }
 
 } // namespace tidemark::lab

@@ -57,7 +57,7 @@ Result<std::vector<View>> views(ProbeBench& bench) {
     return all;
 }
 
-/// A site that was undefined, with what hangs on it.
+/// A site that was undefined, with what depends on it.
 struct Undefined {
     std::string sentence;
     double percent = 0; ///< of the pixels
@@ -124,7 +124,7 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
     const auto where = TRY(views(bench));
     const auto texts = read_texts(bench, false);
     if (!texts)
-        return Answer{Verdict::not_applicable, "not to be followed: " + to_string(texts.error())};
+        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
     std::vector<Undefined> all;
     for (const PassText& pass : *texts) {
         auto found = DomainProbe(bench, pass).run(where);
@@ -133,35 +133,36 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
         std::ranges::move(*found, std::back_inserter(all));
     }
     std::ranges::stable_sort(all, std::greater(), &Undefined::percent);
-    std::vector<std::string> told;
+    std::vector<std::string> sentences;
     for (const Undefined& each : all)
         if (each.percent > 0)
-            told.push_back(fmt::format("{}: {:.3g} % of the pixels", each.sentence, each.percent));
-    if (told.empty())
+            sentences.push_back(fmt::format("{}: {:.3g} % of the pixels", each.sentence, each.percent));
+    if (sentences.empty())
         return Answer{
             Verdict::pass,
             all.empty()
                 ? "no function is called outside of its domain"
-                : fmt::format("{} calls outside of a function's domain, none of which shows", all.size())};
-    return Answer{Verdict::warn, "undefined, and in the picture: " + listed(told), all[0].where,
+                : fmt::format("{} calls outside of a function's domain, none of which changes a pixel",
+                              all.size())};
+    return Answer{Verdict::warn, "undefined, and visible in the picture: " + listed(sentences), all[0].where,
                   std::move(all[0].picture)};
 }
 
 Result<Answer> ask_bounds(ProbeBench& bench) {
     const auto explored = TRY(explore(bench));
     if (!(explored)->left_out.empty())
-        return Answer{Verdict::not_applicable, "not to be followed: " + (explored)->left_out};
-    std::vector<std::string> told;
+        return Answer{Verdict::not_applicable, "the text cannot be followed: " + (explored)->left_out};
+    std::vector<std::string> sentences;
     std::optional<FrameState> where;
     for (const Outside& outside : (explored)->outside)
         if (outside.bound) {
-            told.push_back(outside.sentence);
+            sentences.push_back(outside.sentence);
             where = where ? where : outside.where;
         }
-    if (told.empty())
+    if (sentences.empty())
         return Answer{Verdict::pass, "no index, shift, divisor, texel or conversion is out of bounds; " +
                                          (explored)->sentence};
-    return Answer{Verdict::warn, listed(told), where};
+    return Answer{Verdict::warn, listed(sentences), where};
 }
 
 } // namespace tidemark::lab

@@ -20,7 +20,7 @@ struct Field {
 constexpr Field k_fields[] = {
     {"time_horizon", &Promises::time_horizon},
     {"most_exhausted_percent", &Promises::most_exhausted_percent},
-    {"most_witness_percent", &Promises::most_witness_percent},
+    {"most_overstep_percent", &Promises::most_overstep_percent},
     {"smoothest_jump", &Promises::smoothest_jump},
     {"space_horizon", &Promises::space_horizon},
     {"largest_slope", &Promises::largest_slope},
@@ -57,7 +57,10 @@ std::string take_ranges(Promises& promises, const Json& ranges) {
     return {};
 }
 
-std::string take_number(Promises& promises, const std::string& name, const Json& value) {
+/// Under its name of version 0.1, too.
+std::string take_number(Promises& promises, std::string name, const Json& value) {
+    if (name == "most_witness_percent")
+        name = "most_overstep_percent";
     const auto field = std::ranges::find(k_fields, name, &Field::name);
     if (field == std::end(k_fields))
         return fmt::format("'{}' is nothing that a scene can promise; there are {}", name, names());
@@ -75,7 +78,7 @@ std::string take(Promises& promises, const std::string& name, const Json& value)
                               : take_number(promises, name, value);
 }
 
-/// Promises that hold under a definition; the others are read, too, so that a mistake is told at once.
+/// Promises that hold under a definition; the others are read, too, so that a mistake is reported at once.
 std::string take_conditional(Promises& promises, const Json& conditional, const DefinitionOf& definition_of) {
     constexpr const char* k_form = "'when' takes {\"NAME=VALUE\": {promises}}";
     if (!conditional.is_object())

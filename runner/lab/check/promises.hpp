@@ -18,7 +18,7 @@ namespace tidemark::lab {
 struct Promises {
     double time_horizon = 1e4;           ///< seconds up to which float and double show the same
     double most_exhausted_percent = 0.1; ///< rays that may run out of steps
-    double most_witness_percent = 0;     ///< rays that may take a sample below the surface
+    double most_overstep_percent = 0;    ///< rays that may take a sample below the surface
     double smoothest_jump = 10; ///< dB that an instant may be less like the next than before and after
     double space_horizon =
         1e3; ///< units from its place up to which a camera sees the same in float and double

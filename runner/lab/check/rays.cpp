@@ -72,8 +72,8 @@ image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(s
 Answer without_hits(const ProbeBench& bench, bool warns) {
     if (bench.hit_problem().empty())
         return {Verdict::not_applicable, "the scene has no mainHit"};
-    return warns ? Answer{Verdict::warn, "mainHit cannot be asked: " + bench.hit_problem()}
-                 : Answer{Verdict::not_applicable, "mainHit cannot be asked: see overstep"};
+    return warns ? Answer{Verdict::warn, "mainHit does not compile: " + bench.hit_problem()}
+                 : Answer{Verdict::not_applicable, "mainHit does not compile: see overstep"};
 }
 
 Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state) {

@@ -20,7 +20,7 @@ FrameState typical_view();
 
 double percent(const Hits& hits, const std::function<bool(size_t)>& counts);
 double flagged(const Hits& hits, glsl::HitFlag flag);
-/// Distances that are no number.
+/// In percent: rays whose distance is NaN, infinite, or negative without being a miss.
 double unanswered(const Hits& hits);
 double mean_evaluations(const Hits& hits);
 
@@ -28,14 +28,14 @@ double mean_evaluations(const Hits& hits);
 /// magenta.
 image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(size_t)>& marks);
 
-/// Of the probe that is told of a mainHit which does not compile, a warning.
+/// `warns`: of a mainHit that does not compile, too.
 Answer without_hits(const ProbeBench& bench, bool warns = false);
 
 /// A view in floats and in doubles; parts of all rays, percent.
 struct FloatMismatch {
     Hits in_float;
     Hits in_double;
-    /// Float meets something else: further off than a pixel is wide there.
+    /// Float hits something else: further off than a pixel is wide there.
     std::vector<bool> mismatched;
     double mismatched_percent = 0;
     image::Image map; ///< of them
@@ -43,7 +43,7 @@ struct FloatMismatch {
 /// The error of a scene that cannot be promoted.
 Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state);
 
-/// Of the rays, that may part where float and double show the same: silhouettes hang on the last bit.
+/// Of the rays, that may differ where float and double agree: silhouettes depend on the last bit.
 inline constexpr double k_same = 1; // percent
 
 } // namespace tidemark::lab

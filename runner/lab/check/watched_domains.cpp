@@ -6,7 +6,7 @@
 namespace tidemark::lab {
 
 Result<WatchedDomains> WatchedDomains::link(const PassPreview& preview, const PassText& pass, Extent part) {
-    constexpr std::string_view k_what = "the text with its domains watched";
+    constexpr std::string_view k_what = "the text that reports its domains";
     for (const auto scope : {glsl::DomainScope::everything, glsl::DomainScope::floats}) {
         glsl::DomainWatch watch = glsl::watch_domains(*pass.text, pass.facts, scope);
         auto linked = StandIn::link(preview, watch.text, k_what, part);

@@ -22,9 +22,11 @@ double least_psnr(const WorkPrecisionSet& set, const WorkPrecision& point) {
 bool keeps(const WorkPrecisionSet& set, const WorkPrecision& point) {
     const Promise& promise = set.study.promise;
     const auto& hits = point.all.hits;
-    // A wrong hit is told from a right one where the truth is good to a tenth of what parts them.
-    const bool told = set.hit_standard.uncertainty && *set.hit_standard.uncertainty <= 0.1 * k_wrong_distance;
-    if (set.has_hits() && !(told && hits && hits->wrong_tenth <= promise.most_wrong_percent))
+    // A wrong hit can be distinguished from a right one where the truth is good to a tenth of what parts
+    // them.
+    const bool distinct =
+        set.hit_standard.uncertainty && *set.hit_standard.uncertainty <= 0.1 * k_wrong_distance;
+    if (set.has_hits() && !(distinct && hits && hits->wrong_tenth <= promise.most_wrong_percent))
         return false;
     return !set.has_pictures() || least_psnr(set, point) >= promise.least_psnr;
 }
@@ -74,8 +76,8 @@ std::string cheapest_sentence(const WorkPrecisionSet& set) {
 std::string equal_error_sentence(const WorkPrecisionSet& set) {
     const WorkPrecision& defaults = set.points.front();
     if (defaults.measured() && defaults.hollow)
-        return fmt::format("no verdict at equal error: {} are too near the truth to be told from its own "
-                           "error (hollow)",
+        return fmt::format("no verdict at equal error: {} are too close to the truth's own error to rank "
+                           "(hollow)",
                            set.words.defaults);
     const WorkPrecision* best = cheapest_as_exact(set);
     if (!best || !timed(defaults))
@@ -85,7 +87,8 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
         return fmt::format("no verdict at equal error: too few rounds of {} and the defaults fit the budget",
                            best->point.label);
     if (best == &defaults)
-        return fmt::format("nothing in this study is as exact as {} and cheaper", set.words.defaults);
+        return fmt::format("no tested setting is cheaper than {} without being less exact",
+                           set.words.defaults);
     if (!gain->certain())
         return fmt::format(
             "at equal error nothing is faster than {} beyond noise (the nearest: {}, {:.2f} x [{:.2f}, "
@@ -161,14 +164,14 @@ std::vector<std::string> sentences(const WorkPrecisionSet& set) {
     const auto hollow = std::ranges::count_if(set.points, &WorkPrecision::hollow);
     if (hollow > 0 && standard_of(set).none.empty())
         found.push_back(
-            fmt::format("{} too near the reference to be told from its own error (hollow)",
+            fmt::format("{} too close to the truth's own error to rank (hollow)",
                         hollow == 1 ? std::string("1 point is") : fmt::format("{} points are", hollow)));
     for (const auto& [what, blind] :
          {std::pair{"pictures", set.picture_standard.blind}, {"hits", set.hit_standard.blind}})
         if (blind > 0)
             found.push_back(
-                fmt::format("the truth about the {} is NaN or infinite in {}, of which no error is "
-                            "told",
+                fmt::format("the truth about the {} is NaN or infinite in {}, whose error is "
+                            "unknown",
                             what, blind == 1 ? std::string("1 pixel") : fmt::format("{} pixels", blind)));
     if (!set.circumstances.complete)
         found.push_back("incomplete: the study was interrupted");
@@ -176,14 +179,14 @@ std::vector<std::string> sentences(const WorkPrecisionSet& set) {
 }
 
 std::string held_sentence(const WorkPrecisionSet& set) {
-    constexpr size_t k_told = 8;
+    constexpr size_t k_shown = 8;
     if (set.held.empty())
         return {};
-    const size_t told = std::min(k_told, set.held.size());
-    const std::vector<Setting> first(set.held.begin(), set.held.begin() + long(told));
+    const size_t shown = std::min(k_shown, set.held.size());
+    const std::vector<Setting> first(set.held.begin(), set.held.begin() + long(shown));
     return fmt::format(
         "held fixed, in the truth too, so that no figure tells what it costs: {}{}", to_string(first),
-        told < set.held.size() ? fmt::format(" and {} more (study.json)", set.held.size() - told) : "");
+        shown < set.held.size() ? fmt::format(" and {} more (study.json)", set.held.size() - shown) : "");
 }
 
 } // namespace tidemark::lab

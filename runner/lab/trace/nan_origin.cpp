@@ -189,9 +189,9 @@ void add_reading(NanOrigin& origin, const WatchedText& watched, NodeId operation
         while (tree[shown].kind == NodeKind::parenthesis)
             shown = tree.child(shown, 0);
         std::string text = shortened(watched.text.excerpt(shown));
-        const bool told = std::any_of(origin.operands.begin(), origin.operands.end(),
-                                      [&](const TracedOperand& operand) { return operand.text == text; });
-        if (!told && !is_spelled_out(watched, shown))
+        const bool listed = std::any_of(origin.operands.begin(), origin.operands.end(),
+                                        [&](const TracedOperand& operand) { return operand.text == text; });
+        if (!listed && !is_spelled_out(watched, shown))
             origin.operands.push_back({std::move(text), value});
     }
     if (origin.value)

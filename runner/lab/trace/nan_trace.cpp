@@ -84,12 +84,13 @@ private:
 
     void compare(const WatchReading& reading) {
         if (!reading.arrived())
-            trace_.notes.push_back("the watched shader did not come to its end in this pixel");
+            trace_.notes.push_back("the instrumented shader did not finish in this pixel");
         const bool half = preview_.pass().kind == scene::PassKind::cubemap;
         if (is_finite(reading.colour) != is_finite(trace_.colour) ||
             (!half && !same(reading.colour, trace_.colour)))
-            trace_.notes.push_back(fmt::format("watching changes this pixel: {} as drawn, {} watched",
-                                               to_text(trace_.colour), to_text(reading.colour)));
+            trace_.notes.push_back(fmt::format(
+                "the instrumented shader draws this pixel otherwise: {} as drawn, {} instrumented",
+                to_text(trace_.colour), to_text(reading.colour)));
     }
 
     /// From a statement to the operation in it.
@@ -114,22 +115,22 @@ private:
         return origin;
     }
 
-    void tell() const {
+    void report() const {
         if (request_.progress)
             request_.progress(trace_);
     }
 
-    /// The first origin, then mending until the pixel is finite.
+    /// The first origin, then fixes until the pixel is finite.
     Result<void> follow(NodeId statement) {
         trace_.first = describe(watched_, statement);
-        tell();
+        report();
         NodeId operation = k_no_node;
         for (;;) {
             operation = TRY(narrow(statement));
             if (repaired_.empty()) {
                 auto origin = TRY(captured(everything_ ? operation : statement, operation));
                 trace_.first = std::move(origin);
-                tell();
+                report();
                 if (trace_.masked)
                     return {};
             }
@@ -237,7 +238,7 @@ private:
         return std::optional(std::move(trace));
     }
 
-    /// No pixel is bad: is there a NaN that something swallowed? Infinities alone are often meant.
+    /// No pixel is bad: is there a NaN that something masked? Infinities alone are often meant.
     Result<std::optional<NanTrace>> hidden() {
         for (const render::PlannedPass& planned : renderer_.plan().passes) {
             if (renderer_.scene().passes[planned.pass].kind == scene::PassKind::cubemap)

@@ -53,7 +53,7 @@ struct NanTrace {
     PixelBits colour{};  ///< as drawn
     bool masked = false; ///< the pixel is finite: a clamp, a min or a condition masked the NaN
     std::optional<NanOrigin> first{};
-    std::optional<NanOrigin> fix{}; ///< the first whose mending, with those before it, makes the pixel finite
+    std::optional<NanOrigin> fix{}; ///< the first whose fix, with those before it, makes the pixel finite
     bool fix_is_first = false;
     std::vector<std::string> notes{}; ///< what could not be done, and why
 };
@@ -63,7 +63,7 @@ struct TraceRequest {
     int frame = 0;
     int start = 0;                     ///< the frame from which a scene with feedback is drawn
     std::optional<PixelPlace> pixel{}; ///< of the shown pass; nothing: the first bad one of any pass
-    bool hidden = false; ///< where all pixels are finite: look for a NaN that something swallowed
+    bool hidden = false;               ///< where all pixels are finite: look for a NaN that something masked
     /// Called with each frame that is drawn on the way.
     std::function<void(int frame)> stepping{};
     /// Called with what is known so far, whenever more is.

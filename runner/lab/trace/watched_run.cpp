@@ -17,7 +17,7 @@ struct Drawn {
 };
 
 Result<Drawn> draw(const PassPreview& preview, const glsl::Watch& watch, size_t words, int face) {
-    auto stand_in = TRY(StandIn::link(preview, watch.text, "the watched text"));
+    auto stand_in = TRY(StandIn::link(preview, watch.text, "the instrumented text"));
     const ShaderWords buffer(words);
     stand_in.draw(preview, face);
     return Drawn{std::move(stand_in), buffer.read()};

@@ -186,7 +186,7 @@ TEST(Domains, ReadingsAreOfTheirSite) {
                                       (less & 0xfffff000U) | 6};
     ASSERT_EQ(words.size(), watch.words());
     const DomainReading reading = reading_of(watch, words, 1);
-    EXPECT_EQ(std::tuple(reading.count, reading.pixel, reading.told, reading.limit),
+    EXPECT_EQ(std::tuple(reading.count, reading.pixel, reading.argument, reading.limit),
               std::tuple(3U, 77U, half, 9U));
     EXPECT_EQ(room_of(watch, words, 0).least, 0.5F);
     EXPECT_EQ(room_of(watch, words, 0).pixel, 5U);

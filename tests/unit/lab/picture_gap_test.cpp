@@ -43,11 +43,11 @@ TEST(Alikeness, IsThePsnrOfNumbers) {
 TEST(Alikeness, CountsPixelsThatAreNoNumbersAndLeavesThemOut) {
     const image::Image numbers = picture({0, 0, 0, 0, 0, 0});
     EXPECT_EQ(alikeness(numbers, picture({0.1f, 0.1f, k_nan, 0, 0.1f, 0.1f})),
-              "0 pixels without a number become 1, 20.0 dB over the rest");
+              "0 pixels with NaN or infinity become 1, 20.0 dB over the rest");
     EXPECT_EQ(alikeness(picture({k_nan, k_nan, 0, k_infinity, 0, 0}), numbers),
-              "2 pixels without a number become 0, the same over the rest");
+              "2 pixels with NaN or infinity become 0, the same over the rest");
     EXPECT_EQ(alikeness(numbers, picture({k_nan, 0, k_nan, 0, 0, k_infinity})),
-              "0 pixels without a number become 3, and no pixel has one in both");
+              "0 pixels with NaN or infinity become 3, and no pixel is finite in both");
 }
 
 TEST(Alikeness, TheSameNanInBothIsTheSame) {

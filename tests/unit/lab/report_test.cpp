@@ -87,7 +87,7 @@ TEST(Verdict, says_when_nothing_is_good_enough_and_when_it_was_cut_short) {
     set.circumstances.complete = false;
     EXPECT_THAT(sentences(set),
                 ElementsAre("no setting of this study is sure to have PSNR >= 50 dB",
-                            "nothing in this study is as exact as the scene's defaults and cheaper",
+                            "no tested setting is cheaper than the scene's defaults without being less exact",
                             "incomplete: the study was interrupted"));
 }
 
@@ -99,8 +99,8 @@ TEST(Verdict, compares_no_hollow_points_and_counts_the_truths_own_error_against_
     EXPECT_EQ(cheapest_good(set)->point.label, "32"); // 60 dB, 52 with the truth's error against it
     EXPECT_THAT(sentences(set), testing::Contains(HasSubstr("hollow: at least 52.0 dB")));
     EXPECT_THAT(sentences(set),
-                testing::Contains("no verdict at equal error: the scene's defaults are too near the "
-                                  "truth to be told from its own error (hollow)"));
+                testing::Contains("no verdict at equal error: the scene's defaults are too close to "
+                                  "the truth's own error to rank (hollow)"));
     set.picture_standard.uncertainty = 0.01;
     judge(set);
     EXPECT_EQ(cheapest_good(set), nullptr);

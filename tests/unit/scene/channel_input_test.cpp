@@ -18,6 +18,13 @@ TEST(ChannelInput, each_kind_has_a_name_of_its_own) {
     EXPECT_EQ(traits_of(Keyboard{}).name, "keyboard");
 }
 
+TEST(ChannelInput, some_are_asked_for_by_name) {
+    EXPECT_EQ(generated_input("noise"), ChannelInput(Noise{}));
+    EXPECT_EQ(generated_input("keyboard"), ChannelInput(Keyboard{}));
+    EXPECT_EQ(generated_input("none"), std::nullopt) << "for --channel alone";
+    EXPECT_EQ(generated_input("noise.png"), std::nullopt);
+}
+
 TEST(ChannelInput, files_are_those_that_it_names) {
     EXPECT_THAT(input_files(Picture{"a.png"}), ElementsAre("a.png"));
     EXPECT_THAT(input_files(Cubemap{{"a.png", "b.png"}}), ElementsAre("a.png", "b.png"));

@@ -1,15 +1,15 @@
-#include "cli/check/told.hpp"
+#include "cli/check/error_json.hpp"
 
 namespace tidemark::cli {
 
-Json told(const Error& error) {
+Json to_json(const Error& error) {
     Json diagnostics = Json::array();
     for (const Diagnostic& d : error.diagnostics)
         diagnostics.push_back({d.where.file, d.where.line, d.where.column, int(d.severity), d.message});
     return {{"error", error.message}, {"code", int(error.code)}, {"diagnostics", diagnostics}};
 }
 
-std::optional<Error> told_error(const Json& line) {
+std::optional<Error> error_of(const Json& line) {
     if (!line.contains("error"))
         return std::nullopt;
     Error error{ErrorCode(line.at("code").get<int>()), line.at("error").get<std::string>(), {}};

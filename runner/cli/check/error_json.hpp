@@ -1,4 +1,4 @@
-// What a process of run_forked tells its parent: one JSON object a line. An error is one, too.
+// Errors as JSON: a process of run_forked sends its parent one JSON object a line, and an error is one, too.
 #pragma once
 
 #include "base/error.hpp"
@@ -9,8 +9,8 @@
 
 namespace tidemark::cli {
 
-Json told(const Error& error);
+Json to_json(const Error& error);
 /// Nothing when `line` is no error.
-std::optional<Error> told_error(const Json& line);
+std::optional<Error> error_of(const Json& line);
 
 } // namespace tidemark::cli
