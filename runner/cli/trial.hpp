@@ -30,8 +30,8 @@ struct Trial {
     std::optional<double> share{};
 };
 
-/// What a frame takes of another program's time: the median of pairs, as soon as all of its 95 % interval lies
-/// below `largest`. None where it lies above, or `next_pair` has no more before that is clear.
+/// What a frame takes of another program's time: the median of pairs, as soon as all of its 95 % interval
+/// lies below `largest`. None where it lies above, or `next_pair` has no more before that is clear.
 std::optional<double> clear_share(const std::function<std::optional<double>()>& next_pair, double largest);
 
 /// Whether specialising as far as `how` does anything to the scene that is not surely drawn alike: else there

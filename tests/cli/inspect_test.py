@@ -32,7 +32,7 @@ class Scene(ProgramTest):
         self.assertEqual(list(sizes), ["plain", "specialised", "long_sequence", "constant_knobs"])
         self.assertEqual(facts["passes"], [{
             "name": "Image", "channels": {"iChannel1": "noise"},
-            "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0}}])
+            "code_removed": {"lines": 1, "branches": 0, "out_of_loops": 0}, "marches": []}])
         self.assertEqual(facts["knobs"], [
             {"name": "height", "type": "float", "value": [1.25], "low": [0], "high": [2]},
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
@@ -61,7 +61,7 @@ class Scene(ProgramTest):
         self.assertEqual((facts["uniforms"], facts["passes"]), ([], [{
             "name": "Image", "channels": {},
             "code_removed": {"lines": 0, "branches": 0, "out_of_loops": 0,
-                             "none_because": "there is nothing to leave out"}}]))
+                             "none_because": "there is nothing to leave out"}, "marches": []}]))
         self.assertEqual(facts["left_out"][-1], "noise texture")
 
     def test_without_a_driver(self):

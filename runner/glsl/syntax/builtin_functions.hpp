@@ -27,8 +27,8 @@ struct UndefinedWhere {
 
 /// Where a function is undefined (GLSL 4.60, chapter 8). Of its longest overload: atan of two arguments.
 struct Domain {
-    UndefinedWhere undefined[2]; ///< there may be only one
-    std::string_view room;       ///< GLSL: how far it is to there; not above 0 where it is undefined
+    UndefinedWhere undefined[2];     ///< there may be only one
+    std::string_view room;           ///< GLSL: how far it is to there; not above 0 where it is undefined
     std::string_view argument = "x"; ///< the argument that is written down
 
     /// What is wrong with the arguments; nullptr: nothing.

@@ -1,5 +1,5 @@
-// A buffer of words that a shader writes into (glsl/instrument/watch.hpp, glsl/instrument/domains.hpp). A context must
-// be current.
+// A buffer of words that a shader writes into (glsl/instrument/watch.hpp, glsl/instrument/domains.hpp). A
+// context must be current.
 #pragma once
 
 #include "gl/handle.hpp"

@@ -49,7 +49,7 @@ TEST(BuiltinFunctions, domains_are_of_their_arguments) {
         if (!function.domain)
             continue;
         const std::string_view known = std::string_view("xyz").substr(0, most_parameters(function));
-        EXPECT_NE(known.find(function.domain->told), known.npos) << function.name;
+        EXPECT_NE(known.find(function.domain->argument), known.npos) << function.name;
         EXPECT_TRUE(function.domain->undefined[0].holds) << function.name;
         for (const UndefinedWhere& where : function.domain->undefined) {
             EXPECT_EQ(where.glsl.empty(), where.fault.empty()) << function.name;

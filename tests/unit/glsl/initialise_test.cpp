@@ -159,9 +159,10 @@ TEST(Initialise, NoMacroMakesSomethingElseOfAZero) {
 }
 
 TEST(Initialise, ParametersOfADefinitionHaveNames) {
-    EXPECT_EQ(zeroed("float f(float, const in vec2[2], S s, T) { return 1.; }\nvoid g(void) {}\nfloat h(vec2);\n"),
-              "float f(float tidemark_unnamed_1, const in vec2[2] tidemark_unnamed_2, S s, T tidemark_unnamed_4) "
-              "{ return 1.; }\nvoid g(void) {}\nfloat h(vec2);\n");
+    EXPECT_EQ(
+        zeroed("float f(float, const in vec2[2], S s, T) { return 1.; }\nvoid g(void) {}\nfloat h(vec2);\n"),
+        "float f(float tidemark_unnamed_1, const in vec2[2] tidemark_unnamed_2, S s, T tidemark_unnamed_4) "
+        "{ return 1.; }\nvoid g(void) {}\nfloat h(vec2);\n");
     EXPECT_EQ(zeroed("#define P vec2,\nvoid f(P int i) { }\n"),
               "#define P vec2 tidemark_unnamed_1,\nvoid f(P int i) { }\n");
 }

@@ -55,7 +55,8 @@ TEST(Rewrite, stray_bytes_are_blank) {
 }
 
 TEST(Rewrite, signs_of_macros_stay_apart) {
-    EXPECT_EQ(rewritten("#define N(x) -x\nfloat a = b-N(c)-d;\n"), "#define N(x) - x\nfloat a = b- N(c)-d;\n");
+    EXPECT_EQ(rewritten("#define N(x) -x\nfloat a = b-N(c)-d;\n"),
+              "#define N(x) - x\nfloat a = b- N(c)-d;\n");
     EXPECT_EQ(rewritten("#define D(x, y) x-y\nfloat a = D(1., -1.);\n"),
               "#define D(x, y) x- y\nfloat a = D(1., -1.);\n");
     EXPECT_EQ(rewritten("#define R(x) x*2.\n#define S(x) (-R(x))\nfloat a = -R(-1.)+S(-2.);\n"),
