@@ -62,7 +62,7 @@ public:
 
     Evaluator(const Function& function, System system = {})
         : function_(&function), system_(std::move(system)), values_(function.instructions.size()),
-          memory_(function.cells) {
+          memory_(function.cells.size()) {
         if (!function.blocks.empty())
             for (uint32_t i = 0; i < function.blocks[0].first; ++i)
                 values_[i] =
@@ -85,7 +85,7 @@ public:
     }
 
     Textures<Number> textures{};
-    /// Derivatives along x and y of an operand; none: 0.
+    /// Derivatives along x and y of an operand. Where there is none, and no textures, the value is unknown.
     std::function<Number(Op, Value)> derivative{};
     uint64_t most_steps = 50'000'000; ///< instructions
     bool splits = false;              ///< asks the decisions at jumps, too
@@ -145,10 +145,10 @@ private:
         case Op::undefined: result = system_.constant(0, instruction.type); return;
         case Op::load: result = load(instruction, operands); return;
         case Op::store: store(instruction, operands); return;
-        case Op::texel: result = textures ? looked_up(instruction, operands) : Number(); return;
+        case Op::texel: result = textures ? looked_up(instruction, operands) : system_.unknown(); return;
         case Op::derivative_x:
         case Op::derivative_y:
-            result = derivative ? derivative(instruction.op, operands[0]) : system_.constant(0, Scalar::real);
+            result = derivative ? derivative(instruction.op, operands[0]) : system_.unknown();
             return;
         default: result = computed(instruction, operands, decisions);
         }

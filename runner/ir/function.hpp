@@ -152,7 +152,7 @@ struct Function {
     std::vector<Access> accesses;
     std::vector<Variable> variables;
     std::vector<Lookup> lookups;
-    uint32_t cells = 0; ///< of memory
+    std::vector<Scalar> cells; ///< of memory, each of its kind
 
     std::span<const Value> operands_of(const Instruction& instruction) const {
         return {operands.data() + instruction.first_operand, instruction.operand_count};

@@ -12,10 +12,10 @@ constexpr int k_most_ways = 64;
 constexpr uint64_t k_most_steps = 2'000'000;
 
 /// From the loop's entry to the test that looks at the distance of the first turn, which is at those
-/// `places`; false where it is not come to. The next turn, if it is that one's, goes on as the text does.
+/// `places`: stopped where it has come to that. The next turn, if it is that one's, goes on as the text does.
 template <class System>
-bool run_to_test(Evaluator<System>& evaluator, const MarchingLoop& loop,
-                 const std::vector<typename System::Value>& places, Decisions& decisions) {
+Ended run_to_test(Evaluator<System>& evaluator, const MarchingLoop& loop,
+                  const std::vector<typename System::Value>& places, Decisions& decisions) {
     for (size_t i = 0; i < loop.carried.size(); ++i)
         evaluator.pin(loop.cut(loop.carried[i]), places[i]);
     int left = loop.in_next_turn ? 2 : 1;
@@ -26,7 +26,7 @@ bool run_to_test(Evaluator<System>& evaluator, const MarchingLoop& loop,
     };
     const Ended ended = evaluator.run(decisions, visit, loop.header, loop.entry);
     evaluator.unpin();
-    return ended == Ended::stopped;
+    return ended;
 }
 
 Interval interval_of(const Point<float>& point, Scalar type) {
@@ -43,11 +43,8 @@ MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop, const
     evaluator_.most_steps = k_most_steps;
     for (Value value = 0; value < function.instructions.size(); ++value)
         evaluator_.value(value) = interval_of(entered.value(value), function.instructions[value].type);
-    for (const Variable& variable : function.variables)
-        for (uint32_t i = 0; i < variable.size; ++i)
-            evaluator_.memory()[variable.first + i] =
-                interval_of(entered.memory()[variable.first + i], variable.type);
-    memory_ = evaluator_.memory();
+    for (size_t cell = 0; cell < function.cells.size(); ++cell)
+        memory_.push_back(interval_of(entered.memory()[cell], function.cells[cell]));
     for (const Carried& each : loop.carried) {
         const bool itself = loop.by_parameter();
         first_.push_back(itself ? 0 : entered.value(each.phi).real);
@@ -66,8 +63,11 @@ double MarchSlice::parameter(const Turn& turn) const {
 
 std::optional<Interval> MarchSlice::run_once(const std::vector<Interval>& places, Decisions& decisions) {
     evaluator_.memory() = memory_;
-    if (!run_to_test(evaluator_, *loop_, places, decisions))
+    const Ended ended = run_to_test(evaluator_, *loop_, places, decisions);
+    if (ended == Ended::left || ended == Ended::discarded)
         return std::nullopt;
+    if (ended != Ended::stopped)
+        return everything();
     return evaluator_.value(loop_->distance) - evaluator_.value(loop_->threshold);
 }
 
@@ -140,7 +140,7 @@ bool is_faithful(const MarchingLoop& loop, const FloatEvaluator& entered, const 
         for (const float each : turn.carried)
             places.push_back({each, 0});
         Decisions none(0);
-        if (!run_to_test(evaluator, loop, places, none))
+        if (run_to_test(evaluator, loop, places, none) != Ended::stopped)
             return false;
         const float distance = evaluator.value(loop.distance).real - evaluator.value(loop.threshold).real;
         if (std::bit_cast<uint32_t>(distance) != std::bit_cast<uint32_t>(turn.distance))

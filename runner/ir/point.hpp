@@ -95,6 +95,7 @@ public:
         return type == Scalar::real ? Value{Real(std::bit_cast<float>(bits)), 0} : Value{0, bits};
     }
     static Value whole(uint32_t bits) { return {0, bits}; }
+    static Value unknown() { return {std::numeric_limits<Real>::quiet_NaN(), 0}; }
     static Value number(double value) { return {Real(value), 0}; }
 
     /// `of` is the type of the first operand.

@@ -45,15 +45,15 @@ protected:
         const Id pointee = types_.part(each.at(0), 0);
         const Type& of = type(pointee);
         Pointer& place = pointers_[each.at(1)];
-        place = {pointee, function().cells, k_no_value, function().cells + std::max(1u, of.count) - 1, {}};
+        place = {pointee, cells(), k_no_value, cells() + std::max(1u, of.count) - 1, {}};
         if (of.kind == Type::Kind::sampler) {
             place.sampler = names_[each.at(1)];
             return;
         }
-        if (of.count > k_most_cells - function().cells)
+        if (of.count > k_most_cells - cells())
             cannot("too large an array");
         function().variables.push_back(variable(each, of, pointee));
-        function().cells += of.count;
+        append_scalars(pointee, function().cells);
         if (each.words.size() > 3)
             initialisers_.emplace_back(each.at(1), each.at(3));
         if (in_function_)
@@ -61,7 +61,7 @@ protected:
     }
 
     Variable variable(const SpirvInstruction& each, const Type& of, Id pointee) {
-        Variable result{Variable::Kind::local, names_[each.at(1)], function().cells, of.count, of.scalar};
+        Variable result{Variable::Kind::local, names_[each.at(1)], cells(), of.count, of.scalar};
         switch (spv::StorageClass(each.at(2))) {
         case spv::StorageClassUniformConstant:
         case spv::StorageClassUniform: result.kind = Variable::Kind::uniform; break;
@@ -120,7 +120,7 @@ protected:
 
     uint32_t access(const Pointer& place, uint32_t component) {
         const uint32_t first = place.first + component;
-        if (first > place.last || place.last >= function().cells)
+        if (first > place.last || place.last >= cells())
             cannot("an index out of range");
         function().accesses.push_back({first, place.offset == k_no_value ? 1 : place.last - first + 1});
         return uint32_t(function().accesses.size() - 1);
@@ -160,6 +160,8 @@ protected:
 
 private:
     static constexpr uint32_t k_most_cells = 1 << 20;
+
+    uint32_t cells() { return uint32_t(function().cells.size()); }
 
     std::unordered_map<Id, Pointer> pointers_;
     std::vector<std::pair<Id, Id>> initialisers_;
