@@ -27,4 +27,12 @@ std::vector<std::filesystem::path> plug_in_folders();
 /// and what to do.
 Result<const void*> load_plug_in(const PlugIn& plug_in, const std::vector<std::filesystem::path>& folders);
 
+/// The table of a plug-in of this program.
+template <class Table>
+Result<const Table*> load_plug_in(const PlugIn& plug_in) {
+    return load_plug_in(plug_in, plug_in_folders()).map([](const void* table) {
+        return static_cast<const Table*>(table);
+    });
+}
+
 } // namespace tidemark

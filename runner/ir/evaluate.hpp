@@ -23,7 +23,6 @@ public:
 
     /// No decisions are left: the run gives up.
     bool exhausted() const { return exhausted_; }
-    bool any() const { return !ways_.empty(); }
     void begin() { at_ = 0; }
     bool decide() {
         if (at_ == ways_.size()) {
@@ -73,8 +72,6 @@ public:
     Number& value(Value of) { return values_[of]; }
     std::vector<Number>& memory() { return memory_; }
     const std::vector<Number>& memory() const { return memory_; }
-    System& system() { return system_; }
-    uint64_t steps() const { return steps_; }
 
     void unpin() { pinned_.clear(); }
     /// Whatever the text computes there, it is this number.
@@ -95,21 +92,21 @@ public:
     template <class Visit>
     Ended run(Decisions& decisions, Visit visit, uint32_t block = 0, uint32_t from = 0) {
         decisions.begin();
-        steps_ = 0;
+        uint64_t steps = 0;
         while (true) {
             const Block& here = function_->blocks[block];
             enter(block, from);
             for (uint32_t i = here.first; i < here.last; ++i)
                 if (!is_pinned(i))
                     execute(i, decisions);
-            steps_ += here.last - here.first + 1;
+            steps += here.last - here.first + 1;
             if (decisions.exhausted())
                 return Ended::undecided;
             if (!visit(block))
                 return Ended::stopped;
             if (here.end == Block::End::leave || here.end == Block::End::discard)
                 return here.end == Block::End::leave ? Ended::left : Ended::discarded;
-            if (steps_ > most_steps)
+            if (steps > most_steps)
                 return Ended::too_long;
             from = std::exchange(block, here.successors[way(here, decisions)]);
         }
@@ -225,7 +222,6 @@ private:
     std::vector<Number> values_, memory_;
     std::vector<Number> entering_;
     std::vector<bool> pinned_; ///< empty: none
-    uint64_t steps_ = 0;
 };
 
 } // namespace tidemark::ir

@@ -141,8 +141,6 @@ struct Block {
     std::vector<uint32_t> successors{}; ///< of a multiway jump: successor 0 where no case fits
     std::vector<uint32_t> cases{};      ///< case i leads to successor i + 1
     bool loop = false;                  ///< the header of one
-    uint32_t after = 0;                 ///< of a loop's header: the block behind the loop
-    uint32_t next = 0;                  ///< of a loop's header: the block that leads back to it
 };
 
 struct Function {

@@ -14,7 +14,6 @@ public:
     using Value = Interval;
 
     static Value constant(uint32_t bits, Scalar type);
-    static Value number(double value) { return {value, value}; }
     static Value unknown() { return everything(); }
 
     Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const;

@@ -134,8 +134,9 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
 }
 
 bool is_faithful(const MarchingLoop& loop, const FloatEvaluator& entered, const March& march) {
+    FloatEvaluator evaluator = entered;
     for (const Turn& turn : march.turns) {
-        FloatEvaluator evaluator = entered;
+        evaluator.memory() = entered.memory();
         std::vector<Point<float>> places;
         for (const float each : turn.carried)
             places.push_back({each, 0});

@@ -301,10 +301,8 @@ private:
             loop.carried.push_back({each.phi, each.update, each.factor});
         for (const ExitTest& other : tests_)
             for (const Step& each : group)
-                if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller]) {
+                if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller])
                     loop.far = other.smaller;
-                    loop.far_of = each.phi;
-                }
         return loop;
     }
 

@@ -30,8 +30,7 @@ struct MarchingLoop {
     uint32_t test = 0; ///< block of the comparison
     /// Where a carried value exceeds it, the loop gives up; none: no such test.
     Value far = k_no_value;
-    Value far_of = k_no_value; ///< the phi that is compared with it
-    int line = 0;              ///< of the comparison
+    int line = 0; ///< of the comparison
 
     /// One value that is the ray's parameter itself.
     bool by_parameter() const { return carried.size() == 1; }

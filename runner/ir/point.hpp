@@ -96,7 +96,6 @@ public:
     }
     static Value whole(uint32_t bits) { return {0, bits}; }
     static Value unknown() { return {std::numeric_limits<Real>::quiet_NaN(), 0}; }
-    static Value number(double value) { return {Real(value), 0}; }
 
     /// `of` is the type of the first operand.
     Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const {

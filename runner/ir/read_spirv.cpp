@@ -148,11 +148,7 @@ private:
         switch (each.op) {
         case spv::OpLabel: begin_block(block_of_.at(each.at(0))); return true;
         case spv::OpPhi: read_phi(each); return true;
-        case spv::OpLoopMerge:
-            current().loop = true;
-            current().after = block_of_.at(each.at(0));
-            current().next = block_of_.at(each.at(1));
-            return true;
+        case spv::OpLoopMerge: current().loop = true; return true;
         case spv::OpBranch: end_block(Block::End::jump, {each.at(0)}); return true;
         case spv::OpBranchConditional:
             current().condition = value(each.at(0));
@@ -242,7 +238,7 @@ private:
 Result<Function> read_spirv(std::span<const uint32_t> words) {
     try {
         return Reader().read(words);
-    } catch (const CannotFollow& reason) {
+    } catch (const std::exception& reason) { // CannotFollow, or an id that nothing defines
         return fail(ErrorCode::load, reason.what());
     }
 }

@@ -11,9 +11,7 @@ const Result<const SpirvCompiler*>& spirv_compiler() {
     static const Result<const SpirvCompiler*> compiler = [] {
         const PlugIn plug_in{"tidemark_spirv.so", "SPIR-V plug-in",       "proving something of a scene",
                              "glslang 12",        k_spirv_compiler_entry, k_spirv_compiler_version};
-        return load_plug_in(plug_in, plug_in_folders()).map([](const void* table) {
-            return static_cast<const SpirvCompiler*>(table);
-        });
+        return load_plug_in<SpirvCompiler>(plug_in);
     }();
     return compiler;
 }

@@ -31,9 +31,11 @@ void expect_the_devices_colours(const scene::Scene& scene) {
     const image::Image drawn = renderer.read_floats(0);
     const auto function = PassFunction::create(scene, scene.passes[0]);
     ASSERT_TRUE(function) << function.error().message;
+    const ir::FloatEvaluator frame = function->frame(renderer, 0, k_inputs);
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
-            ir::FloatEvaluator evaluator = function->pixel(renderer, 0, k_inputs, {x, y});
+            ir::FloatEvaluator evaluator = frame;
+            function->move_to(evaluator, {x, y});
             ir::Decisions none(0);
             ASSERT_EQ(evaluator.run(none, [](uint32_t) { return true; }), ir::Ended::left);
             const ir::Variable& color = *function->function().find("tidemark_color");
@@ -114,11 +116,13 @@ RayCounts counts_of(const std::string& march) {
     const auto function = PassFunction::create(scene, scene.passes[0]);
     EXPECT_TRUE(function);
     RayCounts counts;
+    ir::FloatEvaluator pixel = function->frame(renderer, 0, k_inputs);
     for (int y = 0; y < k_extent.height; ++y)
-        for (int x = 0; x < k_extent.width; ++x)
-            if (const auto ray =
-                    prove_ray(*function, function->pixel(renderer, 0, k_inputs, {x, y}), {x, y}, 2000))
+        for (int x = 0; x < k_extent.width; ++x) {
+            function->move_to(pixel, {x, y});
+            if (const auto ray = prove_ray(*function, pixel, {x, y}, 2000))
                 counts.add(*ray);
+        }
     EXPECT_EQ(counts.rays, size_t(k_extent.width * k_extent.height));
     EXPECT_EQ(counts.contradicted, 0u);
     return counts;

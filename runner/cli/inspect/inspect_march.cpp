@@ -5,11 +5,8 @@
 #include <fmt/format.h>
 
 namespace tidemark::cli {
-namespace {
 
 using Kind = ir::MarchingLoop::Kind;
-
-} // namespace
 
 std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
     const auto function = lab::PassFunction::create(scene, pass);

@@ -133,18 +133,22 @@ std::string part_of(std::string_view name, int size, int part) {
     return size == 1 ? std::string(name) : fmt::format("{}.{}", name, std::string_view("xyzw")[size_t(part)]);
 }
 
-/// Divisors of whole numbers, `$divisor(y)`: 1 in the place of 0, which some drivers stop at.
-std::string divisors(std::string_view prefix) {
+/// `NAME(y)`, which looks at each part of a whole number or a vector of them before it is used: {0} of
+/// `pattern` is the prefix, {1} the part, {2} its type.
+std::string watched_parts(std::string_view prefix, std::string_view name, std::string_view pattern) {
     return for_whole_types([&](const std::string& type, int size) {
-        std::string text = fmt::format("{0} {1}divisor({0} y,int i,inout float m){{", type, prefix);
-        for (int part = 0; part < size; ++part) {
-            const std::string each = part_of("y", size, part);
-            text += fmt::format("{0}near(m,abs(float({1})));if(int({1})==0){{{0}whole(i,0,1u);"
-                                "{1}={2}(1);}}",
-                                prefix, each, type[0] == 'u' ? "uint" : "int");
-        }
+        std::string text = fmt::format("{0} {1}{2}({0} y,int i,inout float m){{", type, prefix, name);
+        for (int part = 0; part < size; ++part)
+            text += fmt::format(fmt::runtime(pattern), prefix, part_of("y", size, part),
+                                type[0] == 'u' ? "uint" : "int");
         return text + "return y;}\n";
     });
+}
+
+/// Divisors of whole numbers, `$divisor(y)`: 1 in the place of 0, which some drivers stop at.
+std::string divisors(std::string_view prefix) {
+    return watched_parts(prefix, "divisor",
+                         "{0}near(m,abs(float({1})));if(int({1})==0){{{0}whole(i,0,1u);{1}={2}(1);}}");
 }
 
 /// Quotients that turn out to be of whole numbers, and those with matrices, which are not watched.
@@ -176,17 +180,9 @@ std::string other_quotients(std::string_view prefix) {
 }
 
 std::string shifts(std::string_view prefix) {
-    return for_whole_types([&](const std::string& type, int size) {
-        std::string text = fmt::format("{0} {1}shift({0} y,int i,inout float m){{", type, prefix);
-        for (int part = 0; part < size; ++part) {
-            const std::string each = part_of("y", size, part);
-            text += fmt::format("{0}near(m,min(float({1}),31.0-float({1}))+0.5);"
-                                "if(uint({1})>31u){{{0}whole(i,int({1}),31u);"
-                                "if({0}number>=0){1}={2}(0);}}",
-                                prefix, each, type[0] == 'u' ? "uint" : "int");
-        }
-        return text + "return y;}\n";
-    });
+    return watched_parts(prefix, "shift",
+                         "{0}near(m,min(float({1}),31.0-float({1}))+0.5);"
+                         "if(uint({1})>31u){{{0}whole(i,int({1}),31u);if({0}number>=0){1}={2}(0);}}");
 }
 
 /// An index that there is, whatever was asked for: a write beyond could hit anything.

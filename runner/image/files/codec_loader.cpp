@@ -33,9 +33,7 @@ Result<const PictureCodec*> load_codec() {
                                      "too little memory for them");
     const PlugIn plug_in{"tidemark_pictures.so", "picture plug-in",     "reading and writing pictures",
                          "OpenImageIO 2.4",      k_picture_codec_entry, k_picture_codec_version};
-    return load_plug_in(plug_in, plug_in_folders()).map([](const void* table) {
-        return static_cast<const PictureCodec*>(table);
-    });
+    return load_plug_in<PictureCodec>(plug_in);
 }
 
 } // namespace

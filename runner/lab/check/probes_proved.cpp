@@ -29,13 +29,14 @@ Result<RayCounts> count(ProbeBench& bench, const PassFunction& function) {
     const size_t image = bench.scene().image_index();
     RayCounts counts;
     for (const double moment : k_moments) {
-        const render::FrameInputs inputs = render::inputs_of(render::at_time(moment));
+        ir::FloatEvaluator pixel =
+            function.frame(renderer, image, render::inputs_of(render::at_time(moment)));
         for (int y = 0; y < k_rays.height; ++y)
             for (int x = 0; x < k_rays.width; ++x) {
                 const Extent whole = renderer.extent();
                 const glm::ivec2 at{(2 * x + 1) * whole.width / (2 * k_rays.width),
                                     (2 * y + 1) * whole.height / (2 * k_rays.height)};
-                const auto pixel = function.pixel(renderer, image, inputs, at);
+                function.move_to(pixel, at);
                 if (const auto ray = prove_ray(function, pixel, at, k_most_evaluations))
                     counts.add(*ray);
             }
@@ -44,7 +45,6 @@ Result<RayCounts> count(ProbeBench& bench, const PassFunction& function) {
 }
 
 std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
-    const size_t wrong = counts.step_over + counts.miss;
     std::string text = fmt::format(
         "{:.3g} % of {} rays are decided: {:.3g} % of these step over their first hit, {:.3g} % miss it",
         percent(counts.decided(), counts.rays), counts.rays, percent(counts.step_over, counts.decided()),
@@ -52,8 +52,8 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
     if (counts.undecided > 0)
         text += fmt::format("; of {:.3g} % it is not known ({})", percent(counts.undecided, counts.rays),
                             to_string(counts.commonest()));
-    if (wrong > 0) {
-        const SourceLocation where = function.locate(function.loops().front().line);
+    if (counts.wrong_loop) {
+        const SourceLocation where = function.locate(function.loops()[*counts.wrong_loop].line);
         text += fmt::format("; {}:{} tests the distance: take shorter steps there", where.file, where.line);
     }
     return text;

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <charconv>
-#include <limits>
 
 namespace tidemark::lab {
 namespace {
@@ -76,8 +75,8 @@ Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene
     return result;
 }
 
-ir::FloatEvaluator PassFunction::pixel(const render::Renderer& renderer, size_t pass,
-                                       const render::FrameInputs& inputs, glm::ivec2 at) const {
+ir::FloatEvaluator PassFunction::frame(const render::Renderer& renderer, size_t pass,
+                                       const render::FrameInputs& inputs) const {
     ir::FloatEvaluator evaluator(function_);
     const render::UniformTable table(uniforms_of(function_), renderer.scene().knobs);
     table.hand_over(renderer.uniforms_of(pass, table, inputs, renderer.extent()),
@@ -86,13 +85,13 @@ ir::FloatEvaluator PassFunction::pixel(const render::Renderer& renderer, size_t 
                         for (uint32_t i = 0; i < values.size(); ++i)
                             store(evaluator, variable, i, values[i]);
                     });
+    return evaluator;
+}
+
+void PassFunction::move_to(ir::FloatEvaluator& frame, glm::ivec2 at) const {
     if (const Variable* place = function_.find("gl_FragCoord"))
         for (const auto& [i, value] : {std::pair{0u, at.x + 0.5}, {1u, at.y + 0.5}, {2u, 0.5}, {3u, 1.0}})
-            store(evaluator, *place, i, value);
-    evaluator.textures = [](const ir::Lookup&, std::span<const ir::Point<float>>) {
-        return ir::Point<float>{std::numeric_limits<float>::quiet_NaN(), 0};
-    };
-    return evaluator;
+            store(frame, *place, i, value);
 }
 
 } // namespace tidemark::lab

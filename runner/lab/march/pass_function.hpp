@@ -24,10 +24,11 @@ public:
     /// In the author's text.
     SourceLocation locate(int line) const { return lines_.locate(line); }
 
-    /// Set up for that pixel of a pass in the renderer's plan, which is drawn in that extent; counted from
-    /// the lower left. Look-ups in textures give NaN.
-    ir::FloatEvaluator pixel(const render::Renderer& renderer, size_t pass, const render::FrameInputs& inputs,
-                             glm::ivec2 at) const;
+    /// Set up with the uniforms of a frame, for a pass in the renderer's plan.
+    ir::FloatEvaluator frame(const render::Renderer& renderer, size_t pass,
+                             const render::FrameInputs& inputs) const;
+    /// For that pixel of the frame, counted from the lower left.
+    void move_to(ir::FloatEvaluator& frame, glm::ivec2 at) const;
 
 private:
     ir::Function function_;

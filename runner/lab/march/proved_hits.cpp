@@ -87,6 +87,8 @@ void RayCounts::add(const ProvedRay& ray) {
     contradicted += ray.contradicted;
     if (ray.evaluations > 0)
         evaluations.push_back(double(ray.evaluations));
+    if (!wrong_loop && (ray.outcome == Outcome::steps_over || ray.outcome == Outcome::misses))
+        wrong_loop = ray.loop;
     switch (ray.outcome) {
     case Outcome::agrees: ++agree; break;
     case Outcome::steps_over: ++step_over; break;

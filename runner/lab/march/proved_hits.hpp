@@ -39,6 +39,7 @@ struct RayCounts {
     size_t rays = 0; ///< that entered a loop
     size_t agree = 0, step_over = 0, miss = 0, undecided = 0, textured = 0, unfaithful = 0, contradicted = 0;
     std::array<size_t, ir::k_reasons> reasons{}; ///< of the undecided
+    std::optional<size_t> wrong_loop{};          ///< of the first that steps over or misses
     std::vector<double> evaluations{};           ///< of those that were tried
 
     void add(const ProvedRay& ray);
