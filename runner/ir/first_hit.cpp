@@ -9,6 +9,9 @@ namespace {
 /// Of a hit, relative to the parameter and to the length of the ray.
 constexpr double k_relative_width = 4e-6;
 constexpr double k_first_part = 1.0 / 16;
+/// Of the ray's length: near the start a hit is not narrowed down further than by k_relative_width of that,
+/// or of the distance there if it is less.
+constexpr double k_near_part = 1e-2;
 /// How far behind a place that may be one a hit is looked for: so often the width is doubled.
 constexpr int k_doublings = 10;
 /// Wider than a slope makes it.
@@ -17,7 +20,7 @@ constexpr double k_jump = 1e3;
 class Search {
 public:
     Search(MarchSlice& slice, double last, uint64_t most)
-        : slice_(slice), last_(last), most_(most), length_(last - slice.start()) {}
+        : slice_(slice), last_(last), most_(most), length_(last - slice.start()), near_(near()) {}
 
     FirstHit run() {
         double at = slice_.start();
@@ -39,38 +42,36 @@ public:
     }
 
 private:
-    double narrowest(double at) const { return k_relative_width * std::max(std::abs(at), 1e-2 * length_); }
+    double near() {
+        const auto distance = slice_.distance({slice_.start(), slice_.start()}, false);
+        const bool known = distance && distance->low > 0;
+        return std::min(k_near_part * length_, known ? distance->low : k_infinity);
+    }
+    double narrowest(double at) const { return k_relative_width * std::max(std::abs(at), near_); }
 
     /// A closer look costs a run for each way: it is taken where the first one leaves it open.
     bool is_free(const Interval& cell) {
         const auto quick = slice_.distance(cell, false);
-        if (is_above(quick))
+        if (slice_.excludes_hit(quick))
             return true;
-        return cell.width() < length_ * k_first_part && is_above(slice_.distance(cell, true));
-    }
-    static bool is_above(const std::optional<Interval>& distance) {
-        return !distance || (distance->low > 0 && !distance->partial);
+        return cell.width() < length_ * k_first_part && slice_.excludes_hit(slice_.distance(cell, true));
     }
 
     /// Somewhere from here on it is surely below the threshold, or that is not known.
     FirstHit at_narrow(const Interval& cell) {
-        const auto all = slice_.distance(cell, true);
-        if (all && (all->partial || std::isinf(all->low)))
-            return answer(FirstHit::Verdict::undecided, cell, FirstHit::Reason::not_finite);
         double reach = cell.width();
         for (int i = 0; i < k_doublings; ++i, reach *= 2) {
             const double end = std::min(cell.low + reach, last_);
-            if (is_below(slice_.distance({end, std::nextafter(end, k_infinity)}, true)))
+            if (slice_.is_hit(slice_.distance({end, std::nextafter(end, k_infinity)}, true)))
                 return answer(FirstHit::Verdict::hit, {cell.low, end}, FirstHit::Reason::none);
         }
+        const auto all = slice_.distance(cell, true);
+        if (all && all->partial)
+            return answer(FirstHit::Verdict::undecided, cell, FirstHit::Reason::not_finite);
         const bool wide = all && all->width() > k_jump * cell.width();
         return answer(FirstHit::Verdict::undecided, cell,
                       wide ? FirstHit::Reason::jump : FirstHit::Reason::grazing);
     }
-    static bool is_below(const std::optional<Interval>& distance) {
-        return distance && !distance->partial && distance->high <= 0;
-    }
-
     FirstHit answer(FirstHit::Verdict verdict, const Interval& where, FirstHit::Reason reason) const {
         return {verdict, reason, where, slice_.evaluations()};
     }
@@ -79,6 +80,7 @@ private:
     double last_;
     uint64_t most_;
     double length_;
+    double near_;
 };
 
 } // namespace

@@ -43,6 +43,8 @@ enum class Op : uint8_t {
     round, ///< halves away from zero
     round_even,
     fract,
+    whole_part,     ///< a - fract(a)
+    whole_multiple, ///< a - (a modulo b)
     sqrt,
     inverse_sqrt,
     sin,

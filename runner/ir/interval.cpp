@@ -1,6 +1,7 @@
 #include "ir/interval.hpp"
 
 #include <array>
+#include <utility>
 
 namespace tidemark::ir {
 namespace {
@@ -46,6 +47,15 @@ Interval wave(double (*function)(double), const Interval& a, double top) {
     return {std::max(result.low, -1.0), std::min(result.high, 1.0), a.partial};
 }
 
+/// a + b, rounded downwards. What is lost of the sum in double is known exactly (D. E. Knuth: The Art of
+/// Computer Programming 2, 4.2.2, theorem B), so that an exact sum stays what it is.
+double sum_below(double a, double b) {
+    const double sum = a + b;
+    const double rest = sum - a;
+    const double lost = (a - (sum - rest)) + (b - rest);
+    return lost >= 0 ? sum : below(sum);
+}
+
 /// The largest whole k with k b <= a; fma tells the sign of k b - a exactly.
 double whole_multiples(double a, double b) {
     double k = std::floor(a / b);
@@ -80,11 +90,8 @@ Interval hull(const Interval& a, const Interval& b) {
 }
 
 Interval operator+(const Interval& a, const Interval& b) {
-    const double low = a.low + b.low, high = a.high + b.high;
-    if (std::isnan(low) || std::isnan(high))
-        return everything();
-    const double least = a.low >= 0 && b.low >= 0 ? 0 : -k_infinity;
-    return {std::max(least, below(low)), above(high), partial(a, b)};
+    const double low = sum_below(a.low, b.low), high = -sum_below(-a.high, -b.high);
+    return std::isnan(low) || std::isnan(high) ? everything() : Interval{low, high, partial(a, b)};
 }
 
 Interval operator-(const Interval& a) {
@@ -104,9 +111,19 @@ Interval operator*(const Interval& a, const Interval& b) {
     return result;
 }
 
+/// a / b where 0 is a bound of b: the quotient is not bounded on one side.
+static Interval beside_pole(const Interval& a, const Interval& b) {
+    if (b.high == 0)
+        return beside_pole(-a, -b);
+    return {a.low >= 0 ? std::max(0.0, below(a.low / b.high)) : -k_infinity,
+            a.high <= 0 ? std::min(0.0, above(a.high / b.high)) : k_infinity, true};
+}
+
 Interval operator/(const Interval& a, const Interval& b) {
-    if (b.contains(0))
+    if ((b.low < 0 && b.high > 0) || (b.low == 0 && b.high == 0))
         return everything();
+    if (b.low == 0 || b.high == 0)
+        return beside_pole(a, b);
     return of_corners({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high}, partial(a, b));
 }
 
@@ -124,11 +141,14 @@ Interval square(const Interval& a) {
 }
 
 Interval minimum(const Interval& a, const Interval& b) {
-    return {std::min(a.low, b.low), std::min(a.high, b.high), partial(a, b)};
+    const double low = std::min(a.low, b.low);
+    if (partial(a, b)) // of NaN and a number it may be the number
+        return {low, std::max(a.partial ? b.high : a.high, b.partial ? a.high : b.high), true};
+    return {low, std::min(a.high, b.high)};
 }
 
 Interval maximum(const Interval& a, const Interval& b) {
-    return {std::max(a.low, b.low), std::max(a.high, b.high), partial(a, b)};
+    return -minimum(-a, -b);
 }
 
 Interval sign(const Interval& a) {
@@ -150,12 +170,17 @@ Interval inverse_sqrt(const Interval& a) {
     return {std::max(0.0, below(below(1 / std::sqrt(a.high)))), high, a.partial || a.low <= 0};
 }
 
-/// By one number above 0. Its multiples are exact in double as long as it is a float and they are few.
-static Interval modulo_by(const Interval& a, double b) {
-    const double first = whole_multiples(a.low, b);
+/// How often one number above 0 goes into those of the interval: the least and the most. Its multiples are
+/// exact in double as long as it is a float and they are few.
+static std::pair<double, double> multiples_in(const Interval& a, double b) {
     double last = whole_multiples(a.high, b);
-    if (a.open && std::fma(last, b, -a.high) == 0)
+    if (a.from_below && std::fma(last, b, -a.high) == 0)
         last -= 1;
+    return {whole_multiples(a.low, b), last};
+}
+
+static Interval modulo_by(const Interval& a, double b) {
+    const auto [first, last] = multiples_in(a, b);
     if (!(std::abs(first) < k_largest_whole) || first < last)
         return {0, b, a.partial};
     const Interval rest = a - Interval{b, b} * Interval{first, first};
@@ -174,9 +199,19 @@ Interval modulo(const Interval& a, const Interval& b) {
     return {std::min(b.low, 0.0), std::max(b.high, 0.0), partial(a, b)};
 }
 
+Interval whole_multiple(const Interval& a, const Interval& b) {
+    const bool countable = b.point() && b.low > 0 && absolute(a).high / b.low < k_largest_whole;
+    if (!countable)
+        return a - modulo(a, b);
+    const auto [first, last] = multiples_in(a, b.low);
+    const double low = first * b.low, high = last * b.low;
+    const bool exact = std::fma(first, b.low, -low) == 0 && std::fma(last, b.low, -high) == 0;
+    return widened({low, high, a.partial}, exact ? 0 : 1);
+}
+
 Interval fract(const Interval& a) {
     const double whole = std::floor(a.low);
-    if (std::isfinite(whole) && (whole == std::floor(a.high) || (a.open && whole + 1 == a.high)))
+    if (std::isfinite(whole) && (whole == std::floor(a.high) || (a.from_below && whole + 1 == a.high)))
         return {std::max(0.0, below(a.low - whole)), std::min(1.0, above(a.high - whole)), a.partial};
     return {0, 1, a.partial || std::isinf(a.low) || std::isinf(a.high)};
 }
@@ -199,10 +234,13 @@ Interval tan(const Interval& a) {
 /// On each side of the cut (the negative x axis) it goes the same way along an edge of the box, so that its
 /// extremes are at corners.
 Interval atan2(const Interval& a, const Interval& b) {
-    if (a.contains(0) && b.low <= 0)
+    const bool above_cut = a.from_above && a.low == 0 && b.high < 0;
+    const bool below_cut = a.from_below && a.high == 0 && b.high < 0;
+    if (a.contains(0) && b.low <= 0 && !above_cut && !below_cut)
         return {below(-k_pi), above(k_pi), partial(a, b) || b.high >= 0};
-    const std::array<double, 4> corners{std::atan2(a.low, b.low), std::atan2(a.low, b.high),
-                                        std::atan2(a.high, b.low), std::atan2(a.high, b.high)};
+    const double a_low = above_cut ? 0.0 : a.low, a_high = below_cut ? -0.0 : a.high;
+    const std::array<double, 4> corners{std::atan2(a_low, b.low), std::atan2(a_low, b.high),
+                                        std::atan2(a_high, b.low), std::atan2(a_high, b.high)};
     const auto [low, high] = std::ranges::minmax(corners);
     return widened({low, high, partial(a, b)}, k_library_ulps);
 }

@@ -17,8 +17,10 @@ namespace tidemark::ir {
 struct Interval {
     double low = 0;
     double high = 0;
-    bool partial = false; ///< NaN or an infinity may come of it
-    bool open = false;    ///< `high` itself is not in it: only floor, fract and mod ask
+    bool partial = false; ///< NaN or an infinity may come of it; what is a number lies within
+    /// Where an operation jumps at a bound, it is taken as it comes there from within.
+    bool from_below = false; ///< at `high`
+    bool from_above = false; ///< at `low`
 
     bool point() const { return low == high && !partial; }
     bool contains(double number) const { return low <= number && number <= high; }
@@ -57,6 +59,8 @@ Interval inverse_sqrt(const Interval& a);
 /// x - y floor(x / y); fract(x).
 Interval modulo(const Interval& a, const Interval& b);
 Interval fract(const Interval& a);
+/// y floor(x / y).
+Interval whole_multiple(const Interval& a, const Interval& b);
 Interval sin(const Interval& a);
 Interval cos(const Interval& a);
 Interval tan(const Interval& a);

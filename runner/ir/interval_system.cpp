@@ -65,8 +65,29 @@ Interval rounded(const Interval& a, Rounding rounding) {
 
 Interval floor(const Interval& a) {
     Interval result = rounded(a, [](double x) { return std::floor(x); });
-    if (a.open && result.high == a.high && result.low < result.high)
+    if (a.from_below && result.high == a.high && result.low < result.high)
         result.high -= 1;
+    return result;
+}
+
+Interval ceil(const Interval& a) {
+    Interval result = rounded(a, [](double x) { return std::ceil(x); });
+    if (a.from_above && result.low == a.low && result.low < result.high)
+        result.low += 1;
+    return result;
+}
+
+bool is_half(double a) {
+    return std::abs(a - std::trunc(a)) == 0.5;
+}
+
+template <class Rounding>
+Interval to_nearest(const Interval& a, Rounding rounding) {
+    Interval result = rounded(a, rounding);
+    if (a.from_below && is_half(a.high))
+        result.high = a.high - 0.5;
+    if (a.from_above && is_half(a.low))
+        result.low = a.low + 0.5;
     return result;
 }
 
@@ -121,11 +142,13 @@ Interval real(Op op, const Interval& a, const Interval& b, const Interval& c) {
     case Op::minimum: return minimum(a, b);
     case Op::maximum: return maximum(a, b);
     case Op::floor: return floor(a);
-    case Op::ceil: return rounded(a, [](double x) { return std::ceil(x); });
+    case Op::ceil: return ceil(a);
     case Op::truncate: return rounded(a, [](double x) { return std::trunc(x); });
-    case Op::round: return rounded(a, [](double x) { return std::round(x); });
-    case Op::round_even: return rounded(a, [](double x) { return std::nearbyint(x); });
+    case Op::round: return to_nearest(a, [](double x) { return std::round(x); });
+    case Op::round_even: return to_nearest(a, [](double x) { return std::nearbyint(x); });
     case Op::fract: return fract(a);
+    case Op::whole_part: return floor(a);
+    case Op::whole_multiple: return whole_multiple(a, b);
     case Op::sqrt: return sqrt(a);
     case Op::inverse_sqrt: return inverse_sqrt(a);
     case Op::sin: return sin(a);
@@ -164,19 +187,40 @@ Interval to_int(const Interval& a, Scalar type) {
     return !whole.partial && whole.low >= all.low && whole.high <= all.high ? whole : all;
 }
 
-/// The step that floor, fract and mod make within the operand, where there is one alone.
-std::optional<double> step_in(Op op, std::span<const Interval> operands) {
-    const Interval& a = operands[0];
-    double unit = 1;
-    if (op == Op::modulo) {
-        if (!operands[1].point() || operands[1].low == 0)
-            return std::nullopt;
-        unit = std::abs(operands[1].low);
+/// Where the operation jumps: at first + k unit for every whole k; a unit of 0: at `first` alone.
+struct Jumps {
+    double first = 0, unit = 1;
+};
+
+std::optional<Jumps> jumps_of(Op op, std::span<const Interval> operands) {
+    switch (op) {
+    case Op::floor:
+    case Op::ceil:
+    case Op::fract:
+    case Op::whole_part: return Jumps{};
+    case Op::round:
+    case Op::round_even: return Jumps{0.5};
+    case Op::modulo:
+    case Op::whole_multiple:
+        if (operands[1].point() && operands[1].low != 0)
+            return Jumps{0, std::abs(operands[1].low)};
+        return std::nullopt;
+    case Op::atan2: // from pi to -pi
+        if (operands[1].high < 0)
+            return Jumps{0, 0};
+        return std::nullopt;
+    default: return std::nullopt;
     }
-    double at = std::ceil(a.low / unit) * unit;
+}
+
+/// The jump within the interval, where there is one alone.
+std::optional<double> jump_in(const Interval& a, const Jumps& jumps) {
+    if (jumps.unit == 0)
+        return a.low < jumps.first && jumps.first < a.high ? std::optional(jumps.first) : std::nullopt;
+    double at = std::ceil((a.low - jumps.first) / jumps.unit) * jumps.unit + jumps.first;
     if (at <= a.low)
-        at += unit;
-    return at < a.high && at + unit > a.high ? std::optional(at) : std::nullopt;
+        at += jumps.unit;
+    return at < a.high && at + jumps.unit > a.high ? std::optional(at) : std::nullopt;
 }
 
 } // namespace
@@ -219,15 +263,15 @@ std::pair<int64_t, int64_t> IntervalSystem::range(const Interval& index) {
 
 std::optional<std::pair<Interval, Interval>> IntervalSystem::split(Op op,
                                                                    std::span<const Interval> operands) {
-    if (op != Op::floor && op != Op::fract && op != Op::modulo)
-        return std::nullopt;
+    const auto jumps = jumps_of(op, operands);
     const Interval& a = operands[0];
-    if (a.partial || !(a.width() < 1e9))
+    if (!jumps || a.partial || !(a.width() < 1e9))
         return std::nullopt;
-    const auto step = step_in(op, operands);
-    if (!step)
+    const auto at = jump_in(a, *jumps);
+    if (!at)
         return std::nullopt;
-    return std::pair{Interval{a.low, *step, false, true}, Interval{*step, a.high, false, a.open}};
+    return std::pair{Interval{a.low, *at, false, true, a.from_above},
+                     Interval{*at, a.high, false, a.from_below, true}};
 }
 
 } // namespace tidemark::ir

@@ -91,6 +91,17 @@ std::optional<Interval> MarchSlice::distance(const Interval& parameter, bool clo
     return all;
 }
 
+bool MarchSlice::excludes_hit(const std::optional<Interval>& distance) const {
+    if (!distance)
+        return true;
+    const bool above = loop_->at_equality ? distance->low > 0 : distance->low >= 0;
+    return above && !(distance->partial && loop_->at_nan);
+}
+
+bool MarchSlice::is_hit(const std::optional<Interval>& distance) const {
+    return distance && !distance->partial && (loop_->at_equality ? distance->high <= 0 : distance->high < 0);
+}
+
 std::optional<size_t> enter_first(FloatEvaluator& evaluator, const std::vector<MarchingLoop>& loops) {
     Decisions none(0);
     std::optional<size_t> entered;
@@ -129,7 +140,10 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
         march.far = evaluator.value(loop.far).real;
     Decisions none(0);
     evaluator.run(none, visit, loop.header, loop.entry);
-    march.hit = !march.turns.empty() && march.turns.back().distance <= 0;
+    if (!march.turns.empty()) {
+        const float last = march.turns.back().distance;
+        march.hit = loop.at_equality ? last <= 0 : last < 0;
+    }
     return march;
 }
 

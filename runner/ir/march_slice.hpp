@@ -42,6 +42,9 @@ public:
     /// of it. `closely`: conditions and jumps that are not decided are gone through one by one, as far as
     /// that is few ways; else they cost width. Nothing where the loop is left before it measures.
     std::optional<Interval> distance(const Interval& parameter, bool closely);
+    /// Of what `distance` gives: no place of the piece is a hit; every one is.
+    bool excludes_hit(const std::optional<Interval>& distance) const;
+    bool is_hit(const std::optional<Interval>& distance) const;
     uint64_t evaluations() const { return evaluations_; }
 
 private:

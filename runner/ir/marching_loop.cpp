@@ -7,9 +7,11 @@
 namespace tidemark::ir {
 namespace {
 
-/// A comparison that decides whether the loop is left: where `less` is below `more`, or where it is not.
+/// A comparison that decides whether the loop is left: where `smaller` is below `larger`.
 struct ExitTest {
-    Value smaller, larger; ///< the loop is left where smaller < larger, equal or not
+    Value smaller, larger;
+    bool at_equality; ///< it is left, too, where they are equal
+    bool at_nan;      ///< or where one of them is NaN
     uint32_t block;
     int line;
 };
@@ -82,11 +84,10 @@ private:
             return;
         case Op::less:
         case Op::less_equal: {
-            const uint32_t tested = block_of_[condition];
-            if (leaving)
-                tests_.push_back({parts[0], parts[1], tested, at(condition).line});
-            else
-                tests_.push_back({parts[1], parts[0], tested, at(condition).line});
+            const bool or_equal = at(condition).op == Op::less_equal;
+            const Value smaller = parts[leaving ? 0 : 1], larger = parts[leaving ? 1 : 0];
+            tests_.push_back(
+                {smaller, larger, or_equal == leaving, !leaving, block_of_[condition], at(condition).line});
             return;
         }
         default: return;
@@ -293,6 +294,8 @@ private:
         loop.cut_at_update = at_update;
         loop.distance = test.smaller;
         loop.threshold = test.larger;
+        loop.at_equality = test.at_equality;
+        loop.at_nan = test.at_nan;
         loop.test = test.block;
         loop.line = test.line;
         for (const uint32_t each : function_.blocks[header_].predecessors)

@@ -24,10 +24,12 @@ struct MarchingLoop {
     std::vector<Carried> carried;
     bool cut_at_update = false; ///< the distance is that of the position after the step of the turn
     bool in_next_turn = false;  ///< the test looks at a distance that the turn before has left
-    /// A hit is where distance - threshold <= 0; the comparison's operands.
+    /// A hit is where distance - threshold < 0; the comparison's operands.
     Value distance = k_no_value;
     Value threshold = k_no_value;
-    uint32_t test = 0; ///< block of the comparison
+    bool at_equality = false; ///< and where it is 0
+    bool at_nan = false;      ///< and where it is NaN
+    uint32_t test = 0;        ///< block of the comparison
     /// Where a carried value exceeds it, the loop gives up; none: no such test.
     Value far = k_no_value;
     int line = 0; ///< of the comparison

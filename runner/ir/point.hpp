@@ -60,6 +60,8 @@ Real real_number(Op op, Real a, Real b, Real c) {
     case Op::round: return std::round(a);
     case Op::round_even: return std::nearbyint(a);
     case Op::fract: return fract(a);
+    case Op::whole_part: return a - fract(a);
+    case Op::whole_multiple: return a - (a - b * std::floor(a / b));
     case Op::sqrt: return std::sqrt(a);
     case Op::inverse_sqrt: return 1 / std::sqrt(a);
     case Op::sin: return std::sin(a);

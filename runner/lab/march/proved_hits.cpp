@@ -11,7 +11,7 @@ using Verdict = ir::FirstHit::Verdict;
 
 /// A march stops within its threshold, and nobody sees a step of a hundredth.
 constexpr double k_same_place = 0.01;
-/// Where a march has no limit, a hit is looked for so much further than it came.
+/// Where a march has no limit, a hit is looked for so much further than the one it found.
 constexpr double k_beyond = 1.5;
 /// Below the threshold by more than a rounding.
 constexpr float k_surely_below = -1e-5f;
@@ -19,7 +19,8 @@ constexpr float k_surely_below = -1e-5f;
 double end_of(const ir::MarchSlice& slice, const ir::MarchingLoop& loop, const ir::March& march) {
     if (loop.far != ir::k_no_value && loop.by_parameter())
         return march.far;
-    return slice.start() + k_beyond * (slice.parameter(march.turns.back()) - slice.start());
+    const double way = slice.parameter(march.turns.back()) - slice.start();
+    return slice.start() + (march.hit ? k_beyond : 1) * way;
 }
 
 /// No sample of the march may have been below the threshold where that is excluded.

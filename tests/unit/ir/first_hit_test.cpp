@@ -59,10 +59,51 @@ TEST(FirstHit, with_noise_of_lattice_points_is_decided) {
     EXPECT_LT(hit.where.high, 5.1);
 }
 
+TEST(FirstHit, with_lattice_points_that_are_a_difference_is_decided) {
+    const FirstHit hit = hit_of("p.z - 2.0 + 0.3 * fract(sin((p.z - fract(p.z)) * 91.7) * 4311.3)", 0);
+    EXPECT_EQ(hit.verdict, Verdict::hit) << to_string(hit.reason);
+    EXPECT_LT(hit.where.width(), 1e-3);
+}
+
+TEST(FirstHit, is_found_behind_the_cut_of_an_angle_and_between_halves) {
+    // At a way of 4 the angle jumps from pi to -pi.
+    expect_hit(hit_of("min(5.0 - p.z, abs(atan(1.0 - p.z, -1.0)) - 1.0)", 0), 8 - 0.001);
+    expect_hit(hit_of("length(vec3(p.xy, p.z - 0.5 - 4.0 * round((p.z - 0.5) / 4.0))) - 0.5", 0.25f),
+               3.5 - std::sqrt(0.501 * 0.501 - 0.0625));
+}
+
+TEST(FirstHit, needs_less_than_the_threshold_where_the_text_does) {
+    const std::string march = "for (int i = 0; i < 100; ++i) { float d = map(ro + rd * t);"
+                              "if (d LEAVES 0.5 || t > 20.0) break; t += 0.1 * d; }";
+    const auto leaves = [&](const char* how) {
+        std::string text = march;
+        return hit_of("max(3.0 - p.z, p.z < 4.0 ? 0.5 : 3.0 - p.z)", 0, 20,
+                      text.replace(text.find("LEAVES"), 6, how));
+    };
+    expect_hit(leaves("<"), 7);
+    expect_hit(leaves("<="), 5.5);
+}
+
+TEST(FirstHit, is_nothing_where_the_field_is_no_number) {
+    // NaN up to z = 1: no comparison holds there, and none ends the march.
+    expect_hit(hit_of("5.0 - p.z + 0.0 * sqrt(p.z - 1.0)", 0), 8 - 0.001);
+    const std::string march =
+        "for (int i = 0; i < 100; ++i) { float d = map(ro + rd * t); if (!(d > 0.001)) break; t += 0.1; }";
+    const FirstHit left = hit_of("5.0 - p.z + 0.0 * sqrt(p.z - 1.0)", 0, 20, march);
+    EXPECT_EQ(left.verdict, Verdict::undecided);
+    EXPECT_EQ(left.reason, FirstHit::Reason::not_finite);
+}
+
+TEST(FirstHit, of_a_pole_is_where_the_field_falls_to_minus_infinity) {
+    expect_hit(hit_of("1.0 / (1.0 - p.z)", 0), 4);
+}
+
+TEST(FirstHit, is_narrow_however_long_the_ray_is) {
+    const FirstHit hit = hit_of("length(p) - 1.0", 0, 1e9);
+    expect_hit(hit, 3 - 1.001);
+}
+
 TEST(FirstHit, is_left_open_where_nothing_is_known) {
-    const FirstHit nan = hit_of("length(p) - 1.0 + 0.0 * log(p.z - 9.0)", 1.5f);
-    EXPECT_EQ(nan.verdict, Verdict::undecided);
-    EXPECT_EQ(nan.reason, FirstHit::Reason::not_finite);
     const FirstHit grazing = hit_of("length(p) - 1.0", 1.001f);
     EXPECT_NE(grazing.verdict, Verdict::hit);
     const FirstHit unknown = hit_of("texture(iChannel0, p.xz).r - 0.5", 0);

@@ -79,15 +79,25 @@ Case binary(std::string name, Interval (*bounds)(const Interval&, const Interval
             [exact](mpfr_ptr result, auto& x) { exact(result, x[0].get(), x[1].get(), MPFR_RNDN); }};
 }
 
-/// x - y floor(x / y); 200 bits are not enough for x / y of any two doubles, so the quotient has more.
+/// y floor(x / y); 200 bits are not enough for x / y of any two doubles, so the quotient has more.
+void multiple_below(mpfr_ptr result, std::array<Exact, 3>& x) {
+    mpfr_div(result, x[0].get(), x[1].get(), MPFR_RNDD);
+    mpfr_floor(result, result);
+    mpfr_mul(result, result, x[1].get(), MPFR_RNDN);
+}
+void exact_whole_multiple(mpfr_ptr result, std::array<Exact, 3>& x) {
+    mpfr_t multiple;
+    mpfr_init2(multiple, 2200);
+    multiple_below(multiple, x);
+    mpfr_set(result, multiple, MPFR_RNDN);
+    mpfr_clear(multiple);
+}
 void exact_modulo(mpfr_ptr result, std::array<Exact, 3>& x) {
-    mpfr_t whole;
-    mpfr_init2(whole, 2200);
-    mpfr_div(whole, x[0].get(), x[1].get(), MPFR_RNDD);
-    mpfr_floor(whole, whole);
-    mpfr_mul(whole, whole, x[1].get(), MPFR_RNDN);
-    mpfr_sub(result, x[0].get(), whole, MPFR_RNDN);
-    mpfr_clear(whole);
+    mpfr_t multiple;
+    mpfr_init2(multiple, 2200);
+    multiple_below(multiple, x);
+    mpfr_sub(result, x[0].get(), multiple, MPFR_RNDN);
+    mpfr_clear(multiple);
 }
 
 void exact_fract(mpfr_ptr result, std::array<Exact, 3>& x) {
@@ -113,6 +123,8 @@ void exact_hermite(mpfr_ptr result, std::array<Exact, 3>& x) {
 const std::vector<Case>& cases() {
     static const std::vector<Case> k_cases = {
         {"modulo", [](const Operands& x) { return modulo(x[0], x[1]); }, exact_modulo},
+        {"whole_multiple", [](const Operands& x) { return whole_multiple(x[0], x[1]); },
+         exact_whole_multiple},
         {"fract", [](const Operands& x) { return fract(x[0]); }, exact_fract},
         {"mix", [](const Operands& x) { return mix(x[0], x[1], x[2]); }, exact_mix},
         {"hermite", [](const Operands& x) { return hermite(x[0]); }, exact_hermite},
@@ -194,6 +206,46 @@ TEST(Interval, a_root_of_a_sum_of_squares_is_defined_at_zero) {
     const Interval zero{0, 0};
     EXPECT_FALSE(sqrt(square(zero) + square(zero)).partial);
     EXPECT_FALSE(sqrt(square({-1, 1}) + square({-1, 1})).partial);
+}
+
+TEST(Interval, an_exact_sum_is_not_widened) {
+    EXPECT_EQ((Interval{0.01, 0.01} - Interval{0.01, 0.01}).high, 0);
+    EXPECT_EQ((Interval{0.5, 3} + Interval{0.25, 0.25}).low, 0.75);
+    EXPECT_LT((Interval{0.1, 0.1} + Interval{0.2, 0.2}).low, (Interval{0.1, 0.1} + Interval{0.2, 0.2}).high);
+}
+
+/// A driver may give either of NaN and a number: the number is within.
+TEST(Interval, the_smaller_of_a_number_and_nan_may_be_the_number) {
+    const Interval root = sqrt({-1, 4}), five{5, 5};
+    EXPECT_TRUE(root.partial);
+    EXPECT_EQ(minimum(root, five).high, 5);
+    EXPECT_EQ(minimum(root, five).low, 0);
+    EXPECT_EQ(maximum(root, Interval{-3, -3}).low, -3);
+}
+
+TEST(Interval, a_quotient_beside_its_pole_is_bounded_on_one_side) {
+    const Interval beside = Interval{1, 2} / Interval{0, 4};
+    EXPECT_NEAR(beside.low, 0.25, 1e-12);
+    EXPECT_EQ(beside.high, k_infinity);
+    EXPECT_TRUE(beside.partial);
+    EXPECT_NEAR((Interval{1, 2} / Interval{-4, 0}).high, -0.25, 1e-12);
+    EXPECT_EQ((Interval{0, 2} / Interval{0, 4}).low, 0);
+    EXPECT_EQ((Interval{1, 2} / Interval{-1, 4}).low, -k_infinity);
+}
+
+/// One number, so that a hash of it is the text's own.
+TEST(Interval, a_whole_multiple_of_a_piece_within_it_is_one_number) {
+    EXPECT_TRUE(whole_multiple({7.25, 7.5}, {2, 2}).point());
+    EXPECT_EQ(whole_multiple({7.25, 7.5}, {2, 2}).low, 6);
+    EXPECT_EQ(whole_multiple({-0.5, -0.25}, {1, 1}).low, -1);
+    EXPECT_EQ(whole_multiple({5.5, 6, false, true}, {3, 3}).high, 3);
+}
+
+TEST(Interval, an_angle_keeps_to_its_side_of_the_cut) {
+    const Interval left{-2, -1};
+    EXPECT_GT(atan2({0, 0.1, false, false, true}, left).low, 3);
+    EXPECT_LT(atan2({-0.1, 0, false, true}, left).high, -3);
+    EXPECT_LT(atan2({-0.1, 0.1}, left).low, -3);
 }
 
 /// An interval that ends below a step keeps to its side of it.
