@@ -33,6 +33,16 @@ Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, in
     return new_texture(GL_TEXTURE_3D, extent, depth, internal_format, levels);
 }
 
+std::vector<float> read_level(const Texture& texture, int level) {
+    const auto halved = [level](int size) { return size_t(std::max(1, size >> level)); };
+    const size_t layers = texture.target == GL_TEXTURE_3D ? halved(texture.depth) : size_t(texture.depth);
+    std::vector<float> rgba(halved(texture.extent.width) * halved(texture.extent.height) * layers * 4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(texture.id(), level, GL_RGBA, GL_FLOAT, GLsizei(rgba.size() * sizeof(float)),
+                      rgba.data());
+    return rgba;
+}
+
 bool has_storage(const Texture& texture) {
     GLint immutable = 0; // becomes so by glTextureStorage, when that succeeds
     glGetTextureParameteriv(texture.id(), GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace tidemark::gl {
 
@@ -24,6 +25,9 @@ struct Texture {
 Texture make_texture(Extent extent, GLenum internal_format, int levels);
 Texture make_cube_texture(int side, GLenum internal_format, int levels);
 Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, int levels);
+
+/// A level in floats, RGBA: row by row, one face or slice after the other.
+std::vector<float> read_level(const Texture& texture, int level);
 
 /// Whether the driver had room for it. One without reads as black.
 bool has_storage(const Texture& texture);

@@ -43,8 +43,8 @@ enum class Op : uint8_t {
     round, ///< halves away from zero
     round_even,
     fract,
-    whole_part,     ///< a - fract(a)
-    whole_multiple, ///< a - (a modulo b)
+    whole_multiple, ///< b floor(a / b)
+    nearest_rest,   ///< a - b round(a / b)
     sqrt,
     inverse_sqrt,
     sin,
@@ -67,6 +67,7 @@ enum class Op : uint8_t {
     pow,
     mix,     ///< a (1 - c) + b c
     hermite, ///< a a (3 - 2 a)
+    quintic, ///< a a a (a (6 a - 15) + 10)
     ldexp,   ///< a 2^b
 
     bit_and,
@@ -89,7 +90,8 @@ enum class Op : uint8_t {
     logical_and,
     logical_or,
     logical_not,
-    select, ///< a ? b : c
+    select,   ///< a ? b : c
+    narrowed, ///< a; b is the same in real arithmetic (real_identities.hpp)
 
     to_real, ///< of a whole number
     to_int,  ///< of a real, towards zero

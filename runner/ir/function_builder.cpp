@@ -1,37 +1,24 @@
 #include "ir/function_builder.hpp"
 
+#include "ir/real_identities.hpp"
+
 #include <algorithm>
+#include <array>
 
 namespace tidemark::ir {
 
-namespace {
-
-/// What is left of a difference where `op` has made of a number what is taken off it.
-Op remainder_beside(Op op) {
-    switch (op) {
-    case Op::floor: return Op::fract;
-    case Op::fract: return Op::whole_part;
-    case Op::modulo: return Op::whole_multiple;
-    default: return Op::subtract;
-    }
-}
-
-Values copy_of(std::span<const Value> values) {
-    return {values.begin(), values.end()};
-}
-
-} // namespace
-
-/// That a number stands in a product or a difference twice, intervals do not see.
 Value FunctionBuilder::add(Op op, Scalar type, std::span<const Value> operands, uint32_t immediate) {
-    if (op == Op::multiply && operands[0] == operands[1])
+    if (op == Op::multiply && operands[0] == operands[1]) // never negative, which intervals do not see
         return add(Op::square, type, operands.first(1), immediate);
-    if (op == Op::subtract) {
-        const Instruction& taken = function.instructions[operands[1]];
-        const Op rest = remainder_beside(taken.op);
-        if (rest != op && function.operands_of(taken)[0] == operands[0])
-            return add(rest, type, copy_of(function.operands_of(taken)), immediate);
-    }
+    const Value result = append(op, type, operands, immediate);
+    const auto equal = type == Scalar::real ? equal_in_real(function, result) : std::nullopt;
+    if (!equal)
+        return result;
+    const Value other = append(equal->op, type, equal->operands, 0);
+    return append(Op::narrowed, type, std::array{result, other}, 0);
+}
+
+Value FunctionBuilder::append(Op op, Scalar type, std::span<const Value> operands, uint32_t immediate) {
     Instruction instruction{
         op, type, immediate, uint32_t(function.operands.size()), uint32_t(operands.size()), line};
     function.operands.insert(function.operands.end(), operands.begin(), operands.end());

@@ -53,6 +53,9 @@ public:
     Values outer_product(const Values& column, const Values& row);
     Value determinant(const Values& matrix, uint32_t size);
     Values inverse(const Values& matrix, uint32_t size);
+
+private:
+    Value append(Op op, Scalar type, std::span<const Value> operands, uint32_t immediate);
 };
 
 } // namespace tidemark::ir

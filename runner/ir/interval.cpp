@@ -89,6 +89,11 @@ Interval hull(const Interval& a, const Interval& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high), partial(a, b)};
 }
 
+Interval intersection(const Interval& a, const Interval& b) {
+    const Interval both{std::max(a.low, b.low), std::min(a.high, b.high), a.partial && b.partial};
+    return a.point() || both.low > both.high ? a : both; // a float of the text's own may be off by a rounding
+}
+
 Interval operator+(const Interval& a, const Interval& b) {
     const double low = sum_below(a.low, b.low), high = -sum_below(-a.high, -b.high);
     return std::isnan(low) || std::isnan(high) ? everything() : Interval{low, high, partial(a, b)};
@@ -209,6 +214,15 @@ Interval whole_multiple(const Interval& a, const Interval& b) {
     return widened({low, high, a.partial}, exact ? 0 : 1);
 }
 
+Interval nearest_rest(const Interval& a, const Interval& b) {
+    if (!b.point() || b.low <= 0)
+        return everything(partial(a, b) || b.contains(0));
+    const Interval half{b.low / 2, b.low / 2};
+    Interval moved = a + half; // x modulo y, from -y / 2 on
+    moved.from_below = a.from_below;
+    return modulo(moved, b) - half;
+}
+
 Interval fract(const Interval& a) {
     const double whole = std::floor(a.low);
     if (std::isfinite(whole) && (whole == std::floor(a.high) || (a.from_below && whole + 1 == a.high)))
@@ -278,16 +292,27 @@ Interval mix(const Interval& a, const Interval& b, const Interval& c) {
     return result;
 }
 
-Interval hermite(const Interval& a) {
-    const auto at = [](double x) {
-        const Interval point{x, x};
-        return square(point) * (Interval{3, 3} - Interval{2, 2} * point);
-    };
+namespace {
+
+/// Of a polynomial that rises from 0 to 1.
+template <class Polynomial>
+Interval rising(const Interval& a, Polynomial polynomial) {
     if (a.low < 0 || a.high > 1)
-        return square(a) * (Interval{3, 3} - Interval{2, 2} * a);
-    Interval result = hull(at(a.low), at(a.high));
-    result.partial = a.partial;
-    return result;
+        return polynomial(a);
+    const Interval low = polynomial({a.low, a.low}), high = polynomial({a.high, a.high});
+    return {std::max(0.0, low.low), std::min(1.0, high.high), a.partial};
+}
+
+} // namespace
+
+Interval hermite(const Interval& a) {
+    return rising(a, [](const Interval& x) { return square(x) * (Interval{3, 3} - Interval{2, 2} * x); });
+}
+
+Interval quintic(const Interval& a) {
+    return rising(a, [](const Interval& x) {
+        return square(x) * x * (x * (x * Interval{6, 6} - Interval{15, 15}) + Interval{10, 10});
+    });
 }
 
 Interval increasing(double (*function)(double), const Interval& a, double first, double last) {

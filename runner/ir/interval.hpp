@@ -42,6 +42,8 @@ inline Interval everything(bool partial = true) {
 /// Both bounds pushed outwards `steps` times.
 Interval widened(Interval a, int steps = 1);
 Interval hull(const Interval& a, const Interval& b);
+/// Of two bounds of one number.
+Interval intersection(const Interval& a, const Interval& b);
 
 Interval operator+(const Interval& a, const Interval& b);
 Interval operator-(const Interval& a, const Interval& b);
@@ -61,6 +63,8 @@ Interval modulo(const Interval& a, const Interval& b);
 Interval fract(const Interval& a);
 /// y floor(x / y).
 Interval whole_multiple(const Interval& a, const Interval& b);
+/// x - y round(x / y): how far it is to the nearest multiple.
+Interval nearest_rest(const Interval& a, const Interval& b);
 Interval sin(const Interval& a);
 Interval cos(const Interval& a);
 Interval tan(const Interval& a);
@@ -69,8 +73,9 @@ Interval cosh(const Interval& a);
 Interval pow(const Interval& a, const Interval& b);
 /// a (1 - c) + b c, linear in each of the three.
 Interval mix(const Interval& a, const Interval& b, const Interval& c);
-/// a a (3 - 2 a).
+/// a a (3 - 2 a); a a a (a (6 a - 15) + 10). Both rise from 0 at 0 to 1 at 1.
 Interval hermite(const Interval& a);
+Interval quintic(const Interval& a);
 
 /// A function of the C library that never falls, defined on [first, last].
 Interval increasing(double (*function)(double), const Interval& a, double first = -k_infinity,

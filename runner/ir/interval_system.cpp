@@ -1,6 +1,7 @@
 #include "ir/interval_system.hpp"
 
 #include <array>
+#include <bit>
 
 namespace tidemark::ir {
 namespace {
@@ -17,8 +18,9 @@ Interval all_of(Scalar type) {
     return everything();
 }
 
-bool is_float(const Interval& a) {
-    return a.point() && double(float(a.low)) == a.low;
+/// One number that the device has, too: a real one is a float.
+bool is_exact(const Interval& a, Scalar type) {
+    return a.point() && (type != Scalar::real || double(float(a.low)) == a.low);
 }
 
 Point<float> point_of(const Interval& a, Scalar type) {
@@ -106,6 +108,25 @@ Interval logical(Op op, const Interval& a, const Interval& b, const Interval& c)
     return hull(b, c);
 }
 
+/// Of numbers that are not negative.
+Interval bits(Op op, Scalar type, const Interval& a, const Interval& b) {
+    if (a.low < 0 || b.low < 0)
+        return all_of(type);
+    const auto ones = [](double number) { return double(std::bit_ceil(uint64_t(number) + 1) - 1); };
+    switch (op) {
+    case Op::bit_and: return {0, std::min(a.high, b.high)};
+    case Op::bit_or: return {std::max(a.low, b.low), ones(std::max(a.high, b.high))};
+    case Op::bit_xor: return {0, ones(std::max(a.high, b.high))};
+    case Op::shift_right: {
+        if (!b.point() || b.low > 31)
+            return all_of(type);
+        const double unit = std::ldexp(1, int(b.low));
+        return {std::floor(a.low / unit), std::floor(a.high / unit)};
+    }
+    default: return all_of(type);
+    }
+}
+
 Interval whole(Op op, Scalar type, const Interval& a, const Interval& b) {
     const auto within = [type](const Interval& result) {
         const Interval all = all_of(type);
@@ -124,7 +145,7 @@ Interval whole(Op op, Scalar type, const Interval& a, const Interval& b) {
     case Op::less_equal: return less(a, b, true);
     case Op::equal: return equal(a, b);
     case Op::not_equal: return negated(equal(a, b));
-    default: return all_of(type);
+    default: return within(bits(op, type, a, b));
     }
 }
 
@@ -147,7 +168,7 @@ Interval real(Op op, const Interval& a, const Interval& b, const Interval& c) {
     case Op::round: return to_nearest(a, [](double x) { return std::round(x); });
     case Op::round_even: return to_nearest(a, [](double x) { return std::nearbyint(x); });
     case Op::fract: return fract(a);
-    case Op::whole_part: return floor(a);
+    case Op::nearest_rest: return nearest_rest(a, b);
     case Op::whole_multiple: return whole_multiple(a, b);
     case Op::sqrt: return sqrt(a);
     case Op::inverse_sqrt: return inverse_sqrt(a);
@@ -171,6 +192,8 @@ Interval real(Op op, const Interval& a, const Interval& b, const Interval& c) {
     case Op::pow: return pow(a, b);
     case Op::mix: return mix(a, b, c);
     case Op::hermite: return hermite(a);
+    case Op::quintic: return quintic(a);
+    case Op::narrowed: return intersection(a, b);
     case Op::less: return less(a, b, false);
     case Op::less_equal: return less(a, b, true);
     case Op::equal: return equal(a, b);
@@ -187,6 +210,17 @@ Interval to_int(const Interval& a, Scalar type) {
     return !whole.partial && whole.low >= all.low && whole.high <= all.high ? whole : all;
 }
 
+/// Between whole numbers that both types have, and from the bits of positive floats, which rise with them.
+Interval bits_as(const Interval& a, Scalar of, Scalar result) {
+    constexpr double k_first_infinite = 0x7f800000;
+    if (of == Scalar::real || a.low < 0 || a.high >= k_first_infinite)
+        return all_of(result);
+    if (result != Scalar::real)
+        return a;
+    const auto number = [](double bits) { return double(std::bit_cast<float>(uint32_t(bits))); };
+    return {number(a.low), number(a.high)};
+}
+
 /// Where the operation jumps: at first + k unit for every whole k; a unit of 0: at `first` alone.
 struct Jumps {
     double first = 0, unit = 1;
@@ -196,14 +230,16 @@ std::optional<Jumps> jumps_of(Op op, std::span<const Interval> operands) {
     switch (op) {
     case Op::floor:
     case Op::ceil:
-    case Op::fract:
-    case Op::whole_part: return Jumps{};
+    case Op::fract: return Jumps{};
     case Op::round:
     case Op::round_even: return Jumps{0.5};
     case Op::modulo:
     case Op::whole_multiple:
-        if (operands[1].point() && operands[1].low != 0)
-            return Jumps{0, std::abs(operands[1].low)};
+    case Op::nearest_rest:
+        if (operands[1].point() && operands[1].low != 0) {
+            const double unit = std::abs(operands[1].low);
+            return Jumps{op == Op::nearest_rest ? unit / 2 : 0, unit};
+        }
         return std::nullopt;
     case Op::atan2: // from pi to -pi
         if (operands[1].high < 0)
@@ -233,18 +269,24 @@ Interval IntervalSystem::compute(Op op, Scalar result, Scalar of, std::span<cons
     std::array<Interval, 3> at{};
     std::ranges::copy(operands, at.begin());
     const Scalar of_others = op == Op::select ? result : op == Op::ldexp ? Scalar::signed_int : of;
-    if (std::ranges::all_of(operands, is_float)) {
-        std::array<Point<float>, 3> points{};
-        for (size_t i = 0; i < operands.size(); ++i)
-            points[i] = point_of(operands[i], i == 0 ? of : of_others);
+    std::array<Point<float>, 3> points{};
+    bool exact = true;
+    for (size_t i = 0; i < operands.size() && exact; ++i) {
+        const Scalar type = i == 0 ? of : of_others;
+        exact = is_exact(operands[i], type);
+        if (exact)
+            points[i] = point_of(operands[i], type);
+    }
+    if (exact)
         return interval_of(
             PointSystem<float>().compute(op, result, of, std::span(points.data(), operands.size())), result);
-    }
     if (op == Op::to_real || op == Op::select || of == Scalar::boolean)
         return op == Op::to_real ? at[0] : logical(op, at[0], at[1], at[2]);
     if (op == Op::to_int)
         return to_int(at[0], result);
-    if (op == Op::bits_as || op == Op::ldexp)
+    if (op == Op::bits_as)
+        return bits_as(at[0], of, result);
+    if (op == Op::ldexp)
         return all_of(result);
     if (of == Scalar::real)
         return real(op, at[0], at[1], at[2]);

@@ -60,8 +60,8 @@ Real real_number(Op op, Real a, Real b, Real c) {
     case Op::round: return std::round(a);
     case Op::round_even: return std::nearbyint(a);
     case Op::fract: return fract(a);
-    case Op::whole_part: return a - fract(a);
-    case Op::whole_multiple: return a - (a - b * std::floor(a / b));
+    case Op::whole_multiple: return b * std::floor(a / b);
+    case Op::nearest_rest: return a - b * std::round(a / b);
     case Op::sqrt: return std::sqrt(a);
     case Op::inverse_sqrt: return 1 / std::sqrt(a);
     case Op::sin: return std::sin(a);
@@ -84,6 +84,7 @@ Real real_number(Op op, Real a, Real b, Real c) {
     case Op::pow: return a < 0 ? std::numeric_limits<Real>::quiet_NaN() : std::pow(a, b);
     case Op::mix: return a * (1 - c) + b * c;
     case Op::hermite: return a * a * (3 - 2 * a);
+    case Op::quintic: return a * a * a * (a * (a * 6 - 15) + 10);
     default: return a;
     }
 }

@@ -207,6 +207,12 @@ const gl::Texture& Renderer::texture_of(const BoundChannel& channel) const {
                   : textures_.texture(std::get<ChannelTextures::Index>(channel.source));
 }
 
+const gl::Texture* Renderer::texture_at(size_t pass, int unit) const {
+    const auto& channels = passes_[pass].channels;
+    const auto found = std::ranges::find(channels, unit, &BoundChannel::unit);
+    return found == channels.end() ? nullptr : &texture_of(*found);
+}
+
 /// The passes in front of that one.
 void Renderer::draw_before(size_t pass, const FrameInputs& inputs) {
     textures_.update(inputs);

@@ -107,6 +107,9 @@ public:
     UniformValues uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
                               Extent extent) const;
 
+    /// What a pass in the plan reads at that unit, as it is now; none where it reads nothing there.
+    const gl::Texture* texture_at(size_t pass, int unit) const;
+
 private:
     friend class PassPreview; ///< goes on into a frame, and no further
     /// What is drawn of a pass, and what it is drawn from.

@@ -120,7 +120,7 @@ RayCounts counts_of(const std::string& march) {
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
             function->move_to(pixel, {x, y});
-            if (const auto ray = prove_ray(*function, pixel, {x, y}, 2000))
+            if (const auto ray = prove_ray(*function, pixel, {}, {x, y}, 2000))
                 counts.add(*ray);
         }
     EXPECT_EQ(counts.rays, size_t(k_extent.width * k_extent.height));

@@ -52,6 +52,10 @@ Result<const render::Renderer*> ProbeBench::compiled() {
     return renderer(plain_state(), Entry::picture, glsl::Precision::single);
 }
 
+Result<const render::Renderer*> ProbeBench::drawn(const FrameState& state) {
+    return drawn(state, Entry::picture, glsl::Precision::single);
+}
+
 Result<render::Renderer*> ProbeBench::drawn(const FrameState& state, Entry entry, glsl::Precision precision) {
     auto made = renderer(state, entry, precision);
     if (made)

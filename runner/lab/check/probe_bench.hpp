@@ -55,8 +55,9 @@ public:
 
     /// A pass that is about to be drawn in that state: all frames before are drawn.
     Result<render::PassPreview> preview(const FrameState& state, size_t pass);
-    /// What the scene as it stands was compiled to.
+    /// What the scene as it stands was compiled to; the same with its textures as that state leaves them.
     Result<const render::Renderer*> compiled();
+    Result<const render::Renderer*> drawn(const FrameState& state);
 
     /// Compiles anew, where `picture` takes what it has.
     Result<image::Image> fresh_picture(const FrameState& state);

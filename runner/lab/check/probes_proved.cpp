@@ -1,6 +1,7 @@
 // What is proved of a scene's rays from its text alone, without a mainHit.
 #include "base/try.hpp"
 #include "lab/check/probes.hpp"
+#include "lab/march/pass_textures.hpp"
 #include "lab/march/proved_hits.hpp"
 #include "lab/statistics.hpp"
 
@@ -25,19 +26,20 @@ Answer none(std::string why) {
 
 /// Of the picture's pixels, evenly spread.
 Result<RayCounts> count(ProbeBench& bench, const PassFunction& function) {
-    const render::Renderer& renderer = *TRY(bench.compiled());
     const size_t image = bench.scene().image_index();
     RayCounts counts;
     for (const double moment : k_moments) {
-        ir::FloatEvaluator pixel =
-            function.frame(renderer, image, render::inputs_of(render::at_time(moment)));
+        const FrameState state = state_at(moment);
+        const render::Renderer& renderer = *TRY(bench.drawn(state));
+        const ir::TextureSet textures = textures_of(renderer, image);
+        ir::FloatEvaluator pixel = function.frame(renderer, image, render::inputs_of(state));
         for (int y = 0; y < k_rays.height; ++y)
             for (int x = 0; x < k_rays.width; ++x) {
                 const Extent whole = renderer.extent();
                 const glm::ivec2 at{(2 * x + 1) * whole.width / (2 * k_rays.width),
                                     (2 * y + 1) * whole.height / (2 * k_rays.height)};
                 function.move_to(pixel, at);
-                if (const auto ray = prove_ray(function, pixel, at, k_most_evaluations))
+                if (const auto ray = prove_ray(function, pixel, textures, at, k_most_evaluations))
                     counts.add(*ray);
             }
     }
@@ -52,9 +54,12 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
     if (counts.undecided > 0)
         text += fmt::format("; of {:.3g} % it is not known ({})", percent(counts.undecided, counts.rays),
                             to_string(counts.commonest()));
+    if (counts.at_base_level > 0)
+        text += "; textures without a level are read at their base level";
     if (counts.wrong_loop) {
         const SourceLocation where = function.locate(function.loops()[*counts.wrong_loop].line);
-        text += fmt::format("; {}:{} tests the distance: take shorter steps there", where.file, where.line);
+        text += fmt::format("; {}:{} tests the distance: {} there", where.file, where.line,
+                            counts.step_over > 0 ? "take shorter steps" : "take more steps");
     }
     return text;
 }
@@ -71,8 +76,8 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
     const RayCounts counts = TRY(count(bench, *function));
     if (counts.rays == 0)
         return none("no ray comes to the loop that marches");
-    if (counts.textured == counts.rays)
-        return none("the march reads a texture, and texels are not followed");
+    if (counts.unknown_texture == counts.rays)
+        return none("the march reads the frame before, which is gone, or a texture that is too large");
     if (counts.unfaithful == counts.rays)
         return none("the march remembers more than its place on the ray");
     if (counts.decided() == 0)

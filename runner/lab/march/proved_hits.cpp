@@ -46,12 +46,14 @@ Outcome outcome_of(double ended, bool hit, const ir::FirstHit& found) {
 } // namespace
 
 std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::FloatEvaluator& pixel,
-                                   glm::ivec2 at, uint64_t most_evaluations) {
+                                   const ir::TextureSet& textures, glm::ivec2 at, uint64_t most_evaluations) {
     ir::FloatEvaluator evaluator = pixel;
-    bool textured = false;
-    evaluator.textures = [&](const ir::Lookup&, std::span<const ir::Point<float>>) {
-        textured = true;
-        return ir::Point<float>{};
+    bool unknown = false, chooses_level = false;
+    evaluator.textures = [&](const ir::Lookup& lookup, std::span<const ir::Point<float>> operands) {
+        const auto texels = textures.find(lookup.sampler);
+        unknown = unknown || texels == textures.end();
+        chooses_level = chooses_level || (!unknown && texels->second->chooses_level(lookup));
+        return ir::look_up(textures, lookup, operands);
     };
     const auto loop_index = ir::enter_first(evaluator, function.loops());
     if (!loop_index)
@@ -59,17 +61,22 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
     ProvedRay ray{at, *loop_index};
     const ir::MarchingLoop& loop = function.loops()[*loop_index];
     const ir::FloatEvaluator entered = evaluator;
+    unknown = chooses_level = false; // from here on it is the march that reads
     const ir::March march = ir::follow(evaluator, function.function(), loop);
     ray.turns = march.turns.size();
-    if (textured) {
-        ray.outcome = Outcome::textured;
+    ray.at_base_level = chooses_level;
+    if (unknown) {
+        ray.outcome = Outcome::unknown_texture;
         return ray;
     }
     if (march.turns.empty() || !ir::is_faithful(loop, entered, march)) {
         ray.outcome = Outcome::unfaithful;
         return ray;
     }
-    ir::MarchSlice slice(function.function(), loop, entered);
+    ir::MarchSlice slice(function.function(), loop, entered,
+                         [&](const ir::Lookup& lookup, std::span<const ir::Interval> operands) {
+                             return ir::look_up(textures, lookup, operands);
+                         });
     const double end = end_of(slice, loop, march);
     if (!std::isfinite(end) || end <= slice.start()) {
         ray.reason = ir::FirstHit::Reason::not_finite;
@@ -86,6 +93,7 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
 void RayCounts::add(const ProvedRay& ray) {
     ++rays;
     contradicted += ray.contradicted;
+    at_base_level += ray.at_base_level;
     if (ray.evaluations > 0)
         evaluations.push_back(double(ray.evaluations));
     if (!wrong_loop && (ray.outcome == Outcome::steps_over || ray.outcome == Outcome::misses))
@@ -98,7 +106,7 @@ void RayCounts::add(const ProvedRay& ray) {
         ++undecided;
         ++reasons[size_t(ray.reason)];
         break;
-    case Outcome::textured: ++textured; break;
+    case Outcome::unknown_texture: ++unknown_texture; break;
     case Outcome::unfaithful: ++unfaithful; break;
     }
 }

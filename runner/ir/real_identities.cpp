@@ -1,0 +1,178 @@
+#include "ir/real_identities.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+namespace tidemark::ir {
+namespace {
+
+/// Looks at how a value is computed. A value that has been narrowed stands for what the text says.
+class Reader {
+public:
+    explicit Reader(const Function& function) : function_(function) {}
+
+    Op op(Value value) const { return function_.instructions[said(value)].op; }
+    Value operand(Value value, size_t index) const {
+        return function_.operands_of(function_.instructions[said(value)])[index];
+    }
+    bool is(Value value, float constant) const {
+        const Instruction& instruction = function_.instructions[value];
+        return instruction.op == Op::constant && std::bit_cast<float>(instruction.immediate) == constant;
+    }
+
+    /// The operands of a sum or product, in both orders.
+    std::array<std::pair<Value, Value>, 2> both_orders(Value value) const {
+        const Value a = operand(value, 0), b = operand(value, 1);
+        return {{{a, b}, {b, a}}};
+    }
+    /// What is multiplied by `factor`.
+    std::optional<Value> times(Value value, float factor) const {
+        if (op(value) == Op::multiply)
+            for (const auto& [a, b] : both_orders(value))
+                if (is(a, factor))
+                    return b;
+        return std::nullopt;
+    }
+
+private:
+    Value said(Value value) const {
+        const Instruction& instruction = function_.instructions[value];
+        return instruction.op == Op::narrowed ? function_.operands_of(instruction)[0] : value;
+    }
+
+    const Function& function_;
+};
+
+using Found = std::optional<EqualInReal>;
+
+/// b floor(a / b) and b round(a / b): the operation and b.
+std::optional<std::pair<Op, Value>> multiple_near(const Reader& read, Value value, Value a) {
+    if (read.op(value) != Op::multiply)
+        return std::nullopt;
+    for (const auto& [unit, turns] : read.both_orders(value)) {
+        const Op rounding = read.op(turns);
+        if (rounding != Op::floor && rounding != Op::round)
+            continue;
+        const Value quotient = read.operand(turns, 0);
+        if (read.op(quotient) == Op::divide && read.operand(quotient, 0) == a &&
+            read.operand(quotient, 1) == unit)
+            return std::pair{rounding == Op::floor ? Op::modulo : Op::nearest_rest, unit};
+    }
+    return std::nullopt;
+}
+
+/// s (b - a): s and b.
+std::optional<std::pair<Value, Value>> part_of_way(const Reader& read, Value value, Value a) {
+    if (read.op(value) != Op::multiply)
+        return std::nullopt;
+    for (const auto& [share, way] : read.both_orders(value))
+        if (read.op(way) == Op::subtract && read.operand(way, 1) == a)
+            return std::pair{share, read.operand(way, 0)};
+    return std::nullopt;
+}
+
+/// a (1 - s): a and s.
+std::optional<std::pair<Value, Value>> rest_of(const Reader& read, Value value) {
+    if (read.op(value) != Op::multiply)
+        return std::nullopt;
+    for (const auto& [a, rest] : read.both_orders(value))
+        if (read.op(rest) == Op::subtract && read.is(read.operand(rest, 0), 1))
+            return std::pair{a, read.operand(rest, 1)};
+    return std::nullopt;
+}
+
+/// x - floor(x), x - fract(x) and their kind.
+Found of_difference(const Reader& read, Value value) {
+    const Value a = read.operand(value, 0), b = read.operand(value, 1);
+    const bool same = read.op(b) == Op::floor || read.op(b) == Op::fract || read.op(b) == Op::modulo;
+    if (same && read.operand(b, 0) == a) {
+        switch (read.op(b)) {
+        case Op::floor: return EqualInReal{Op::fract, {a}};
+        case Op::fract: return EqualInReal{Op::floor, {a}};
+        default: return EqualInReal{Op::whole_multiple, {a, read.operand(b, 1)}};
+        }
+    }
+    if (const auto multiple = multiple_near(read, b, a))
+        return EqualInReal{multiple->first, {a, multiple->second}};
+    return std::nullopt;
+}
+
+/// Interpolation by hand: a + s (b - a), and a (1 - s) + b s.
+Found of_sum(const Reader& read, Value value) {
+    for (const auto& [a, other] : read.both_orders(value)) {
+        if (const auto part = part_of_way(read, other, a))
+            return EqualInReal{Op::mix, {a, part->second, part->first}};
+        const auto rest = rest_of(read, a);
+        if (!rest || read.op(other) != Op::multiply)
+            continue;
+        for (const auto& [b, share] : read.both_orders(other))
+            if (share == rest->second)
+                return EqualInReal{Op::mix, {rest->first, b, share}};
+    }
+    return std::nullopt;
+}
+
+/// x of 3 - 2 x.
+std::optional<Value> of_three_less_two(const Reader& read, Value value) {
+    if (read.op(value) != Op::subtract || !read.is(read.operand(value, 0), 3))
+        return std::nullopt;
+    return read.times(read.operand(value, 1), 2);
+}
+
+/// x of x (6 x - 15) + 10.
+std::optional<Value> of_quintic_factor(const Reader& read, Value value) {
+    if (read.op(value) != Op::add)
+        return std::nullopt;
+    for (const auto& [ten, product] : read.both_orders(value)) {
+        if (!read.is(ten, 10) || read.op(product) != Op::multiply)
+            continue;
+        for (const auto& [x, factor] : read.both_orders(product))
+            if (read.op(factor) == Op::subtract && read.is(read.operand(factor, 1), 15) &&
+                read.times(read.operand(factor, 0), 6) == x)
+                return x;
+    }
+    return std::nullopt;
+}
+
+/// All that a product multiplies, a square's twice.
+void add_factors(const Reader& read, Value value, std::vector<Value>& factors, int depth = 0) {
+    constexpr int k_deepest = 3;
+    const Op op = read.op(value);
+    if ((op != Op::multiply && op != Op::square) || depth > k_deepest) {
+        factors.push_back(value);
+        return;
+    }
+    for (const size_t side : {size_t(0), size_t(op == Op::multiply)})
+        add_factors(read, read.operand(value, side), factors, depth + 1);
+}
+
+/// Smooth steps by hand: x x (3 - 2 x), x x x (x (6 x - 15) + 10).
+Found of_product(const Reader& read, Value value) {
+    std::vector<Value> factors;
+    add_factors(read, value, factors);
+    for (size_t i = 0; i < factors.size(); ++i) {
+        const bool hermite = factors.size() == 3;
+        if (!hermite && factors.size() != 4)
+            return std::nullopt;
+        const auto x = hermite ? of_three_less_two(read, factors[i]) : of_quintic_factor(read, factors[i]);
+        if (x && std::ranges::count(factors, *x) == long(factors.size()) - 1)
+            return EqualInReal{hermite ? Op::hermite : Op::quintic, {*x}};
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<EqualInReal> equal_in_real(const Function& function, Value value) {
+    const Reader read(function);
+    switch (function.instructions[value].op) {
+    case Op::add: return of_sum(read, value);
+    case Op::subtract: return of_difference(read, value);
+    case Op::multiply: return of_product(read, value);
+    default: return std::nullopt;
+    }
+}
+
+} // namespace tidemark::ir

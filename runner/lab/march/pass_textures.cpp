@@ -1,0 +1,63 @@
+#include "lab/march/pass_textures.hpp"
+
+#include "render/bound_channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+namespace {
+
+using ir::Texels;
+
+/// Of its base level. One of 4096 x 4096 is not.
+constexpr size_t k_most_texels = 8'000'000;
+
+Texels::Kind kind_of(const gl::Texture& texture) {
+    switch (texture.target) {
+    case GL_TEXTURE_3D: return Texels::Kind::volume;
+    case GL_TEXTURE_CUBE_MAP: return Texels::Kind::cube;
+    default: return Texels::Kind::plane;
+    }
+}
+
+ir::TexelLevel level_of(const gl::Texture& texture, int level) {
+    const auto halved = [level](int size) { return int64_t(std::max(1, size >> level)); };
+    const int64_t depth = texture.target == GL_TEXTURE_3D ? halved(texture.depth) : texture.depth;
+    return {{halved(texture.extent.width), halved(texture.extent.height), depth},
+            gl::read_level(texture, level)};
+}
+
+Texels texels_of(const gl::Texture& texture, const scene::Sampling& sampling) {
+    Texels texels;
+    texels.kind = kind_of(texture);
+    texels.wrap = Texels::Wrap(sampling.wrap);
+    texels.mipmaps = Texels::Mipmaps(sampling.mipmaps);
+    texels.magnify_linear = sampling.magnify == scene::Filter::linear;
+    texels.minify_linear = sampling.minify == scene::Filter::linear;
+    const int levels = sampling.mipmaps == scene::Mipmaps::none ? 1 : texture.levels;
+    for (int level = 0; level < levels; ++level)
+        texels.levels.push_back(level_of(texture, level));
+    return texels;
+}
+
+} // namespace
+
+ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass) {
+    ir::TextureSet textures;
+    const scene::Channels& channels = renderer.scene().passes[pass].channels;
+    for (int unit = 0; unit < scene::k_channel_count; ++unit) {
+        const scene::Channel& channel = channels[size_t(unit)];
+        const size_t* source = scene::source_pass(channel.input);
+        const bool gone = source && render::frame_ref(pass, *source) == render::FrameRef::previous;
+        const gl::Texture* texture = renderer.texture_at(pass, unit);
+        if (!texture || gone || texture->extent.pixels() * size_t(texture->depth) > k_most_texels)
+            continue;
+        textures.emplace(fmt::format("iChannel{}", unit),
+                         std::make_shared<const Texels>(texels_of(*texture, channel.sampling)));
+    }
+    return textures;
+}
+
+} // namespace tidemark::lab
