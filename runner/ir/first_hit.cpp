@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tidemark::ir {
 namespace {
@@ -14,6 +15,8 @@ constexpr double k_first_part = 1.0 / 16;
 constexpr double k_near_part = 1e-2;
 /// How far behind a place that may be one a hit is looked for: so often the width is doubled.
 constexpr int k_doublings = 10;
+/// For the roundings of a quotient.
+constexpr double k_shorter = 1 - 1e-12;
 /// Wider than a slope makes it.
 constexpr double k_jump = 1e3;
 
@@ -29,43 +32,85 @@ public:
             const Interval cell{at, std::min(at + width, last_)};
             if (slice_.evaluations() >= most_)
                 return answer(FirstHit::Verdict::undecided, cell, FirstHit::Reason::budget);
-            if (is_free(cell)) {
-                at = cell.high;
-                width *= 2;
-            } else if (cell.width() > narrowest(at)) {
-                width = cell.width() / 2;
-            } else {
-                return at_narrow(cell);
-            }
+            const Look look = look_at(cell);
+            at = look.free < cell.width() ? cell.low + look.free : cell.high;
+            if (look.hit_by && *look.hit_by - at <= narrowest(at))
+                return answer(FirstHit::Verdict::hit, {at, *look.hit_by}, FirstHit::Reason::none);
+            if (at < cell.high && cell.width() <= narrowest(at))
+                return at_narrow({at, cell.high});
+            width = next_width(cell, look);
         }
         return answer(FirstHit::Verdict::none, {slice_.start(), last_}, FirstHit::Reason::none);
     }
 
 private:
     double near() {
-        const auto distance = slice_.distance({slice_.start(), slice_.start()}, false);
+        const auto distance = slice_.distance(point_at(slice_.start()), Care::close);
         const bool known = distance && distance->low > 0;
         return std::min(k_near_part * length_, known ? distance->low : k_infinity);
     }
     double narrowest(double at) const { return k_relative_width * std::max(std::abs(at), near_); }
 
-    /// A closer look costs a run for each way: it is taken where the first one leaves it open.
-    bool is_free(const Interval& cell) {
-        const auto quick = slice_.distance(cell, false);
-        if (slice_.excludes_hit(quick))
-            return true;
-        return cell.width() < length_ * k_first_part && slice_.excludes_hit(slice_.distance(cell, true));
+    /// What is proved of a cell.
+    struct Look {
+        double free = 0;                ///< so far from its low end there is no hit
+        std::optional<double> hit_by{}; ///< there is one up to here
+    };
+
+    /// Where slopes told more of the last cell than bounds, they are looked at first. A closer look costs a
+    /// run for each way: it is taken where the others leave it open.
+    Look look_at(const Interval& cell) {
+        const Look all{cell.width()};
+        if (!slopes_told_ && slice_.excludes_hit(slice_.distance(cell, Care::quick)))
+            return all;
+        if (const auto tangent = slice_.tangent(cell)) {
+            slopes_told_ = !slice_.excludes_hit(tangent->value);
+            return slopes_told_ ? by_slope(cell, tangent->slope) : all;
+        }
+        const bool asked = !std::exchange(slopes_told_, false);
+        if (!asked && slice_.excludes_hit(slice_.distance(cell, Care::quick)))
+            return all;
+        const bool near = cell.width() < length_ * k_first_part;
+        const Care care = cell.width() > narrowest(cell.low) ? Care::close : Care::thorough;
+        return near && slice_.excludes_hit(slice_.distance(cell, care)) ? all : Look{};
     }
+
+    /// By the mean value theorem: the field falls no faster than the lowest slope, and as fast as the
+    /// highest.
+    Look by_slope(const Interval& cell, const Interval& slope) {
+        const auto here = slice_.distance(point_at(cell.low), Care::thorough);
+        if (!here || here->partial || !(here->low > 0))
+            return {};
+        if (slope.low >= 0)
+            return {cell.width()};
+        Look look{std::min(here->low / -slope.low * k_shorter, cell.width())};
+        const double by = slope.high < 0 ? cell.low + here->high / -slope.high / k_shorter : k_infinity;
+        if (by <= cell.high)
+            look.hit_by = by;
+        return look;
+    }
+
+    double next_width(const Interval& cell, const Look& look) const {
+        const double width = cell.width();
+        if (look.hit_by)
+            return std::min(*look.hit_by - cell.low - look.free, width / 2);
+        if (look.free >= width)
+            return 2 * width;
+        return look.free > narrowest(cell.low) ? std::clamp(2 * look.free, width / 8, width / 2) : width / 4;
+    }
+
+    /// Not one number: those are floats, and what floats make of them is rounded.
+    static Interval point_at(double at) { return {at, std::nextafter(at, k_infinity)}; }
 
     /// Somewhere from here on it is surely below the threshold, or that is not known.
     FirstHit at_narrow(const Interval& cell) {
         double reach = cell.width();
         for (int i = 0; i < k_doublings; ++i, reach *= 2) {
             const double end = std::min(cell.low + reach, last_);
-            if (slice_.is_hit(slice_.distance({end, std::nextafter(end, k_infinity)}, true)))
+            if (slice_.is_hit(slice_.distance(point_at(end), Care::thorough)))
                 return answer(FirstHit::Verdict::hit, {cell.low, end}, FirstHit::Reason::none);
         }
-        const auto all = slice_.distance(cell, true);
+        const auto all = slice_.distance(cell, Care::thorough);
         if (all && all->partial)
             return answer(FirstHit::Verdict::undecided, cell, FirstHit::Reason::not_finite);
         const bool wide = all && all->width() > k_jump * cell.width();
@@ -81,6 +126,7 @@ private:
     uint64_t most_;
     double length_;
     double near_;
+    bool slopes_told_ = false;
 };
 
 } // namespace

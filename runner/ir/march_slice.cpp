@@ -1,5 +1,6 @@
 #include "ir/march_slice.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -7,8 +8,9 @@ namespace tidemark::ir {
 namespace {
 
 /// Ways through undecided conditions: so many decisions after one another, so many ways in all.
-constexpr size_t k_most_decisions = 12;
-constexpr int k_most_ways = 64;
+constexpr size_t k_most_decisions = 14;
+constexpr int k_few_ways = 64;
+constexpr int k_many_ways = 2048;
 constexpr uint64_t k_most_steps = 2'000'000;
 
 /// From the loop's entry to the test that looks at the distance of the first turn, which is at those
@@ -29,22 +31,43 @@ Ended run_to_test(Evaluator<System>& evaluator, const MarchingLoop& loop,
     return ended;
 }
 
-Interval interval_of(const Point<float>& point, Scalar type) {
+template <class System>
+typename System::Value number_of(const Point<float>& point, Scalar type) {
     const uint32_t bits = type == Scalar::real ? std::bit_cast<uint32_t>(point.real) : point.bits;
-    return IntervalSystem::constant(bits, type);
+    return System::constant(bits, type);
+}
+
+Interval difference(const Interval& distance, const Interval& threshold) {
+    return distance - threshold;
+}
+Tangent difference(const Tangent& distance, const Tangent& threshold) {
+    return {distance.value - threshold.value, distance.slope - threshold.slope};
 }
 
 } // namespace
 
+template <class System>
+MarchSlice::Over<System>::Over(const Function& function, const FloatEvaluator& entered)
+    : evaluator(function) {
+    evaluator.most_steps = k_most_steps;
+    for (Value value = 0; value < function.instructions.size(); ++value)
+        evaluator.value(value) = number_of<System>(entered.value(value), function.instructions[value].type);
+    for (size_t cell = 0; cell < function.cells.size(); ++cell)
+        memory.push_back(number_of<System>(entered.memory()[cell], function.cells[cell]));
+}
+
 MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop, const FloatEvaluator& entered,
                        Textures<Interval> textures)
-    : loop_(&loop), evaluator_(function) {
-    evaluator_.textures = std::move(textures);
-    evaluator_.most_steps = k_most_steps;
-    for (Value value = 0; value < function.instructions.size(); ++value)
-        evaluator_.value(value) = interval_of(entered.value(value), function.instructions[value].type);
-    for (size_t cell = 0; cell < function.cells.size(); ++cell)
-        memory_.push_back(interval_of(entered.memory()[cell], function.cells[cell]));
+    : loop_(&loop), intervals_(function, entered), tangents_(function, entered) {
+    tangents_.evaluator.textures = [textures](const Lookup& lookup, std::span<const Tangent> operands) {
+        std::vector<Interval> places;
+        for (const Tangent& operand : operands)
+            places.push_back(operand.value);
+        const bool constant = std::ranges::all_of(operands, &Tangent::constant);
+        return Tangent{textures ? textures(lookup, places) : everything(),
+                       constant ? Interval{} : everything()};
+    };
+    intervals_.evaluator.textures = std::move(textures);
     for (const Carried& each : loop.carried) {
         const bool itself = loop.by_parameter();
         first_.push_back(itself ? 0 : entered.value(each.phi).real);
@@ -61,34 +84,52 @@ double MarchSlice::parameter(const Turn& turn) const {
     return (turn.carried[longest] - first_[longest]) / factor_[longest];
 }
 
-std::optional<Interval> MarchSlice::run_once(const std::vector<Interval>& places, Decisions& decisions) {
-    evaluator_.memory() = memory_;
-    const Ended ended = run_to_test(evaluator_, *loop_, places, decisions);
+template <class System>
+std::optional<typename System::Value>
+MarchSlice::run(Over<System>& over, const std::vector<typename System::Value>& places, Decisions& decisions) {
+    ++evaluations_;
+    over.evaluator.memory() = over.memory;
+    const Ended ended = run_to_test(over.evaluator, *loop_, places, decisions);
     if (ended == Ended::left || ended == Ended::discarded)
         return std::nullopt;
     if (ended != Ended::stopped)
-        return everything();
-    return evaluator_.value(loop_->distance) - evaluator_.value(loop_->threshold);
+        return System::unknown();
+    return difference(over.evaluator.value(loop_->distance), over.evaluator.value(loop_->threshold));
 }
 
-std::optional<Interval> MarchSlice::distance(const Interval& parameter, bool closely) {
+Interval MarchSlice::place(size_t carried, const Interval& parameter) const {
+    if (loop_->by_parameter())
+        return parameter;
+    return Interval{first_[carried], first_[carried]} +
+           Interval{factor_[carried], factor_[carried]} * parameter;
+}
+
+std::optional<Interval> MarchSlice::distance(const Interval& parameter, Care care) {
     std::vector<Interval> places;
     for (size_t i = 0; i < loop_->carried.size(); ++i)
-        places.push_back(loop_->by_parameter()
-                             ? parameter
-                             : Interval{first_[i], first_[i]} + Interval{factor_[i], factor_[i]} * parameter);
-    evaluator_.splits = closely;
-    ++evaluations_;
+        places.push_back(place(i, parameter));
+    intervals_.evaluator.splits = care != Care::quick;
+    const int most_ways = care == Care::thorough ? k_many_ways : k_few_ways;
     Decisions decisions(k_most_decisions);
     std::optional<Interval> all;
     for (int way = 0; way == 0 || decisions.next(); ++way) {
-        const auto one = run_once(places, decisions);
-        if (way == k_most_ways || decisions.exhausted())
+        const auto one = run(intervals_, places, decisions);
+        if (way == most_ways || decisions.exhausted())
             return everything();
         if (one)
             all = all ? hull(*all, *one) : *one;
     }
     return all;
+}
+
+std::optional<Tangent> MarchSlice::tangent(const Interval& parameter) {
+    std::vector<Tangent> places;
+    for (size_t i = 0; i < loop_->carried.size(); ++i)
+        places.push_back({place(i, parameter), {factor_[i], factor_[i]}});
+    Decisions none(0);
+    auto found = run(tangents_, places, none);
+    const bool known = found && !none.exhausted() && !found->value.partial && std::isfinite(found->slope.low);
+    return known ? found : std::nullopt;
 }
 
 bool MarchSlice::excludes_hit(const std::optional<Interval>& distance) const {
@@ -128,10 +169,11 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
     const auto visit = [&](uint32_t block) {
         if (!inside[block])
             return false;
-        if (block == loop.test && (!loop.in_next_turn || !before.empty()))
-            march.turns.push_back(
-                {loop.in_next_turn ? before : carried(),
-                 evaluator.value(loop.distance).real - evaluator.value(loop.threshold).real});
+        if (block == loop.test && (!loop.in_next_turn || !before.empty())) {
+            march.threshold = evaluator.value(loop.threshold).real;
+            march.turns.push_back({loop.in_next_turn ? before : carried(),
+                                   evaluator.value(loop.distance).real - march.threshold});
+        }
         if (block == loop.latch)
             before = carried();
         return true;

@@ -7,6 +7,7 @@
 #include "ir/interval_system.hpp"
 #include "ir/marching_loop.hpp"
 #include "ir/point.hpp"
+#include "ir/tangent_system.hpp"
 
 #include <optional>
 #include <vector>
@@ -24,9 +25,14 @@ struct Turn {
 /// The march of one pixel.
 struct March {
     std::vector<Turn> turns;
-    float far = 0;    ///< the loop's limit, where it has one
-    bool hit = false; ///< it was left because of the distance
+    float far = 0;       ///< the loop's limit, where it has one
+    float threshold = 0; ///< of the last turn
+    bool hit = false;    ///< it was left because of the distance
 };
+
+/// What becomes of conditions and jumps that are not decided: they cost width; or they are gone through one
+/// by one, as far as that is few ways, or many.
+enum class Care { quick, close, thorough };
 
 /// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry.
 class MarchSlice {
@@ -38,21 +44,37 @@ public:
     double start() const { return start_; }
     /// The parameter at which a turn measured.
     double parameter(const Turn& turn) const;
+
     /// Bounds of distance - threshold over that piece of the ray; `partial` where NaN or an infinity may come
-    /// of it. `closely`: conditions and jumps that are not decided are gone through one by one, as far as
-    /// that is few ways; else they cost width. Nothing where the loop is left before it measures.
-    std::optional<Interval> distance(const Interval& parameter, bool closely);
+    /// of it. Nothing where the loop is left before it measures.
+    std::optional<Interval> distance(const Interval& parameter, Care care);
+    /// The same with bounds of its slope, where all conditions are decided and nothing jumps: nothing else.
+    std::optional<Tangent> tangent(const Interval& parameter);
+
     /// Of what `distance` gives: no place of the piece is a hit; every one is.
     bool excludes_hit(const std::optional<Interval>& distance) const;
     bool is_hit(const std::optional<Interval>& distance) const;
+    /// Runs of the loop's turn so far.
     uint64_t evaluations() const { return evaluations_; }
 
 private:
-    std::optional<Interval> run_once(const std::vector<Interval>& places, Decisions& decisions);
+    /// The slice over a number system.
+    template <class System>
+    struct Over {
+        Evaluator<System> evaluator;
+        std::vector<typename System::Value> memory{}; ///< as the loop is entered
+
+        Over(const Function& function, const FloatEvaluator& entered);
+    };
+
+    template <class System>
+    std::optional<typename System::Value>
+    run(Over<System>& over, const std::vector<typename System::Value>& places, Decisions& decisions);
+    Interval place(size_t carried, const Interval& parameter) const;
 
     const MarchingLoop* loop_;
-    Evaluator<IntervalSystem> evaluator_;
-    std::vector<Interval> memory_; ///< as the loop is entered
+    Over<IntervalSystem> intervals_;
+    Over<TangentSystem> tangents_;
     std::vector<double> first_, factor_;
     double start_ = 0;
     uint64_t evaluations_ = 0;

@@ -163,6 +163,20 @@ Found of_product(const Reader& read, Value value) {
     return std::nullopt;
 }
 
+/// The smaller or the larger by hand: a < b ? a : b.
+Found of_selection(const Reader& read, Value value) {
+    const Value condition = read.operand(value, 0);
+    if (read.op(condition) != Op::less && read.op(condition) != Op::less_equal)
+        return std::nullopt;
+    const Value less = read.operand(condition, 0), more = read.operand(condition, 1);
+    const Value chosen = read.operand(value, 1), other = read.operand(value, 2);
+    if (chosen == less && other == more)
+        return EqualInReal{Op::minimum, {less, more}};
+    if (chosen == more && other == less)
+        return EqualInReal{Op::maximum, {less, more}};
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<EqualInReal> equal_in_real(const Function& function, Value value) {
@@ -171,6 +185,7 @@ std::optional<EqualInReal> equal_in_real(const Function& function, Value value) 
     case Op::add: return of_sum(read, value);
     case Op::subtract: return of_difference(read, value);
     case Op::multiply: return of_product(read, value);
+    case Op::select: return of_selection(read, value);
     default: return std::nullopt;
     }
 }

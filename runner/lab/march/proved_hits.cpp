@@ -32,13 +32,21 @@ bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::
     });
 }
 
-Outcome outcome_of(double ended, bool hit, const ir::FirstHit& found) {
+/// Up to where it has passed over the ray. One that looks for a change of sign ends below the surface, and
+/// goes back to it after the loop: what counts is the sample before.
+double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
+    const bool looks_for_sign = march.hit && march.threshold == 0 && march.turns.size() > 1;
+    return slice.parameter(march.turns.end()[looks_for_sign ? -2 : -1]);
+}
+
+Outcome outcome_of(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {
     if (found.verdict == Verdict::undecided)
         return Outcome::undecided;
     if (found.verdict == Verdict::none)
         return Outcome::agrees;
-    if (!hit)
+    if (!march.hit)
         return Outcome::misses;
+    const double ended = passed_by(slice, march);
     const double tolerance = k_same_place * std::max(1.0, std::abs(ended));
     return ended > found.where.high + tolerance ? Outcome::steps_over : Outcome::agrees;
 }
@@ -69,7 +77,11 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
         ray.outcome = Outcome::unknown_texture;
         return ray;
     }
-    if (march.turns.empty() || !ir::is_faithful(loop, entered, march)) {
+    if (march.turns.empty()) { // its range is empty
+        ray.outcome = Outcome::agrees;
+        return ray;
+    }
+    if (!ir::is_faithful(loop, entered, march)) {
         ray.outcome = Outcome::unfaithful;
         return ray;
     }
@@ -83,7 +95,7 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
         return ray;
     }
     const ir::FirstHit found = ir::first_hit(slice, end, most_evaluations);
-    ray.outcome = outcome_of(slice.parameter(march.turns.back()), march.hit, found);
+    ray.outcome = outcome_of(slice, march, found);
     ray.reason = found.reason;
     ray.evaluations = found.evaluations;
     ray.contradicted = contradicts(slice, march, found);

@@ -1,0 +1,39 @@
+// The number system of intervals with a derivative: bounds of a value over a piece of a ray, and of its slope
+// along the ray there (R. E. Moore: Interval Analysis, 1966; forward mode). At a kink, of abs() or min(), the
+// slopes of both sides are in it (F. H. Clarke: Optimization and Nonsmooth Analysis, 1983), so that the mean
+// value theorem holds; where the value may jump, the slope is everything.
+#pragma once
+
+#include "ir/interval_system.hpp"
+
+namespace tidemark::ir {
+
+struct Tangent {
+    Interval value;
+    Interval slope;
+
+    /// Does not change over the piece.
+    bool constant() const { return slope.low == 0 && slope.high == 0; }
+};
+
+class TangentSystem {
+public:
+    using Value = Tangent;
+
+    static Value constant(uint32_t bits, Scalar type) { return {IntervalSystem::constant(bits, type), {}}; }
+    static Value unknown() { return {everything(), everything()}; }
+
+    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const;
+
+    static std::optional<bool> decide(const Value& condition) {
+        return IntervalSystem::decide(condition.value);
+    }
+    static std::pair<int64_t, int64_t> range(const Value& index) {
+        return IntervalSystem::range(index.value);
+    }
+    /// Of two cells of memory, of which either is read: the value may jump.
+    static Value hull(const Value& a, const Value& b) { return {ir::hull(a.value, b.value), everything()}; }
+    static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+};
+
+} // namespace tidemark::ir
