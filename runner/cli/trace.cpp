@@ -69,6 +69,7 @@ Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& fram
     drawing.extent = frames.state.extent;
     drawing.samples = image::SampleType::f32;
     drawing.pass = frames.state.pass;
+    drawing.specialise = glsl::Specialise::unreachable; // the same picture, as in capture
     auto renderer = TRY(render::Renderer::create(scene, drawing));
     const render::FrameStates states = states_of(frames);
     const int frame = frames.frames.front();

@@ -59,7 +59,7 @@ uint64_t StochasticSystem::draw() {
 }
 
 float StochasticSystem::rounded(double exact) {
-    const float nearest = float(exact);
+    const auto nearest = float(exact);
     if (double(nearest) == exact || !std::isfinite(nearest))
         return nearest;
     const float infinity = std::numeric_limits<float>::infinity();

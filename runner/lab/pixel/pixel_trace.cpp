@@ -27,19 +27,27 @@ ir::LockstepEvaluator in_lockstep(const ir::Function& function, const ir::FloatE
     return evaluator;
 }
 
-/// What of a block the evaluator knows no value of. Textures that are handed to it go out of here.
-std::optional<Error> not_followed(const PassFunction& function, uint32_t block) {
-    const ir::Block& here = function.function().blocks[block];
-    for (uint32_t i = here.first; i < here.last; ++i) {
-        const ir::Instruction& each = function.function().instructions[i];
-        const bool texel = each.op == Op::texel;
-        if (!texel && each.op != Op::derivative_x && each.op != Op::derivative_y)
-            continue;
-        return error_at(function.locate(each.line),
-                        texel ? "the pixel reads a texture here: its texels are not followed yet"
-                              : "the pixel takes a derivative here: neighbours are not followed yet");
-    }
-    return std::nullopt;
+bool is_unknown(ir::Op op) {
+    return op == Op::texel || op == Op::derivative_x || op == Op::derivative_y;
+}
+
+/// Of each block the first instruction that the evaluator knows no value of. Textures that are handed to it
+/// go out of here.
+std::vector<ir::Value> unknown_values(const ir::Function& function) {
+    std::vector<ir::Value> result(function.blocks.size(), ir::k_no_value);
+    for (size_t block = 0; block < result.size(); ++block)
+        for (ir::Value i = function.blocks[block].last; i-- > function.blocks[block].first;)
+            if (is_unknown(function.instructions[i].op))
+                result[block] = i;
+    return result;
+}
+
+Error not_followed(const PassFunction& function, ir::Value value) {
+    const ir::Instruction& instruction = function.function().instructions[value];
+    return error_at(function.locate(instruction.line),
+                    instruction.op == Op::texel
+                        ? "the pixel reads a texture here: its texels are not followed yet"
+                        : "the pixel takes a derivative here: neighbours are not followed yet");
 }
 
 void read_colour(const ir::LockstepEvaluator& evaluator, const ir::Function& function, PixelTrace& trace) {
@@ -81,17 +89,18 @@ Result<PixelTrace> follow(const PassFunction& function, const PassLines& lines,
     PixelTrace trace;
     if (line)
         trace.asked = *lines.find(*line);
-    std::optional<Error> unknown;
+    const std::vector<ir::Value> unknown = unknown_values(function.function());
+    ir::Value found = ir::k_no_value;
     ir::Decisions decisions(0);
     const Ended ended = evaluator.run(decisions, [&](uint32_t block) {
         const ir::Block& here = function.function().blocks[block];
         trace.operations += here.last - here.first;
-        unknown = not_followed(function, block);
+        found = unknown[block];
         recorder.record(evaluator, block);
-        return !unknown;
+        return found == ir::k_no_value;
     });
-    if (unknown)
-        return fail(*std::move(unknown));
+    if (found != ir::k_no_value)
+        return fail(not_followed(function, found));
     trace.end = end_of(ended);
     read_colour(evaluator, function.function(), trace);
     trace.lines = recorder.lines();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tidemark::lab {
 namespace {
@@ -78,8 +79,8 @@ bool is_rounded(Op op) {
 
 Recorder::Recorder(const ir::Function& function, const PassLines& lines, std::optional<int> line,
                    std::optional<TurnRange> turns)
-    : function_(&function), source_(&lines), wanted_(line), range_(turns), around_(function.blocks.size()),
-      spreads_(function.instructions.size()) {
+    : function_(&function), source_(&lines), wanted_(line), range_(std::move(turns)),
+      around_(function.blocks.size()), spreads_(function.instructions.size()) {
     for (uint32_t block = 0; block < function.blocks.size(); ++block)
         if (function.blocks[block].loop)
             if (auto text = ir::text_of_loop(function, block); !text.empty())
