@@ -24,7 +24,7 @@ constexpr AddCommand k_commands[] = {
 #ifdef TIDEMARK_WINDOW
     add_view,
 #endif
-    add_capture, add_inspect, add_check, add_compare,    add_study,
+    add_capture, add_inspect, add_check, add_trace,      add_compare, add_study,
     add_import,  add_export,  add_bake,  add_completion, add_help,
 };
 

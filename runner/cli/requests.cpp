@@ -248,4 +248,18 @@ Result<render::Mouse> parse_mouse(std::string_view text) {
     return from ? render::Mouse::dragged(*from, at, down) : render::Mouse::clicked(at, down);
 }
 
+Result<glm::ivec2> parse_pixel(std::string_view text, Extent extent) {
+    glm::ivec2 pixel{0};
+    const char* const end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, pixel.x);
+    if (x.ec == std::errc{} && x.ptr != end && *x.ptr == ',') {
+        const auto y = std::from_chars(x.ptr + 1, end, pixel.y);
+        if (y.ec == std::errc{} && y.ptr == end && pixel.x >= 0 && pixel.y >= 0 && pixel.x < extent.width &&
+            pixel.y < extent.height)
+            return pixel;
+    }
+    return fail(ErrorCode::usage, fmt::format("--pixel {}: give x,y from the bottom left, within {}x{}", text,
+                                              extent.width, extent.height));
+}
+
 } // namespace tidemark::cli

@@ -75,6 +75,9 @@ Result<std::vector<int>> parse_frames(std::string_view text);
 /// `x,y,from_x,from_y` or `x,y,from_x,from_y,down`: after a drag to that pixel, or before its end.
 Result<render::Mouse> parse_mouse(std::string_view text);
 
+/// --pixel: `x,y` from the bottom left, within a picture of that size.
+Result<glm::ivec2> parse_pixel(std::string_view text, Extent extent);
+
 /// `AZIMUTH,ELEVATION,DISTANCE`.
 std::string to_string(const render::OrbitCamera& camera);
 

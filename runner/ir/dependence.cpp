@@ -30,6 +30,18 @@ std::vector<bool> natural_loop(const Function& function, uint32_t header) {
     return inside;
 }
 
+std::vector<bool> text_of_loop(const Function& function, uint32_t header) {
+    const Block& first = function.blocks[header];
+    if (std::ranges::none_of(first.predecessors, [&](uint32_t from) { return from >= header; }))
+        return {};
+    std::vector<bool> inside = natural_loop(function, header);
+    for (uint32_t block = header + 1; block < inside.size(); ++block)
+        if (!inside[block] && block != first.behind_loop)
+            inside[block] = std::ranges::all_of(function.blocks[block].predecessors,
+                                                [&](uint32_t from) { return inside[from]; });
+    return inside;
+}
+
 Cone::Cone(const Function& function, const std::vector<bool>& inside, uint32_t header,
            std::vector<Value> stops)
     : function_(&function), inside_(&inside), first_phi_(function.blocks[header].first),

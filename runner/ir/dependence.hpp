@@ -13,6 +13,10 @@ std::vector<uint32_t> blocks_of_instructions(const Function& function);
 /// The blocks that lie on a way from the loop's header back to it.
 std::vector<bool> natural_loop(const Function& function, uint32_t header);
 
+/// Those, and the ones in the loop's text that lead out of it, as before a `break`; empty where nothing leads
+/// back to the header.
+std::vector<bool> text_of_loop(const Function& function, uint32_t header);
+
 /// What of a loop a value is computed from.
 class Cone {
 public:

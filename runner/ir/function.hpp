@@ -2,6 +2,8 @@
 // are taken apart, all calls are inlined. Plain data; evaluating it is evaluate.hpp's business.
 #pragma once
 
+#include "ir/source_names.hpp"
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -145,6 +147,8 @@ struct Block {
     std::vector<uint32_t> successors{}; ///< of a multiway jump: successor 0 where no case fits
     std::vector<uint32_t> cases{};      ///< case i leads to successor i + 1
     bool loop = false;                  ///< the header of one
+    uint32_t behind_loop = 0;           ///< of a header: where the text goes on behind the loop
+    int line = 0;                       ///< of its end
 };
 
 struct Function {
@@ -155,6 +159,7 @@ struct Function {
     std::vector<Variable> variables;
     std::vector<Lookup> lookups;
     std::vector<Scalar> cells; ///< of memory, each of its kind
+    SourceNames names{};
 
     std::span<const Value> operands_of(const Instruction& instruction) const {
         return {operands.data() + instruction.first_operand, instruction.operand_count};

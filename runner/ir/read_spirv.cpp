@@ -1,18 +1,11 @@
 #include "ir/spirv.hpp"
-#include "ir/spirv_computations.hpp"
-
-#include <cstring>
+#include "ir/spirv_names.hpp"
 
 namespace tidemark::ir {
 namespace {
 
 /// Beyond that nobody evaluates it.
 constexpr size_t k_most_instructions = 4'000'000;
-
-std::string string_at(std::span<const uint32_t> words) {
-    const char* text = reinterpret_cast<const char*>(words.data());
-    return std::string(text, strnlen(text, words.size_bytes()));
-}
 
 std::vector<SpirvInstruction> instructions_of(std::span<const uint32_t> words) {
     constexpr size_t k_header = 5;
@@ -28,7 +21,7 @@ std::vector<SpirvInstruction> instructions_of(std::span<const uint32_t> words) {
 }
 
 /// The module itself, and its flow of control.
-class Reader : SpirvComputations {
+class Reader : SpirvNames {
 public:
     Function read(std::span<const uint32_t> words) {
         const auto all = instructions_of(words);
@@ -53,10 +46,17 @@ private:
     }
 
     void read(const SpirvInstruction& each) {
+        if (read_debug(each))
+            return;
+        begin_statement();
         switch (each.op) {
         case spv::OpName: names_[each.at(0)] = string_at(each.from(1)); break;
         case spv::OpLine: build_.line = int(each.at(1)); break;
         case spv::OpNoLine: build_.line = 0; break;
+        case spv::OpStore:
+            name_stored(each);
+            store(each);
+            break;
         case spv::OpExtInstImport:
         case spv::OpFunction:
         case spv::OpFunctionEnd:
@@ -148,7 +148,11 @@ private:
         switch (each.op) {
         case spv::OpLabel: begin_block(block_of_.at(each.at(0))); return true;
         case spv::OpPhi: read_phi(each); return true;
-        case spv::OpLoopMerge: current().loop = true; return true;
+        case spv::OpLoopMerge:
+            current().loop = true;
+            current().behind_loop = block_of_.at(each.at(0));
+            is_loop_header();
+            return true;
         case spv::OpBranch: end_block(Block::End::jump, {each.at(0)}); return true;
         case spv::OpBranchConditional:
             current().condition = value(each.at(0));
@@ -170,6 +174,7 @@ private:
     void begin_block(uint32_t block) {
         block_ = int(block);
         in_function_ = true;
+        begin_named_block(block);
         current().first = uint32_t(function().instructions.size());
         if (block == 0)
             initialise();
@@ -177,6 +182,7 @@ private:
     void end_block(Block::End end, const std::vector<Id>& targets) {
         Block& block = current();
         block.end = end;
+        block.line = build_.line;
         block.last = uint32_t(function().instructions.size());
         for (const Id target : targets) {
             block.successors.push_back(block_of_.at(target));

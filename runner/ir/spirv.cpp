@@ -2,7 +2,6 @@
 
 #include "base/plug_in.hpp"
 #include "base/try.hpp"
-#include "ir/plugin/spirv_compiler.hpp"
 
 namespace tidemark::ir {
 namespace {
@@ -18,9 +17,9 @@ const Result<const SpirvCompiler*>& spirv_compiler() {
 
 } // namespace
 
-Result<Function> compile(const std::string& text) {
+Result<Function> compile(const std::string& text, Names names) {
     const SpirvCompiler* compiler = TRY(spirv_compiler());
-    const SpirvResult words = compiler->compile(text);
+    const SpirvResult words = compiler->compile(text, names);
     if (!words)
         return fail(ErrorCode::load, words.error());
     return read_spirv(*words);

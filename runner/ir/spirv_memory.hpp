@@ -32,6 +32,7 @@ protected:
         }
     }
 
+    bool has_pointer(Id id) const { return pointers_.contains(id); }
     const Pointer& pointer(Id id) const {
         const auto found = pointers_.find(id);
         if (found == pointers_.end())

@@ -50,6 +50,7 @@ protected:
             cannot("a value of no type that is known");
         return found->second;
     }
+    bool has_values(Id id) const { return values_.contains(id); }
     Value value(Id id) const { return values(id)[0]; }
     const Type& type(Id id) const { return types_.of(id); }
 

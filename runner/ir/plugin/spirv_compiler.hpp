@@ -14,13 +14,17 @@ namespace tidemark::ir {
 /// kinds allow. The error is the compiler's log, or why it was not tried.
 using SpirvResult = tl::expected<std::vector<uint32_t>, std::string>;
 
+/// Whether a function knows the variables of its text (source_names.hpp): that makes modules some times
+/// larger.
+enum class Names { drop, keep };
+
 struct SpirvCompiler {
     unsigned version;
     /// `text` is a whole fragment shader of OpenGL.
-    SpirvResult (*compile)(const std::string& text) noexcept;
+    SpirvResult (*compile)(const std::string& text, Names names) noexcept;
 };
 
-inline constexpr unsigned k_spirv_compiler_version = 1;
+inline constexpr unsigned k_spirv_compiler_version = 2;
 inline constexpr const char* k_spirv_compiler_entry = "tidemark_spirv_compiler";
 
 } // namespace tidemark::ir

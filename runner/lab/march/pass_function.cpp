@@ -3,7 +3,6 @@
 #include "base/try.hpp"
 #include "glsl/assemble.hpp"
 #include "glsl/driver_load.hpp"
-#include "ir/spirv.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
@@ -61,11 +60,12 @@ std::string first_error(const std::string& log, const text::LineMap& lines) {
 
 } // namespace
 
-Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene::Pass& pass) {
+Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene::Pass& pass,
+                                          ir::Names names) {
     const glsl::ShaderSource source = glsl::assemble(scene, pass);
     if (!glsl::driver_load(source).modest())
         return fail(ErrorCode::load, "its text is too large to be followed");
-    auto function = ir::compile(source.text());
+    auto function = ir::compile(source.text(), names);
     if (!function)
         return fail(ErrorCode::load, first_error(function.error().message, source.lines()));
     PassFunction result;

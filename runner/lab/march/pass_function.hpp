@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 #include "ir/march_slice.hpp"
+#include "ir/spirv.hpp"
 #include "render/renderer.hpp"
 #include "text/mapped_text.hpp"
 
@@ -17,7 +18,8 @@ namespace tidemark::lab {
 class PassFunction {
 public:
     /// The error says what of the text cannot be followed, with its author's line.
-    static Result<PassFunction> create(const scene::Scene& scene, const scene::Pass& pass);
+    static Result<PassFunction> create(const scene::Scene& scene, const scene::Pass& pass,
+                                       ir::Names names = ir::Names::drop);
 
     const ir::Function& function() const { return function_; }
     const std::vector<ir::MarchingLoop>& loops() const { return loops_; }

@@ -1,0 +1,24 @@
+// What `tidemark trace` found, as people and as scripts read it.
+#pragma once
+
+#include "base/extent.hpp"
+#include "cli/json_dump.hpp"
+#include "lab/pixel/pixel_trace.hpp"
+
+#include <string>
+
+namespace tidemark::cli {
+
+struct TraceReport {
+    std::string scene{};
+    std::string pass{};
+    int frame = 0;
+    Extent extent{};
+    lab::PixelRequest request{};
+    lab::PixelTrace trace{};
+};
+
+std::string trace_text(const TraceReport& report);
+Json trace_json(const TraceReport& report);
+
+} // namespace tidemark::cli
