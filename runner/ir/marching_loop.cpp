@@ -3,6 +3,7 @@
 #include "ir/dependence.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace tidemark::ir {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 /// A comparison that decides whether the loop is left: where `less` is below `more`, or where it is not.
 struct ExitTest {
     Value smaller, larger; ///< the loop is left where smaller < larger, equal or not
+    Value comparison;
     uint32_t block;
     int line;
 };
@@ -84,9 +86,9 @@ private:
         case Op::less_equal: {
             const uint32_t tested = block_of_[condition];
             if (leaving)
-                tests_.push_back({parts[0], parts[1], tested, at(condition).line});
+                tests_.push_back({parts[0], parts[1], condition, tested, at(condition).line});
             else
-                tests_.push_back({parts[1], parts[0], tested, at(condition).line});
+                tests_.push_back({parts[1], parts[0], condition, tested, at(condition).line});
             return;
         }
         default: return;
@@ -204,6 +206,8 @@ private:
             return std::nullopt;
         MarchingLoop loop = loop_of(group, at_update, test, *kind);
         loop.in_next_turn = !others.empty();
+        loop.stops_before = loop.kind == MarchingLoop::Kind::sphere_tracing && is_above_zero(test.larger) &&
+                            !computes(depending(to_cuts.of(test.larger), cuts));
         return loop;
     }
 
@@ -293,8 +297,10 @@ private:
         loop.cut_at_update = at_update;
         loop.distance = test.smaller;
         loop.threshold = test.larger;
+        loop.comparison = test.comparison;
         loop.test = test.block;
         loop.line = test.line;
+        place_in_line(loop);
         for (const uint32_t each : function_.blocks[header_].predecessors)
             (blocks_[each] ? loop.latch : loop.entry) = each;
         for (const Step& each : group)
@@ -304,6 +310,24 @@ private:
                 if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller])
                     loop.far = other.smaller;
         return loop;
+    }
+
+    /// As far as it is known without running.
+    bool is_above_zero(Value value) const {
+        return at(value).op != Op::constant || std::bit_cast<float>(at(value).immediate) > 0;
+    }
+
+    void place_in_line(MarchingLoop& loop) const {
+        loop.comparisons = 0;
+        for (Value value = function_.blocks[header_].first; value < inside_.size(); ++value) {
+            const bool compares = at(value).op == Op::less || at(value).op == Op::less_equal;
+            if (!inside_[value] || !compares || at(value).line != loop.line ||
+                at(operands(value)[0]).type != Scalar::real)
+                continue;
+            if (value == loop.comparison)
+                loop.which = loop.comparisons;
+            ++loop.comparisons;
+        }
     }
 
     const Function& function_;

@@ -27,10 +27,16 @@ struct MarchingLoop {
     /// A hit is where distance - threshold <= 0; the comparison's operands.
     Value distance = k_no_value;
     Value threshold = k_no_value;
+    Value comparison = k_no_value;
     uint32_t test = 0; ///< block of the comparison
+    /// A hit is a small distance above 0: one below 0 lies past the surface. Else the march may wait for
+    /// that, or what it tests is no distance.
+    bool stops_before = false;
     /// Where a carried value exceeds it, the loop gives up; none: no such test.
     Value far = k_no_value;
     int line = 0; ///< of the comparison
+    /// Comparisons of reals in that line of the loop, in the order of the text, and which of them it is.
+    size_t comparisons = 1, which = 0;
 
     /// One value that is the ray's parameter itself.
     bool by_parameter() const { return carried.size() == 1; }

@@ -149,7 +149,7 @@ Result<image::Image> map_of(ProbeBench& bench, const Steep& place) {
 Result<Answer> ask_gradient(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
-    if (!has_march_field(bench.scene()))
+    if (!bench.has_main_hit() || !has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take slopes of"};
     const std::vector<FrameState> views = views_over_time();
     const auto furthest = TRY(furthest_of(bench, views));
