@@ -93,10 +93,16 @@ class Check(ProgramTest):
                 entry = self.verdicts(self.write("march.glsl", text), "--probe", probe)[probe]
                 self.assertEqual(entry["verdict"], "warn", entry["found"])
                 self.assertRegex(entry["found"], "^" + found)
+        self.write("march.check.json", '{ "largest_slope": 1 }')
+        for field, verdict in (("length(p) - 1.0", "pass"), ("1.3 * (length(p) - 1.0)", "fail")):
+            scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "0.5 * d").replace("length(p) - 1.0", field))
+            entry = self.verdicts(scene, "--probe", "gradient")["gradient"]
+            self.assertEqual(entry["verdict"], verdict, entry["found"])
+            self.assertRegex(entry["found"], r"^the distance falls by up to (1|0\.99\d*|1\.3|1\.29\d*) a unit between two samples")
         knobs = "#iUniform float far_distance = 9.0 in { 5.0, 20.0 }\n#iUniform vec3 camera_position = vec3(0.0, 0.0, -3.0)\n"
         sound = knobs + (MARCH.replace("max(d, 0.4)", "d").replace("t > 9.0", "t > far_distance")
                          .replace("ro = vec3(0.0, 0.0, -3.0)", "ro = camera_position"))
-        probes = ("overstep", "budget", "lipschitz_sweep", "far", "rays", "epsilon", "places")
+        probes = ("overstep", "budget", "lipschitz_sweep", "far", "rays", "epsilon", "places", "gradient")
         options = [option for probe in probes for option in ("--probe", probe)]
         for probe, entry in self.verdicts(self.write("sound.glsl", sound), *options).items():
             self.assertIn(entry["verdict"], ("pass", "warn"), f"{probe}: {entry['found']}")

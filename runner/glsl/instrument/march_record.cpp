@@ -25,6 +25,9 @@ float $limit = 0.0;
 float $place = 0.0;
 float $begin = 0.0;
 float $before = 0.0;
+float $fall = 0.0;
+float $fall_place = 0.0;
+float $previous = 0.0;
 bool $out = false;
 vec4 $origin = vec4(0.0);
 float $along(float p) { return p; }
@@ -58,10 +61,20 @@ float $threshold(bool on, float x) {
     if (on) $limit = x;
     return x;
 }
+void $measure(float p) {
+    float way = abs(p - $place);
+    float fall = ($previous - $sign) / way;
+    if ($turns > 0 && way > 1e-3 * max(1.0, abs(p)) && fall > $fall) {
+        $fall = fall;
+        $fall_place = p;
+    }
+    $previous = $sign;
+    $place = p;
+    ++$turns;
+}
 bool $tested(bool on, bool holds, float p, bool measured, bool stops_before) {
     if (on && measured) {
-        ++$turns;
-        $place = p;
+        $measure(p);
         if (stops_before && $limit > 0.0 && $sign < -1e-5 * max(1.0, abs(p)))
             $flags |= $turns == 1 ? 4 : 2;
     }
@@ -82,7 +95,8 @@ void mainHit(out vec4 hit, in vec2 fragCoord) {
     bool met = $turns > 0 && $last <= $limit;
     float none = $last == $last ? -1.0 : $last;
     hit = vec4(met ? $place : none, float($turns), $last, float($flags + ($out && !met ? 1 : 0)));
-    if (@ > 1.5) hit = vec4($place, float($turns), $last, $limit);
+    if (@ > 2.5) hit = vec4($fall, $fall_place, 0.0, 0.0);
+    else if (@ > 1.5) hit = vec4($place, float($turns), $last, $limit);
     else if (@ > 0.5) hit = color;
 }
 )";

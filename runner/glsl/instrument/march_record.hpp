@@ -16,6 +16,7 @@ enum class RecordAnswer {
     hit,     ///< as glsl/hit.hpp has it: x -1 where the test did not hold at the end
     picture, ///< the colour of mainImage
     march,   ///< place on the ray, distances that were tested, the last of them, its threshold
+    fall,    ///< the most that the distance falls by between two samples, a unit of the way; its place
 };
 
 /// `text` is Common and the pass as their authors wrote them. What is not certain is an error, never a

@@ -58,7 +58,7 @@ std::span<const Probe> all_probes() {
         {"budget", "rays that run out of steps (hits)", ask_budget},
         {"gradient",
          "the largest slope of the field along a ray, sampled and climbed to, beside the bound that the "
-         "scene states (mainHit, march_field)",
+         "scene states (hits)",
          ask_gradient},
         {"lipschitz_sweep",
          "rays with a sample below the surface, and distances that are NaN, with each knob at both ends, at "

@@ -2,7 +2,6 @@
 
 #include "base/try.hpp"
 #include "glsl/hit.hpp"
-#include "lab/march/recorded_hits.hpp"
 
 #include <fmt/format.h>
 
@@ -173,13 +172,18 @@ std::string ProbeBench::see_bounds() const {
 }
 
 Result<Hits> ProbeBench::hits(const FrameState& state, glsl::Precision precision) {
-    auto renderer = TRY(drawn(state, has_main_hit_ ? Entry::main_hit : Entry::recording, precision));
+    if (!has_main_hit_)
+        return hits_of(TRY(recorded(state, glsl::RecordAnswer::hit, precision)));
+    auto renderer = TRY(drawn(state, Entry::main_hit, precision));
     return hits_of((renderer)->read_back());
 }
 
-Result<Hits> ProbeBench::recorded_hits(const FrameState& state) {
-    auto renderer = TRY(drawn(state, Entry::recording, glsl::Precision::single));
-    return hits_of((renderer)->read_back());
+Result<image::Image> ProbeBench::recorded(const FrameState& state, glsl::RecordAnswer answer,
+                                          glsl::Precision precision) {
+    auto made = TRY(renderer(state, Entry::recording, precision));
+    lab::ask(*made, answer);
+    render::FrameStepper(*made, state, first_frame_of(state)).draw(state.frame);
+    return (made)->read_back();
 }
 
 Result<std::vector<glsl::KeptHash>> ProbeBench::hashes() {

@@ -6,7 +6,7 @@
 #include "lab/check/probe_state.hpp"
 #include "lab/check/promises.hpp"
 #include "lab/hits.hpp"
-#include "lab/march/pass_function.hpp"
+#include "lab/march/recorded_hits.hpp"
 #include "render/frame_stepper.hpp"
 #include "scene/scene.hpp"
 
@@ -58,7 +58,9 @@ public:
 
     /// Why the march of mainImage cannot be recorded; empty: it can.
     const std::string& recording_problem();
-    Result<Hits> recorded_hits(const FrameState& state);
+    /// What it answers, RGBA in floats.
+    Result<image::Image> recorded(const FrameState& state, glsl::RecordAnswer answer,
+                                  glsl::Precision precision = glsl::Precision::single);
     /// Whether hits say where a sample was below the surface.
     bool sees_below() const { return has_main_hit_ || sees_below_; }
 

@@ -60,7 +60,7 @@ Result<Answer> ask_drift(ProbeBench& bench) {
     Answer answer;
     for (const FrameState& view : usual_views()) {
         const auto written = TRY(bench.hits(view));
-        const auto recorded = TRY(bench.recorded_hits(view));
+        const Hits recorded = hits_of(TRY(bench.recorded(view, glsl::RecordAnswer::hit)));
         const Drift drift = drift_of(written, recorded, view.extent);
         if (drift.parted > 0 && !answer.where) {
             answer.where = view;

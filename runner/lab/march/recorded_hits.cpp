@@ -1,7 +1,6 @@
 #include "lab/march/recorded_hits.hpp"
 
 #include "base/try.hpp"
-#include "glsl/instrument/march_record.hpp"
 #include "render/frame_stepper.hpp"
 
 #include <fmt/format.h>
@@ -69,9 +68,7 @@ void inline_common(scene::Scene& scene) {
 }
 
 image::Image answer(render::Renderer& renderer, glsl::RecordAnswer which, const render::FrameState& state) {
-    std::vector<scene::Knob> knobs = renderer.scene().knobs;
-    knobs.back().value = {double(which)};
-    renderer.turn(std::move(knobs));
+    ask(renderer, which);
     render::FrameStepper(renderer, state).draw(state.frame);
     return renderer.read_back();
 }
@@ -150,6 +147,12 @@ Result<Recording> record_hits(const scene::Scene& scene, const PassFunction& ima
     pass.kind = scene::PassKind::hit;
     recording.scene.knobs.push_back({.name = std::string(glsl::k_record_knob)});
     return recording;
+}
+
+void ask(render::Renderer& recording, glsl::RecordAnswer answer) {
+    std::vector<scene::Knob> knobs = recording.scene().knobs;
+    knobs.back().value = {double(answer)};
+    recording.turn(std::move(knobs));
 }
 
 RecordingCheck check_recording(render::Renderer& plain, render::Renderer& recording,

@@ -3,6 +3,7 @@
 // held against the picture and against the pass evaluated on the CPU. A context must be current for that.
 #pragma once
 
+#include "glsl/instrument/march_record.hpp"
 #include "lab/march/pass_function.hpp"
 #include "render/frame_state.hpp"
 
@@ -19,6 +20,9 @@ struct Recording {
 
 /// The error says why it is not known where the march stands in the text.
 Result<Recording> record_hits(const scene::Scene& scene, const PassFunction& image);
+
+/// What a recording's renderer draws from now on.
+void ask(render::Renderer& recording, glsl::RecordAnswer answer);
 
 /// Of the rays of a grid of pixels.
 struct RecordingCheck {
