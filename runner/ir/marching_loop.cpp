@@ -3,6 +3,7 @@
 #include "ir/dependence.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace tidemark::ir {
 namespace {
@@ -12,6 +13,7 @@ struct ExitTest {
     Value smaller, larger;
     bool at_equality; ///< it is left, too, where they are equal
     bool at_nan;      ///< or where one of them is NaN
+    Value comparison;
     uint32_t block;
     int line;
 };
@@ -86,8 +88,8 @@ private:
         case Op::less_equal: {
             const bool or_equal = at(condition).op == Op::less_equal;
             const Value smaller = parts[leaving ? 0 : 1], larger = parts[leaving ? 1 : 0];
-            tests_.push_back(
-                {smaller, larger, or_equal == leaving, !leaving, block_of_[condition], at(condition).line});
+            tests_.push_back({smaller, larger, or_equal == leaving, !leaving, condition, block_of_[condition],
+                              at(condition).line});
             return;
         }
         default: return;
@@ -205,6 +207,8 @@ private:
             return std::nullopt;
         MarchingLoop loop = loop_of(group, at_update, test, *kind);
         loop.in_next_turn = !others.empty();
+        loop.stops_before = loop.kind == MarchingLoop::Kind::sphere_tracing && is_above_zero(test.larger) &&
+                            !computes(depending(to_cuts.of(test.larger), cuts));
         return loop;
     }
 
@@ -296,8 +300,10 @@ private:
         loop.threshold = test.larger;
         loop.at_equality = test.at_equality;
         loop.at_nan = test.at_nan;
+        loop.comparison = test.comparison;
         loop.test = test.block;
         loop.line = test.line;
+        place_in_line(loop);
         for (const uint32_t each : function_.blocks[header_].predecessors)
             (blocks_[each] ? loop.latch : loop.entry) = each;
         for (const Step& each : group)
@@ -307,6 +313,24 @@ private:
                 if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller])
                     loop.far = other.smaller;
         return loop;
+    }
+
+    /// As far as it is known without running.
+    bool is_above_zero(Value value) const {
+        return at(value).op != Op::constant || std::bit_cast<float>(at(value).immediate) > 0;
+    }
+
+    void place_in_line(MarchingLoop& loop) const {
+        loop.comparisons = 0;
+        for (Value value = function_.blocks[header_].first; value < inside_.size(); ++value) {
+            const bool compares = at(value).op == Op::less || at(value).op == Op::less_equal;
+            if (!inside_[value] || !compares || at(value).line != loop.line ||
+                at(operands(value)[0]).type != Scalar::real)
+                continue;
+            if (value == loop.comparison)
+                loop.which = loop.comparisons;
+            ++loop.comparisons;
+        }
     }
 
     const Function& function_;

@@ -29,10 +29,16 @@ struct MarchingLoop {
     Value threshold = k_no_value;
     bool at_equality = false; ///< and where it is 0
     bool at_nan = false;      ///< and where it is NaN
-    uint32_t test = 0;        ///< block of the comparison
+    Value comparison = k_no_value;
+    uint32_t test = 0; ///< block of the comparison
+    /// A hit is a small distance above 0: one below 0 lies past the surface. Else the march may wait for
+    /// that, or what it tests is no distance.
+    bool stops_before = false;
     /// Where a carried value exceeds it, the loop gives up; none: no such test.
     Value far = k_no_value;
     int line = 0; ///< of the comparison
+    /// Comparisons of reals in that line of the loop, in the order of the text, and which of them it is.
+    size_t comparisons = 1, which = 0;
 
     /// One value that is the ray's parameter itself.
     bool by_parameter() const { return carried.size() == 1; }

@@ -83,6 +83,47 @@ class Check(ProgramTest):
         said = self.succeed("inspect", str(scene)).stdout.decode()
         self.assertRegex(said, r"(?m)^  march     \S*march.glsl:5: steps by the distance \(sphere tracing\)")
 
+    def test_rays_are_recorded_where_no_main_hit_says_what_they_meet(self):
+        """The march's own faults, and the probes that answer of a sound one."""
+        for step, turns, probe, found in (
+                ("max(d, 0.4)", 99, "overstep", r"[1-9][\d.]* % of the rays take a sample below the surface"),
+                ("d", 4, "budget", r"[1-9][\d.]* % of the rays run out of steps")):
+            with self.subTest(probe):
+                text = MARCH.replace("max(d, 0.4)", step).replace("i < 99", f"i < {turns}")
+                entry = self.verdicts(self.write("march.glsl", text), "--probe", probe)[probe]
+                self.assertEqual(entry["verdict"], "warn", entry["found"])
+                self.assertRegex(entry["found"], "^" + found)
+        self.write("march.check.json", '{ "largest_slope": 1 }')
+        for field, verdict in (("length(p) - 1.0", "pass"), ("1.3 * (length(p) - 1.0)", "fail")):
+            scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "0.5 * d").replace("length(p) - 1.0", field))
+            entry = self.verdicts(scene, "--probe", "gradient")["gradient"]
+            self.assertEqual(entry["verdict"], verdict, entry["found"])
+            self.assertRegex(entry["found"], r"^the distance falls by up to (1|0\.99\d*|1\.3|1\.29\d*) a unit between two samples")
+        knobs = "#iUniform float far_distance = 9.0 in { 5.0, 20.0 }\n#iUniform vec3 camera_position = vec3(0.0, 0.0, -3.0)\n"
+        sound = knobs + (MARCH.replace("max(d, 0.4)", "d").replace("t > 9.0", "t > far_distance")
+                         .replace("ro = vec3(0.0, 0.0, -3.0)", "ro = camera_position"))
+        probes = ("overstep", "budget", "lipschitz_sweep", "far", "rays", "epsilon", "places", "gradient")
+        options = [option for probe in probes for option in ("--probe", probe)]
+        for probe, entry in self.verdicts(self.write("sound.glsl", sound), *options).items():
+            self.assertIn(entry["verdict"], ("pass", "warn"), f"{probe}: {entry['found']}")
+
+    def test_a_main_hit_that_drifts_is_told(self):
+        hit = ("#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) {\n"
+               "    vec4 c;\n    mainImage(c, p);\n    float t = 10.0 * c.x;\n"
+               "    hit = vec4(t > 9.0 ? -1.0 : OFF * t, 9.0, 0.0, 0.0);\n}\n#endif\n")
+        for off, verdict in (("1.0", "pass"), ("1.2", "warn")):
+            with self.subTest(off):
+                scene = self.write("hit.glsl", MARCH.replace("max(d, 0.4)", "d") + hit.replace("OFF", off))
+                entry = self.verdicts(scene, "--probe", "drift")["drift"]
+                self.assertEqual(entry["verdict"], verdict, entry["found"])
+                self.assertRegex(entry["found"], r"^mainHit and the march of mainImage part in \d+ of \d+ rays")
+
+    def test_our_waters_hit_what_they_draw(self):
+        for name in ("gerstner_waves", "stylized_waves", "water_surface"):
+            with self.subTest(name):
+                entry = self.verdicts(ROOT / f"shaders/{name}.glsl", "--probe", "drift")["drift"]
+                self.assertEqual(entry["verdict"], "pass", entry["found"])
+
     def test_a_failure_can_be_reproduced_and_is_shown(self):
         scene, folder = self.write("faulty.glsl", FAULTS["times"]), self.folder / "pictures"
         entry = self.verdicts(scene, "--probe", "times", "-o", str(folder))["times"]

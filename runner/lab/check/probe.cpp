@@ -51,31 +51,32 @@ std::span<const Probe> all_probes() {
          "rays whose march steps over their first hit or misses it, proved from the text: intervals bound "
          "the field between the samples",
          ask_first_hit},
-        {"overstep", "rays with a sample below the surface: proof that a step was too long (mainHit)",
+        {"drift", "whether mainHit says what mainImage's own march does, recorded while it runs (mainHit)",
+         ask_drift},
+        {"overstep", "rays with a sample below the surface: proof that a step was too long (hits)",
          ask_overstep},
-        {"budget", "rays that run out of steps (mainHit)", ask_budget},
+        {"budget", "rays that run out of steps (hits)", ask_budget},
         {"gradient",
          "the largest slope of the field along a ray, sampled and climbed to, beside the bound that the "
-         "scene states (mainHit, march_field)",
+         "scene states (hits)",
          ask_gradient},
         {"lipschitz_sweep",
          "rays with a sample below the surface, and distances that are NaN, with each knob at both ends, at "
          "0, 1/2, 2 and 4 times "
-         "its value within its range, and with defined heights and scales so (mainHit)",
+         "its value within its range, and with defined heights and scales so (hits)",
          ask_lipschitz_sweep},
         {"grazing",
          "rays that run out of steps along the horizon, at all mouse heights that show it, and in exactly "
-         "level rays (mainHit)",
+         "level rays (hits)",
          ask_grazing},
-        {"far", "flicker before a far plane that moves by a thousandth (mainHit, knob far_distance)",
-         ask_far},
+        {"far", "flicker before a far plane that moves by a thousandth (hits, knob far_distance)", ask_far},
         {"self_intersection",
          "waves whose steepness adds up to 0.75, 0.99, 1 and 1.5: from 1 on crests intersect themselves "
-         "(mainHit, knob "
+         "(hits, knob "
          "of a steepness)",
          ask_self_intersection},
         {"octaves",
-         "as few and as many octaves as the scene allows: coordinates beyond what floats hold (mainHit)",
+         "as few and as many octaves as the scene allows: coordinates beyond what floats hold (hits)",
          ask_octaves},
         {"mouse_edge",
          "a click in the first column or row that is taken for none, and shows another view than the next",
@@ -86,15 +87,15 @@ std::span<const Probe> all_probes() {
          "cuts: an instant that is less like the next than before and after, at every number in the text",
          ask_time_discontinuity},
         {"horizon", "until when float and double agree, to 1/255 in 99 % of the pixels", ask_horizon},
-        {"rays", "until when rays hit the same in float and double, to a pixel's width in 99 % (mainHit)",
+        {"rays", "until when rays hit the same in float and double, to a pixel's width in 99 % (hits)",
          ask_rays},
         {"epsilon",
          "rays that run out of steps in float and not in double: they wait for a smaller value than "
-         "rounding allows (mainHit)",
+         "rounding allows (hits)",
          ask_epsilon},
         {"places",
          "the camera below the surface, high above, and 10 to 1e6 units away: finite, and the same in float "
-         "and double (mainHit, iCamera or knob camera_position)",
+         "and double (hits, iCamera or knob camera_position)",
          ask_places},
         {"normals",
          "slopes by differences of the field, in float against double, over 0.1 to 1e-6 (mainHit, "

@@ -11,8 +11,28 @@
 namespace tidemark::lab {
 
 ProbeBench::ProbeBench(const scene::Scene& scene, Promises promises, DrawElsewhere with_one_thread)
-    : scene_(scene), hit_scene_(glsl::hit_scene(scene)), promises_(std::move(promises)),
-      with_one_thread_(std::move(with_one_thread)) {}
+    : scene_(scene), promises_(std::move(promises)), with_one_thread_(std::move(with_one_thread)),
+      has_main_hit_(glsl::hit_scene(scene).has_value()) {}
+
+Result<scene::Scene> ProbeBench::scene_of(const FrameState& state, Entry entry) const {
+    auto set = TRY(in_state(scene_, state));
+    if (entry == Entry::picture)
+        return set;
+    if (entry == Entry::main_hit)
+        return *glsl::hit_scene(set);
+    const auto function = TRY(PassFunction::create(set, set.image()));
+    return TRY(record_hits(set, function)).scene;
+}
+
+namespace {
+
+/// `knobs` with the values of `values`, which has the first of them.
+std::vector<scene::Knob> turned(std::vector<scene::Knob> knobs, const std::vector<scene::Knob>& values) {
+    std::ranges::copy(values, knobs.begin());
+    return knobs;
+}
+
+} // namespace
 
 /// What stands in the text is compiled; knobs are turned.
 Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry entry,
@@ -22,10 +42,9 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
         key += " " + channel;
     for (const Setting& setting : state.definitions)
         key += fmt::format(" {}={}", setting.name, setting.value);
-    auto set = TRY(in_state(entry == Entry::hit ? *hit_scene_ : scene_, state));
-    std::vector<scene::Knob> knobs = set.knobs;
     auto found = renderers_.find(key);
     if (found == renderers_.end()) {
+        auto set = TRY(scene_of(state, entry));
         auto made = render::Renderer::create(
             std::move(set), {.extent = state.extent,
                              .samples = image::SampleType::f32,
@@ -37,7 +56,7 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
         found = renderers_.emplace(std::move(key), *std::move(made)).first;
     }
     render::Renderer& renderer = found->second;
-    renderer.turn(std::move(knobs));
+    renderer.turn(turned(renderer.scene().knobs, TRY(in_state(scene_, state)).knobs));
     if (renderer.extent() != state.extent)
         TRY(renderer.resize(state.extent));
     return &renderer;
@@ -103,17 +122,49 @@ Result<void> ProbeBench::step(const See& see) {
     }
 }
 
+std::string ProbeBench::try_main_hit() {
+    auto made = renderer(plain_state(), Entry::main_hit, glsl::Precision::single);
+    if (made)
+        return {};
+    if (!made.error().diagnostics.empty()) { // of which the first says it
+        made.error().message.clear();
+        made.error().diagnostics.resize(1);
+    }
+    return to_string(made.error());
+}
+
+std::string ProbeBench::try_recording() {
+    const auto& function = image_function();
+    if (!function)
+        return "the text cannot be followed: " + function.error().message;
+    const auto recording = record_hits(scene_, *function);
+    if (!recording)
+        return recording.error().message;
+    sees_below_ = recording->sees_below;
+    fixed_steps_ = recording->fixed_steps;
+    const auto plain = renderer(plain_state(), Entry::picture, glsl::Precision::single);
+    const auto recorder = renderer(plain_state(), Entry::recording, glsl::Precision::single);
+    if (!plain || !recorder)
+        return "the text that records does not compile";
+    return refusal_of(check_recording(**plain, **recorder, *function, plain_state()));
+}
+
+const std::string& ProbeBench::recording_problem() {
+    if (!recording_problem_)
+        recording_problem_ = try_recording();
+    return *recording_problem_;
+}
+
 bool ProbeBench::has_hits() {
-    if (hit_scene_ && !std::exchange(hits_tried_, true))
-        if (auto made = renderer(plain_state(), Entry::hit, glsl::Precision::single); !made) {
-            if (!made.error().diagnostics.empty()) { // of which the first says it
-                made.error().message.clear();
-                made.error().diagnostics.resize(1);
-            }
-            hit_problem_ = to_string(made.error());
-            hit_scene_.reset();
-        }
-    return hit_scene_.has_value();
+    if (!std::exchange(hits_tried_, true))
+        hit_problem_ = has_main_hit_ ? try_main_hit() : recording_problem();
+    return hit_problem_.empty();
+}
+
+const Result<PassFunction>& ProbeBench::image_function() {
+    if (!image_function_)
+        image_function_ = PassFunction::create(scene_, scene_.image());
+    return *image_function_;
 }
 
 std::string ProbeBench::see_bounds() const {
@@ -125,8 +176,18 @@ std::string ProbeBench::see_bounds() const {
 }
 
 Result<Hits> ProbeBench::hits(const FrameState& state, glsl::Precision precision) {
-    auto renderer = TRY(drawn(state, Entry::hit, precision));
+    if (!has_main_hit_)
+        return hits_of(TRY(recorded(state, glsl::RecordAnswer::hit, precision)));
+    auto renderer = TRY(drawn(state, Entry::main_hit, precision));
     return hits_of((renderer)->read_back());
+}
+
+Result<image::Image> ProbeBench::recorded(const FrameState& state, glsl::RecordAnswer answer,
+                                          glsl::Precision precision) {
+    auto made = TRY(renderer(state, Entry::recording, precision));
+    lab::ask(*made, answer);
+    render::FrameStepper(*made, state, first_frame_of(state)).draw(state.frame);
+    return (made)->read_back();
 }
 
 Result<std::vector<glsl::KeptHash>> ProbeBench::hashes() {

@@ -6,6 +6,7 @@
 #include "lab/check/probe_state.hpp"
 #include "lab/check/promises.hpp"
 #include "lab/hits.hpp"
+#include "lab/march/recorded_hits.hpp"
 #include "render/frame_stepper.hpp"
 #include "scene/scene.hpp"
 
@@ -47,11 +48,27 @@ public:
     using See = std::function<bool(const FrameState&, const std::vector<PassPicture>&)>;
     Result<void> step(const See& see);
 
-    /// Whether there is a mainHit that compiles.
+    /// Whether it is known what rays meet: from a mainHit that compiles or, where the text has none, from the
+    /// march of mainImage, recorded.
     bool has_hits();
-    /// Why one that the text has does not; empty for one that has none.
+    /// Why not.
     const std::string& hit_problem() const { return hit_problem_; }
+    bool has_main_hit() const { return has_main_hit_; }
     Result<Hits> hits(const FrameState& state, glsl::Precision precision = glsl::Precision::single);
+
+    /// Why the march of mainImage cannot be recorded; empty: it can.
+    const std::string& recording_problem();
+    /// What it answers, RGBA in floats.
+    Result<image::Image> recorded(const FrameState& state, glsl::RecordAnswer answer,
+                                  glsl::Precision precision = glsl::Precision::single);
+    /// Whether hits say where a sample was below the surface.
+    bool sees_below() const { return has_main_hit_ || sees_below_; }
+
+    /// Whether a march that is recorded goes on by a constant.
+    bool fixed_steps() const { return fixed_steps_; }
+
+    /// Image as a function in SSA form.
+    const Result<PassFunction>& image_function();
 
     /// A pass that is about to be drawn in that state: all frames before are drawn.
     Result<render::PassPreview> preview(const FrameState& state, size_t pass);
@@ -71,17 +88,24 @@ public:
     std::string see_bounds() const;
 
 private:
-    enum class Entry { picture, hit };
+    enum class Entry { picture, main_hit, recording };
+    std::string try_main_hit();
+    std::string try_recording();
+    Result<scene::Scene> scene_of(const FrameState& state, Entry entry) const;
     Result<render::Renderer*> drawn(const FrameState& state, Entry entry, glsl::Precision precision);
     std::vector<PassPicture> read_back(render::Renderer& renderer) const;
     Result<render::Renderer*> renderer(const FrameState& state, Entry entry, glsl::Precision precision);
 
     scene::Scene scene_;
-    std::optional<scene::Scene> hit_scene_;
     bool hits_tried_ = false;
     std::string hit_problem_;
+    std::optional<std::string> recording_problem_;
+    bool sees_below_ = false;
+    bool fixed_steps_ = false;
+    std::optional<Result<PassFunction>> image_function_;
     Promises promises_;
     DrawElsewhere with_one_thread_;
+    bool has_main_hit_;
     std::map<std::string, render::Renderer> renderers_;
     std::optional<Explored> explored_;
 };

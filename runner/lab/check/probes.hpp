@@ -48,6 +48,9 @@ Result<Answer> ask_overstep(ProbeBench& bench);
 Result<Answer> ask_budget(ProbeBench& bench);
 Result<Answer> ask_lipschitz_sweep(ProbeBench& bench);
 
+// probes_drift.cpp
+Result<Answer> ask_drift(ProbeBench& bench);
+
 // probes_proved.cpp
 Result<Answer> ask_first_hit(ProbeBench& bench);
 

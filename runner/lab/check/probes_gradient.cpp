@@ -144,11 +144,56 @@ Result<image::Image> map_of(ProbeBench& bench, const Steep& place) {
     return ray_map(hits, k_ray_extent, [pixel](size_t i) { return i == pixel; });
 }
 
+/// Over so short a step the roundings of a field in floats are slopes, too.
+constexpr double k_float_slack = 1.05;
+constexpr std::string_view k_too_long = ": steps that rely on that bound are too long";
+
+std::string bound_of(double stated) {
+    return std::isinf(stated) ? "; the scene states no bound (largest_slope in NAME.check.json),"
+                              : fmt::format(", where the scene states at most {:g},", stated);
+}
+
+std::string place_of(const Steep& found) {
+    return fmt::format(" at {:g} s, pixel {:.2f},{:.2f}, distance {:.4g}", found.view.seconds(),
+                       found.pixel.x, found.pixel.y, found.distance);
+}
+
+/// Of a march that is recorded: by how much its distance falls between two samples, a unit of the way. No
+/// less than that is a slope of the field somewhere between them.
+Result<Answer> ask_recorded(ProbeBench& bench) {
+    if (!bench.sees_below())
+        return without_sign();
+    Steep found;
+    for (const FrameState& view : views_over_time()) {
+        const auto falls = TRY(bench.recorded(view, glsl::RecordAnswer::fall));
+        for (int i = 0; i < int(falls.extent.pixels()); ++i)
+            if (const auto fall = falls.f32().subspan(size_t(4 * i), 4); double(fall[0]) > found.slope)
+                found = {double(fall[0]),
+                         double(fall[1]),
+                         {i % view.extent.width + 0.5, i / view.extent.width + 0.5},
+                         view};
+    }
+    const double stated = bench.promises().largest_slope;
+    Answer answer{Verdict::pass, fmt::format("the distance falls by up to {:.3g} a unit between two samples "
+                                             "of a ray",
+                                             found.slope)};
+    answer.sentence += bound_of(stated) + place_of(found);
+    if (found.slope > stated * k_float_slack) {
+        answer.verdict = Verdict::fail;
+        answer.sentence += k_too_long;
+        answer.where = found.view;
+        answer.picture = TRY(map_of(bench, found));
+    }
+    return answer;
+}
+
 } // namespace
 
 Result<Answer> ask_gradient(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
+    if (!bench.has_main_hit())
+        return ask_recorded(bench);
     if (!has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take slopes of"};
     const std::vector<FrameState> views = views_over_time();
@@ -161,7 +206,7 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
                       "the field does not compile on its own: " + to_string(search.error())};
     Steep found = search->steepest(views);
     const double stated = bench.promises().largest_slope;
-    double slack = 1.05; // over so short a step the roundings of a field in floats are slopes, too
+    double slack = k_float_slack;
     if (found.slope > stated)
         if (auto exact = SlopeSearch::create(bench, furthest, glsl::Precision::promoted)) {
             found.slope = -1;
@@ -169,14 +214,10 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
             slack = 1.001;
         }
     Answer answer{Verdict::pass, fmt::format("the field's slope along a ray reaches {:.3g}", found.slope)};
-    answer.sentence += std::isinf(stated)
-                           ? std::string("; the scene states no bound (largest_slope in NAME.check.json),")
-                           : fmt::format(", where the scene states at most {:g},", stated);
-    answer.sentence += fmt::format(" at {:g} s, pixel {:.2f},{:.2f}, distance {:.4g}", found.view.seconds(),
-                                   found.pixel.x, found.pixel.y, found.distance);
+    answer.sentence += bound_of(stated) + place_of(found);
     if (found.slope > stated * slack) {
         answer.verdict = Verdict::fail;
-        answer.sentence += ": steps that rely on that bound are too long";
+        answer.sentence += k_too_long;
         answer.where = found.view;
         answer.picture = TRY(map_of(bench, found));
     }

@@ -1,4 +1,4 @@
-// What rays met, of scenes with mainHit: steps that were too long, and too many of them.
+// What rays met, of scenes whose hits are known: steps that were too long, and too many of them.
 #include "base/try.hpp"
 #include "lab/check/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
@@ -28,11 +28,11 @@ Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promis
             map = ray_map(hits, view.extent, [&](size_t i) { return (hits.flags[i] & flag) != 0; });
         }
     }
-    Answer answer{most > promised ? Verdict::fail : Verdict::pass,
+    Answer answer{most > promised ? fault(bench) : Verdict::pass,
                   fmt::format("{:.3g} % of the rays {} in the worst of four views", most, what),
                   {},
                   {}};
-    if (answer.verdict == Verdict::fail) {
+    if (answer.verdict != Verdict::pass) {
         answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)", promised);
         answer.where = where;
         answer.picture = std::move(map);
@@ -111,6 +111,8 @@ std::vector<FrameState> stiff_states(const ProbeBench& bench) {
 Result<Answer> ask_overstep(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench, true);
+    if (!bench.sees_below())
+        return without_sign();
     return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_overstep_percent,
                         "take a sample below the surface");
 }
@@ -123,6 +125,8 @@ Result<Answer> ask_budget(ProbeBench& bench) {
 Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
+    if (!bench.sees_below())
+        return without_sign();
     Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
     double most = -1;
     for (const FrameState& state : stiff_states(bench)) {
@@ -130,7 +134,7 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
         const auto hits = TRY(bench.hits(state));
         if (const double nothing = unanswered(hits); nothing > 0)
             return Answer{
-                Verdict::fail,
+                fault(bench),
                 fmt::format("{}: {:.3g} % of the distances are NaN, infinite or negative", set, nothing),
                 state};
         const double overstepping = flagged(hits, glsl::k_hit_negative);

@@ -1,5 +1,5 @@
-// Where a camera may stand and look, of scenes with mainHit: under the surface, far away, along the horizon,
-// to the far plane. A probe moves the orbit camera of a scene that declares iCamera, or its knob
+// Where a camera may stand and look, of scenes whose hits are known: under the surface, far away, along the
+// horizon, to the far plane. A probe moves the orbit camera of a scene that declares iCamera, or its knob
 // camera_position.
 #include "base/try.hpp"
 #include "image/census.hpp"
@@ -87,7 +87,7 @@ Result<Answer> how_far(ProbeBench& bench) {
         const FrameState state = *away(bench, distance);
         const auto wrong = TRY(broken(bench, state));
         if (!wrong.empty())
-            return Answer{Verdict::fail, place_of(state) + ": " + wrong, state};
+            return Answer{fault(bench), place_of(state) + ": " + wrong, state};
         const auto both = float_mismatch(bench, state);
         if (!both)
             return Answer{Verdict::pass,
@@ -98,7 +98,7 @@ Result<Answer> how_far(ProbeBench& bench) {
         }
         const bool kept = good >= bench.promises().space_horizon;
         return Answer{
-            kept ? Verdict::pass : Verdict::fail,
+            kept ? Verdict::pass : fault(bench),
             fmt::format(
                 "float and double agree to {:g} units away; at {:g} units {:.3g} % of the rays hit something "
                 "else in float",
@@ -155,7 +155,7 @@ Result<Answer> ask_places(ProbeBench& bench) {
     for (const FrameState& state : below_and_above(bench)) {
         const auto wrong = TRY(broken(bench, state));
         if (!wrong.empty())
-            return Answer{Verdict::fail, place_of(state) + ": " + wrong, state};
+            return Answer{fault(bench), place_of(state) + ": " + wrong, state};
     }
     return how_far(bench);
 }
@@ -174,7 +174,7 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
     for (const FrameState& view : views) {
         const auto hits = TRY(bench.hits(view));
         if (const double lost = unanswered(hits); lost > 0)
-            return Answer{Verdict::fail,
+            return Answer{fault(bench),
                           fmt::format("{:.3g} % of the distances are NaN, infinite or negative", lost), view};
         const double out = flagged(hits, glsl::k_hit_exhausted);
         if (out <= most)
@@ -189,7 +189,7 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
                                  [&](size_t i) { return (hits.flags[i] & glsl::k_hit_exhausted) != 0; });
     }
     if (most > bench.promises().most_exhausted_percent) {
-        answer.verdict = Verdict::fail;
+        answer.verdict = fault(bench);
         answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)",
                                        bench.promises().most_exhausted_percent);
     } else {
@@ -234,7 +234,7 @@ Result<Answer> ask_far(ProbeBench& bench) {
                     most);
     if (beyond > 0)
         answer.sentence += "; some hit something beyond it";
-    answer.verdict = most > k_same || beyond > 0 ? Verdict::fail : Verdict::pass;
+    answer.verdict = most > k_same || beyond > 0 ? fault(bench) : Verdict::pass;
     if (answer.verdict == Verdict::pass)
         answer.where.reset();
     return answer;

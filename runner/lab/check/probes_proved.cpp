@@ -67,8 +67,7 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
 } // namespace
 
 Result<Answer> ask_first_hit(ProbeBench& bench) {
-    const scene::Pass& image = bench.scene().passes[bench.scene().image_index()];
-    const auto function = PassFunction::create(bench.scene(), image);
+    const auto& function = bench.image_function();
     if (!function)
         return none("the text cannot be followed: " + function.error().message);
     if (function->loops().empty())

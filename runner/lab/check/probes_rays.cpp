@@ -1,5 +1,5 @@
-// What floats lose of the rays of scenes with mainHit, held against the same scene in doubles: as time goes
-// on, near the surface, far out on the lattice of a noise, in waves that fold over.
+// What floats lose of the rays of scenes whose hits are known, held against the same scene in doubles: as
+// time goes on, near the surface, far out on the lattice of a noise, in waves that fold over.
 #include "base/try.hpp"
 #include "lab/check/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
@@ -37,7 +37,7 @@ Result<Answer> ask_rays(ProbeBench& bench) {
         return Answer{
             kept        ? Verdict::pass
             : good == 0 ? Verdict::warn
-                        : Verdict::fail,
+                        : fault(bench),
             fmt::format(
                 "{}; at {:g} s {:.3g} % of the rays hit something else in float, by more than a pixel",
                 good == 0 ? std::string("float and double never agree")
@@ -74,7 +74,7 @@ Result<Answer> ask_epsilon(ProbeBench& bench) {
         });
     }
     if (most > std::max(bench.promises().most_exhausted_percent, k_same)) {
-        answer.verdict = Verdict::fail;
+        answer.verdict = fault(bench);
         answer.sentence +=
             ": the solver waits for a value below the rounding error of its field; raise its hit distance";
     } else {
@@ -135,7 +135,7 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
             return Answer{Verdict::warn,
                           fmt::format("{} = {:g}: {}", count.name, octaves, to_string(hits.error()))};
         if (const double lost = unanswered(*hits); lost > 0)
-            return Answer{Verdict::fail,
+            return Answer{fault(bench),
                           fmt::format("{} = {:g}: {:.3g} % of the distances are NaN, infinite or negative",
                                       count.name, octaves, lost),
                           state};
@@ -149,7 +149,7 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
         fmt::format("with {} = {:g} {:.3g} % of the rays hit something else in float than in double",
                     count.name, extremes.most, both->mismatched_percent)};
     if (both->mismatched_percent > k_same) {
-        answer.verdict = extremes.stated ? Verdict::fail : Verdict::warn;
+        answer.verdict = extremes.stated ? fault(bench) : Verdict::warn;
         answer.sentence += ": the coordinates of the finest octave are beyond what floats hold";
         answer.where = state;
         answer.picture = both->map;
@@ -210,7 +210,7 @@ Result<Answer> ask_self_intersection(ProbeBench& bench) {
             continue;
         }
         return Answer{
-            inside || steepness < 1 ? Verdict::fail : Verdict::warn,
+            inside || steepness < 1 ? fault(bench) : Verdict::warn,
             fmt::format(
                 "waves whose steepness adds up to {:g}{} intersect themselves: {:.3g} % of the rays hit "
                 "something else in float than in double, {:.3g} % of the distances are NaN, infinite or "

@@ -70,7 +70,7 @@ constexpr double k_visible_angle = 1; // degree
 Result<Answer> ask_normals(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
-    if (!has_march_field(bench.scene()))
+    if (!bench.has_main_hit() || !has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take differences of"};
     const FieldQuestion question{k_slope_hit, {{.name = "tidemark_step"}}};
     auto in_float = FieldBench::create(bench.scene(), question, glsl::Precision::single);

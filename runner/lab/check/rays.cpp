@@ -70,10 +70,19 @@ image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(s
 }
 
 Answer without_hits(const ProbeBench& bench, bool warns) {
-    if (bench.hit_problem().empty())
-        return {Verdict::not_applicable, "the scene has no mainHit"};
+    if (!bench.has_main_hit())
+        return {Verdict::not_applicable, "no mainHit, and the march is not recorded: " + bench.hit_problem()};
     return warns ? Answer{Verdict::warn, "mainHit does not compile: " + bench.hit_problem()}
                  : Answer{Verdict::not_applicable, "mainHit does not compile: see overstep"};
+}
+
+Answer without_sign() {
+    return {Verdict::not_applicable,
+            "the march goes in fixed steps or waits for a sample below the surface: none proves anything"};
+}
+
+Verdict fault(const ProbeBench& bench) {
+    return bench.has_main_hit() ? Verdict::fail : Verdict::warn;
 }
 
 Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state) {

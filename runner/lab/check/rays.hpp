@@ -1,4 +1,4 @@
-// What the rays of a scene with mainHit meet in a situation, in parts of all rays, and how much of that
+// What the rays of a scene meet in a situation, in parts of all rays, and how much of that
 // floats lose: what probes of hits have in common.
 #pragma once
 
@@ -30,6 +30,12 @@ image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(s
 
 /// `warns`: of a mainHit that does not compile, too.
 Answer without_hits(const ProbeBench& bench, bool warns = false);
+
+/// Of a march that is recorded and does not see_below.
+Answer without_sign();
+
+/// `fail` of a scene that says what its rays meet; of a march that is recorded its author promised nothing.
+Verdict fault(const ProbeBench& bench);
 
 /// A view in floats and in doubles; parts of all rays, percent.
 struct FloatMismatch {
