@@ -87,9 +87,11 @@ std::string colour(const PixelTrace& trace) {
                             float_text(trace.in_float[i], Kind::real),
                             double_text(trace.in_double[i], Kind::real), trace.digits[i],
                             float_text(trace.on_device[i], Kind::real));
+    if (trace.at_base_level)
+        text += "  textures are read at their base level where the device chooses a mipmap\n";
     if (!lab::is_as_drawn(trace))
         text += "  the device's colour is another one, by more than these roundings: its own functions "
-                "differ, or it combines operations\n";
+                "or filters differ, or it combines operations\n";
     return text;
 }
 
@@ -314,7 +316,8 @@ Json trace_json(const TraceReport& report) {
                    {"double", numbers_json(trace.in_double)},
                    {"digits", numbers_json(trace.digits)},
                    {"device", numbers_json(trace.on_device)},
-                   {"as_drawn", lab::is_as_drawn(trace)}}},
+                   {"as_drawn", lab::is_as_drawn(trace)},
+                   {"textures_at_base_level", trace.at_base_level}}},
                  {"lines", Json::array()}};
     for (const TracedLine& line : trace.lines)
         json["lines"].push_back(to_json(line));

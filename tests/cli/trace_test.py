@@ -161,11 +161,21 @@ class Trace(ProgramTest):
                    "--line", "11", "--turns", "5-2")
         self.fails(2, "tidemark: error: trace looks at one frame: give --frame N or --time T\n", MARCH, "--frames",
                    "0-3")
-        self.fails(3, "scene.glsl:2: error: the pixel reads a texture here: its texels are not followed yet\n",
-                   "void mainImage(out vec4 c, in vec2 p) {\n    c = texture(iChannel0, p);\n}\n")
+        self.fails(3, "scene.glsl:2: error: the pixel reads a texture here that is not at hand: of the frame before, or "
+                      "too large, or by textureGather or textureQueryLod\n",
+                   "void mainImage(out vec4 c, in vec2 p) {\n    c = textureGather(iChannel0, p);\n}\n")
         run = self.trace(MARCH, "--pass", "Buffer Z")
         self.assertEqual(run.returncode, 2)
         self.assertIn("Buffer Z", run.stderr)
+
+    def test_textures_are_read_as_the_device_reads_them(self):
+        report = self.report("void mainImage(out vec4 c, in vec2 p) {\n"
+                             "    c = textureLod(iChannel0, (floor(p) + 0.5) / 256.0, 0.0) + texelFetch(iChannel0, ivec2(p), 1);\n"
+                             "    c += vec4(textureSize(iChannel0, 0), 0.0, 0.0);\n}\n")
+        self.assertTrue(report["colour"]["as_drawn"], report["colour"])
+        self.assertFalse(report["colour"]["textures_at_base_level"])
+        report = self.report("void mainImage(out vec4 c, in vec2 p) {\n    c = texture(iChannel0, p / 37.0);\n}\n")
+        self.assertTrue(report["colour"]["textures_at_base_level"])
 
     def test_a_pixel_that_takes_too_long(self):
         run = self.trace("void mainImage(out vec4 c, in vec2 p) {\n    float a = 0.0;\n"

@@ -1,6 +1,7 @@
 // A pass evaluated on the CPU gives the colours that the device draws, to a rounding; and what is proved of
 // its rays is what is known of them.
 #include "gl_test.hpp"
+#include "lab/march/pass_textures.hpp"
 #include "lab/march/proved_hits.hpp"
 #include "support/scene_of.hpp"
 
@@ -25,13 +26,17 @@ render::Renderer renderer_of(const scene::Scene& scene) {
     return *std::move(renderer);
 }
 
-void expect_the_devices_colours(const scene::Scene& scene) {
+void expect_the_devices_colours(const scene::Scene& scene, float rounding = k_rounding) {
     render::Renderer renderer = renderer_of(scene);
     renderer.draw(k_inputs);
     const image::Image drawn = renderer.read_floats(0);
     const auto function = PassFunction::create(scene, scene.passes[0]);
     ASSERT_TRUE(function) << function.error().message;
-    const ir::FloatEvaluator frame = function->frame(renderer, 0, k_inputs);
+    const ir::TextureSet textures = textures_of(renderer, 0);
+    ir::FloatEvaluator frame = function->frame(renderer, 0, k_inputs);
+    frame.textures = [&](const ir::Lookup& lookup, std::span<const ir::Point<float>> operands) {
+        return ir::look_up(textures, lookup, operands);
+    };
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
             ir::FloatEvaluator evaluator = frame;
@@ -42,7 +47,7 @@ void expect_the_devices_colours(const scene::Scene& scene) {
             const auto expected = render::floats_at(drawn, x, y);
             for (uint32_t i = 0; i < 3; ++i)
                 ASSERT_NEAR(evaluator.memory()[color.first + i].real, expected[i],
-                            k_rounding * std::max(1.0f, std::abs(expected[i])))
+                            rounding * std::max(1.0f, std::abs(expected[i])))
                     << "component " << i << " at " << x << ", " << y << " of\n"
                     << scene.passes[0].text.text();
         }
@@ -86,10 +91,21 @@ TEST(PassFunction, has_the_devices_colours) {
              "float whole; float part = modf(p.x * 0.37, whole); c = vec4(part, whole, isnan(part) ? 1.0 : "
              "0.5, 1.0);",
              "c = vec4(sinh(uv.x), cosh(uv.y) - tanh(uv.x), asin(uv.x) + acos(uv.y), 1.0);",
+             "c = texelFetch(iChannel0, ivec2(p) - 3, 1) + vec4(textureSize(iChannel0, 1), 0.0, 1.0);",
+             "c = texelFetch(iChannel0, ivec2(p * 1.7), 0) + textureLod(iChannel0, (floor(p) + 0.5) / 256.0, "
+             "0.0);",
              "c = vec4(iResolution.xy / 100.0, iTimeDelta + float(iFrame) + iDate.w / 1e5, 1.0) + iMouse / "
              "100.0;",
          })
         expect_the_devices_colours(image_of(body));
+}
+
+/// Within what weights of 8 bits make of texels that differ by 1.
+TEST(PassFunction, filters_textures_as_the_device) {
+    const scene::Scene scene =
+        image_of("c = textureLod(iChannel0, p / 61.7, 0.0) + textureLod(iChannel0, uv * 0.31, 2.5)\n"
+                 "    + textureGrad(iChannel0, uv, vec2(0.004, 0.0), vec2(0.0, 0.02));");
+    expect_the_devices_colours(scene, 3.0f / 256);
 }
 
 TEST(PassFunction, follows_functions_structs_and_globals) {
@@ -139,6 +155,34 @@ TEST(ProvedHits, agree_with_a_march_that_is_right_and_tell_one_that_is_not) {
     const RayCounts few_steps = counts_of(
         "for (int i = 0; i < 3; ++i) { float d = map(rd * t); if (d < 1e-3 || t > 9.0) break; t += d; }");
     EXPECT_GT(few_steps.miss, 0u);
+}
+
+/// The surface is that of the noise texture, so only its texels tell where it is.
+TEST(ProvedHits, are_those_of_a_surface_in_a_texture) {
+    const scene::Scene scene = scene_of(
+        "float map(vec3 p) { return 0.4 * (4.0 - p.z - textureLod(iChannel0, p.xy / 64.0, 0.0).x); }\n"
+        "void mainImage(out vec4 c, in vec2 f) {\n"
+        "    vec3 rd = normalize(vec3(2.0 * f / iResolution.xy - 1.0, 2.0));\n    float t = 0.0;\n"
+        "    for (int i = 0; i < 99; ++i) { float d = map(rd * t); if (d < 1e-3 || t > 9.0) break; t += d; "
+        "}\n"
+        "    c = vec4(t); }\n");
+    render::Renderer renderer = renderer_of(scene);
+    renderer.draw(k_inputs);
+    const auto function = PassFunction::create(scene, scene.passes[0]);
+    ASSERT_TRUE(function);
+    const ir::TextureSet textures = textures_of(renderer, 0);
+    ir::FloatEvaluator pixel = function->frame(renderer, 0, k_inputs);
+    RayCounts counts;
+    for (int y = 0; y < k_extent.height; ++y)
+        for (int x = 0; x < k_extent.width; ++x) {
+            function->move_to(pixel, {x, y});
+            if (const auto ray = prove_ray(*function, pixel, textures, {x, y}, 2000))
+                counts.add(*ray);
+        }
+    EXPECT_GT(counts.decided(), counts.rays * 95 / 100);
+    EXPECT_EQ(counts.agree, counts.decided());
+    EXPECT_EQ(counts.contradicted, 0u);
+    EXPECT_EQ(counts.at_base_level, 0u);
 }
 
 TEST(PassFunction, errors_have_the_authors_lines) {

@@ -68,8 +68,10 @@ tl::expected<std::vector<uint32_t>, std::string> front_end(const std::string& te
     return words;
 }
 
-/// Everything into one function, its variables into SSA form; nothing is reordered or contracted.
-void register_passes(spvtools::Optimizer& optimizer) {
+/// Everything into one function, its variables into SSA form; nothing is reordered or contracted. What is
+/// computed twice is computed once, so that intervals see that it is the same, but for names, of which each
+/// keeps its own.
+void register_passes(spvtools::Optimizer& optimizer, Names names) {
     using namespace spvtools;
     const auto ssa = [&optimizer] {
         optimizer.RegisterPass(CreateScalarReplacementPass(0))
@@ -86,6 +88,8 @@ void register_passes(spvtools::Optimizer& optimizer) {
         .RegisterPass(CreatePrivateToLocalPass());
     ssa();
     ssa();
+    if (names == Names::drop)
+        optimizer.RegisterPass(CreateRedundancyEliminationPass());
     optimizer.RegisterPass(CreateDeadBranchElimPass())
         .RegisterPass(CreateAggressiveDCEPass())
         .RegisterPass(CreateCFGCleanupPass());
@@ -101,7 +105,7 @@ SpirvResult compile_or_throw(const std::string& text, Names names) {
     std::string log;
     optimizer.SetMessageConsumer([&log](spv_message_level_t, const char*, const spv_position_t&,
                                         const char* message) { log += std::string(message) + "\n"; });
-    register_passes(optimizer);
+    register_passes(optimizer, names);
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
     std::vector<uint32_t> inlined;

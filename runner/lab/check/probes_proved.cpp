@@ -7,12 +7,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace tidemark::lab {
 namespace {
 
 constexpr Extent k_rays{16, 9};
+constexpr size_t k_stride = 89; ///< of 144: a golden section
 constexpr double k_moments[] = {1.0 / 3, 10};
-constexpr uint64_t k_most_evaluations = 2'000;
+constexpr uint64_t k_most_evaluations = 2'000; ///< of a ray
+/// Of all rays: some seconds of a field of seven octaves. What is left of the rays is not looked at.
+constexpr uint64_t k_most_of_all = 25'000;
 /// Of the decided rays; below that is a matter of silhouettes.
 constexpr double k_most_wrong_percent = 0.5;
 
@@ -24,24 +30,33 @@ Answer none(std::string why) {
     return {Verdict::not_applicable, std::move(why)};
 }
 
-/// Of the picture's pixels, evenly spread.
+/// The i-th of the pixels of a picture, evenly spread however many are taken: steps of the golden section
+/// through the rows of a coarse one.
+glm::ivec2 pixel_of(size_t i, Extent whole) {
+    static_assert(std::gcd(size_t(k_rays.width * k_rays.height), k_stride) == 1);
+    const size_t at = i * k_stride % k_rays.pixels();
+    const int x = int(at) % k_rays.width, y = int(at) / k_rays.width;
+    return {(2 * x + 1) * whole.width / (2 * k_rays.width), (2 * y + 1) * whole.height / (2 * k_rays.height)};
+}
+
 Result<RayCounts> count(ProbeBench& bench, const PassFunction& function) {
     const size_t image = bench.scene().image_index();
     RayCounts counts;
+    uint64_t left = k_most_of_all;
     for (const double moment : k_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
         const ir::TextureSet textures = textures_of(renderer, image);
         ir::FloatEvaluator pixel = function.frame(renderer, image, render::inputs_of(state));
-        for (int y = 0; y < k_rays.height; ++y)
-            for (int x = 0; x < k_rays.width; ++x) {
-                const Extent whole = renderer.extent();
-                const glm::ivec2 at{(2 * x + 1) * whole.width / (2 * k_rays.width),
-                                    (2 * y + 1) * whole.height / (2 * k_rays.height)};
-                function.move_to(pixel, at);
-                if (const auto ray = prove_ray(function, pixel, textures, at, k_most_evaluations))
-                    counts.add(*ray);
+        const uint64_t least_left = moment == k_moments[0] ? left / 2 : 0;
+        for (size_t i = 0; i < k_rays.pixels() && left > least_left; ++i) {
+            const glm::ivec2 at = pixel_of(i, renderer.extent());
+            function.move_to(pixel, at);
+            if (const auto ray = prove_ray(function, pixel, textures, at, k_most_evaluations)) {
+                counts.add(*ray);
+                left -= std::min(left, ray->evaluations);
             }
+        }
     }
     return counts;
 }

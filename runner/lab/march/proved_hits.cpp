@@ -33,10 +33,17 @@ bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::
 }
 
 /// Up to where it has passed over the ray. One that looks for a change of sign ends below the surface, and
-/// goes back to it after the loop: what counts is the sample before.
+/// goes back to it after the loop: what counts is the sample in front of that. Steps may have been taken
+/// back.
 double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
-    const bool looks_for_sign = march.hit && march.threshold == 0 && march.turns.size() > 1;
-    return slice.parameter(march.turns.end()[looks_for_sign ? -2 : -1]);
+    const double last = slice.parameter(march.turns.back());
+    if (!march.hit || march.threshold != 0)
+        return last;
+    double before = slice.start();
+    for (const ir::Turn& turn : march.turns)
+        if (const double at = slice.parameter(turn); at < last)
+            before = std::max(before, at);
+    return before;
 }
 
 Outcome outcome_of(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {

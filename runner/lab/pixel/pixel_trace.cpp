@@ -1,6 +1,7 @@
 #include "lab/pixel/pixel_trace.hpp"
 
 #include "base/try.hpp"
+#include "lab/march/pass_textures.hpp"
 #include "lab/pixel/recorder.hpp"
 
 #include <fmt/format.h>
@@ -27,17 +28,40 @@ ir::LockstepEvaluator in_lockstep(const ir::Function& function, const ir::FloatE
     return evaluator;
 }
 
-bool is_unknown(ir::Op op) {
-    return op == Op::texel || op == Op::derivative_x || op == Op::derivative_y;
+/// Each of the three numbers where it looks; `base_level` is set where the device would choose a mipmap.
+ir::Textures<ir::Lockstep> looked_up(const ir::TextureSet& textures, bool& base_level) {
+    return [&](const ir::Lookup& lookup, std::span<const ir::Lockstep> operands) {
+        base_level = base_level || textures.find(lookup.sampler)->second->chooses_level(lookup);
+        const auto at = [&]<class Real>(auto member) {
+            std::vector<ir::Point<Real>> places;
+            for (const ir::Lockstep& operand : operands)
+                places.push_back(member(operand));
+            return ir::look_up(textures, lookup, std::span<const ir::Point<Real>>(places));
+        };
+        ir::Lockstep found{at.operator()<float>([](const auto& each) { return each.in_float; }),
+                           at.operator()<double>([](const auto& each) { return each.in_double; }),
+                           {}};
+        for (size_t i = 0; i < found.samples.size(); ++i)
+            found.samples[i] = at.operator()<float>([i](const auto& each) { return each.samples[i]; });
+        return found;
+    };
 }
 
-/// Of each block the first instruction that the evaluator knows no value of. Textures that are handed to it
-/// go out of here.
-std::vector<ir::Value> unknown_values(const ir::Function& function) {
+bool is_unknown(const ir::Function& function, const ir::Instruction& instruction,
+                const ir::TextureSet& textures) {
+    if (instruction.op != Op::texel)
+        return instruction.op == Op::derivative_x || instruction.op == Op::derivative_y;
+    const ir::Lookup& lookup = function.lookups[instruction.immediate];
+    return !textures.contains(lookup.sampler) || lookup.form == ir::Lookup::Form::gather ||
+           lookup.form == ir::Lookup::Form::query;
+}
+
+/// Of each block the first instruction that the evaluator knows no value of.
+std::vector<ir::Value> unknown_values(const ir::Function& function, const ir::TextureSet& textures) {
     std::vector<ir::Value> result(function.blocks.size(), ir::k_no_value);
     for (size_t block = 0; block < result.size(); ++block)
         for (ir::Value i = function.blocks[block].last; i-- > function.blocks[block].first;)
-            if (is_unknown(function.instructions[i].op))
+            if (is_unknown(function, function.instructions[i], textures))
                 result[block] = i;
     return result;
 }
@@ -46,7 +70,8 @@ Error not_followed(const PassFunction& function, ir::Value value) {
     const ir::Instruction& instruction = function.function().instructions[value];
     return error_at(function.locate(instruction.line),
                     instruction.op == Op::texel
-                        ? "the pixel reads a texture here: its texels are not followed yet"
+                        ? "the pixel reads a texture here that is not at hand: of the frame before, or too "
+                          "large, or by textureGather or textureQueryLod"
                         : "the pixel takes a derivative here: neighbours are not followed yet");
 }
 
@@ -80,7 +105,8 @@ PixelTrace::End end_of(Ended ended) {
 }
 
 Result<PixelTrace> follow(const PassFunction& function, const PassLines& lines,
-                          const ir::FloatEvaluator& pixel, const PixelRequest& request) {
+                          const ir::FloatEvaluator& pixel, const ir::TextureSet& textures,
+                          const PixelRequest& request) {
     std::optional<int> line;
     if (request.line)
         line = TRY(lines.compiled_line(*request.line));
@@ -89,7 +115,8 @@ Result<PixelTrace> follow(const PassFunction& function, const PassLines& lines,
     PixelTrace trace;
     if (line)
         trace.asked = *lines.find(*line);
-    const std::vector<ir::Value> unknown = unknown_values(function.function());
+    evaluator.textures = looked_up(textures, trace.at_base_level);
+    const std::vector<ir::Value> unknown = unknown_values(function.function(), textures);
     ir::Value found = ir::k_no_value;
     ir::Decisions decisions(0);
     const Ended ended = evaluator.run(decisions, [&](uint32_t block) {
@@ -119,7 +146,8 @@ Result<PixelTrace> trace_pixel(const render::Renderer& renderer, const render::F
     const auto function = TRY(PassFunction::create(renderer.scene(), pass, ir::Names::keep));
     ir::FloatEvaluator pixel = function.frame(renderer, renderer.shown_index(), inputs);
     function.move_to(pixel, request.pixel);
-    auto trace = TRY(follow(function, PassLines(function, renderer.scene(), pass), pixel, request));
+    auto trace = TRY(follow(function, PassLines(function, renderer.scene(), pass), pixel,
+                            textures_of(renderer, renderer.shown_index()), request));
     trace.on_device = colour_at(renderer.read_floats(renderer.shown_index()), request.pixel);
     return trace;
 }

@@ -23,6 +23,7 @@ struct PixelTrace {
     enum class End { complete, discarded, too_long } end = End::complete;
     Colour in_float{}, in_double{}, digits{}; ///< of what the pass writes
     Colour on_device{};
+    bool at_base_level = false; ///< a texture was read there whose mipmap the device chooses
     uint64_t operations = 0;
     std::vector<TracedLine> lines{};   ///< those that ran, in the order of the text that was compiled
     std::optional<AuthorLine> asked{}; ///< the line that was asked for
