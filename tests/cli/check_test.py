@@ -55,6 +55,8 @@ MARCH = ("float map(vec3 p) { return length(p) - 1.0; }\n"
 
 class Check(ProgramTest):
     def verdicts(self, scene, *options: str) -> dict[str, dict]:
+        if "--budget" not in options:  # else a busy machine cuts probes
+            options += ("--budget", "900")
         result = self.run_program("check", str(scene), "--json", *options)
         self.assertIn(result.returncode, (0, 1, 5), result.stderr)
         entries = {entry["probe"]: entry for entry in json.loads(result.stdout)["probes"]}
@@ -383,7 +385,7 @@ class Check(ProgramTest):
         for scene in sorted((ROOT / "shaders").glob("*.glsl")):
             with self.subTest(scene.name):
                 for probe, entry in self.verdicts(scene).items():
-                    self.assertNotEqual(entry["verdict"], "fail", probe + ": " + entry["found"])
+                    self.assertNotIn(entry["verdict"], ("fail", "cut"), probe + ": " + entry["found"])
 
     def test_a_wrong_promise_is_an_error(self):
         scene = self.write("late.glsl", SOUND)
