@@ -7,10 +7,8 @@
 namespace tidemark::ir {
 namespace {
 
-/// Of a hit, relative to the parameter and to the length of the ray.
-constexpr double k_relative_width = 4e-6;
 constexpr double k_first_part = 1.0 / 16;
-/// Of the ray's length: near the start a hit is not narrowed down further than by k_relative_width of that,
+/// Of the ray's length: near the start a hit is not narrowed down further than by the relative width of that,
 /// or of the distance there if it is less.
 constexpr double k_near_part = 1e-2;
 /// How far behind a place that may be one a hit is looked for: so often the width is doubled.
@@ -22,8 +20,9 @@ constexpr double k_jump = 1e3;
 
 class Search {
 public:
-    Search(MarchSlice& slice, double last, uint64_t most)
-        : slice_(slice), last_(last), most_(most), length_(last - slice.start()), near_(near()) {}
+    Search(MarchSlice& slice, double last, uint64_t most, double relative_width)
+        : slice_(slice), last_(last), most_(most), relative_width_(relative_width),
+          length_(last - slice.start()), near_(near()) {}
 
     FirstHit run() {
         double at = slice_.start();
@@ -49,7 +48,7 @@ private:
         const bool known = distance && distance->low > 0;
         return std::min(k_near_part * length_, known ? distance->low : k_infinity);
     }
-    double narrowest(double at) const { return k_relative_width * std::max(std::abs(at), near_); }
+    double narrowest(double at) const { return relative_width_ * std::max(std::abs(at), near_); }
 
     /// What is proved of a cell.
     struct Look {
@@ -124,6 +123,7 @@ private:
     MarchSlice& slice_;
     double last_;
     uint64_t most_;
+    double relative_width_;
     double length_;
     double near_;
     bool slopes_told_ = false;
@@ -142,8 +142,8 @@ std::string_view to_string(FirstHit::Reason reason) {
     return "";
 }
 
-FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations) {
-    return Search(slice, last, most_evaluations).run();
+FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations, double relative_width) {
+    return Search(slice, last, most_evaluations, relative_width).run();
 }
 
 } // namespace tidemark::ir

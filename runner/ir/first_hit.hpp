@@ -22,7 +22,11 @@ struct FirstHit {
 inline constexpr size_t k_reasons = size_t(FirstHit::Reason::budget) + 1;
 std::string_view to_string(FirstHit::Reason reason);
 
+/// How far a hit is narrowed down, relative to the parameter.
+inline constexpr double k_usual_width = 4e-6;
+
 /// From the slice's start to `last`, in terms of the ray's parameter.
-FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations = 20'000);
+FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations = 20'000,
+                   double relative_width = k_usual_width);
 
 } // namespace tidemark::ir

@@ -16,9 +16,15 @@ bool partial(const Interval& a, const Interval& b) {
     return a.partial || b.partial;
 }
 
-/// 0 * infinity is 0: an infinite bound stands for large numbers.
-double product(double a, double b) {
-    return a == 0 || b == 0 ? 0 : a * b;
+/// a b, rounded downwards. 0 * infinity is 0: an infinite bound stands for large numbers. Exact where fma,
+/// which rounds once, finds nothing lost; that itself may be lost near the smallest numbers.
+double product_below(double a, double b) {
+    constexpr double k_smallest = 1e-290;
+    if (a == 0 || b == 0)
+        return 0;
+    const double product = a * b;
+    const bool exact = std::abs(product) > k_smallest && std::fma(a, b, -product) >= 0;
+    return exact ? product : below(product);
 }
 
 Interval of_corners(const std::array<double, 4>& corners, bool is_partial) {
@@ -107,13 +113,19 @@ Interval operator-(const Interval& a, const Interval& b) {
     return a + -b;
 }
 
+/// The least of the products of the bounds, rounded downwards; NaN where one is.
+static double least_product(const Interval& a, const Interval& b) {
+    const std::array<double, 4> products{product_below(a.low, b.low), product_below(a.low, b.high),
+                                         product_below(a.high, b.low), product_below(a.high, b.high)};
+    double least = products[0];
+    for (const double each : products)
+        least = each < least || std::isnan(each) ? each : least;
+    return least;
+}
+
 Interval operator*(const Interval& a, const Interval& b) {
-    Interval result = of_corners(
-        {product(a.low, b.low), product(a.low, b.high), product(a.high, b.low), product(a.high, b.high)},
-        partial(a, b));
-    if (a.low >= 0 && b.low >= 0)
-        result.low = std::max(result.low, 0.0);
-    return result;
+    const double low = least_product(a, b), high = -least_product(-a, b);
+    return std::isnan(low) || std::isnan(high) ? everything() : Interval{low, high, partial(a, b)};
 }
 
 /// a / b where 0 is a bound of b: the quotient is not bounded on one side.
@@ -142,7 +154,7 @@ Interval absolute(const Interval& a) {
 
 Interval square(const Interval& a) {
     const Interval size = absolute(a);
-    return {std::max(0.0, below(size.low * size.low)), above(size.high * size.high), a.partial};
+    return {product_below(size.low, size.low), -product_below(-size.high, size.high), a.partial};
 }
 
 Interval minimum(const Interval& a, const Interval& b) {

@@ -265,6 +265,10 @@ Interval IntervalSystem::constant(uint32_t bits, Scalar type) {
     return interval_of(PointSystem<float>::constant(bits, type), type);
 }
 
+Interval IntervalSystem::number(double real) {
+    return std::isfinite(real) ? Interval{real, real} : everything();
+}
+
 Interval IntervalSystem::compute(Op op, Scalar result, Scalar of, std::span<const Interval> operands) const {
     std::array<Interval, 3> at{};
     std::ranges::copy(operands, at.begin());
@@ -305,8 +309,8 @@ std::pair<int64_t, int64_t> IntervalSystem::range(const Interval& index) {
 
 std::optional<std::pair<Interval, Interval>> IntervalSystem::split(Op op,
                                                                    std::span<const Interval> operands) {
-    const auto jumps = jumps_of(op, operands);
     const Interval& a = operands[0];
+    const auto jumps = jumps_of(op, operands);
     if (!jumps || a.partial || !(a.width() < 1e9))
         return std::nullopt;
     const auto at = jump_in(a, *jumps);

@@ -14,6 +14,7 @@ public:
     using Value = Interval;
 
     static Value constant(uint32_t bits, Scalar type);
+    static Value number(double real);
     static Value unknown() { return everything(); }
 
     Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const;

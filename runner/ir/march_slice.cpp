@@ -31,10 +31,9 @@ Ended run_to_test(Evaluator<System>& evaluator, const MarchingLoop& loop,
     return ended;
 }
 
-template <class System>
-typename System::Value number_of(const Point<float>& point, Scalar type) {
-    const uint32_t bits = type == Scalar::real ? std::bit_cast<uint32_t>(point.real) : point.bits;
-    return System::constant(bits, type);
+template <class System, class Real>
+typename System::Value number_of(const Point<Real>& point, Scalar type) {
+    return type == Scalar::real ? System::number(double(point.real)) : System::constant(point.bits, type);
 }
 
 Interval difference(const Interval& distance, const Interval& threshold) {
@@ -47,7 +46,8 @@ Tangent difference(const Tangent& distance, const Tangent& threshold) {
 } // namespace
 
 template <class System>
-MarchSlice::Over<System>::Over(const Function& function, const FloatEvaluator& entered)
+template <class Real>
+MarchSlice::Over<System>::Over(const Function& function, const PointEvaluator<Real>& entered)
     : evaluator(function) {
     evaluator.most_steps = k_most_steps;
     for (Value value = 0; value < function.instructions.size(); ++value)
@@ -56,9 +56,10 @@ MarchSlice::Over<System>::Over(const Function& function, const FloatEvaluator& e
         memory.push_back(number_of<System>(entered.memory()[cell], function.cells[cell]));
 }
 
-MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop, const FloatEvaluator& entered,
-                       Textures<Interval> textures)
-    : loop_(&loop), intervals_(function, entered), tangents_(function, entered) {
+template <class Real>
+MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop,
+                       const PointEvaluator<Real>& entered, Textures<Interval> textures, Surface surface)
+    : loop_(&loop), surface_(surface), intervals_(function, entered), tangents_(function, entered) {
     tangents_.evaluator.textures = [textures](const Lookup& lookup, std::span<const Tangent> operands) {
         std::vector<Interval> places;
         for (const Tangent& operand : operands)
@@ -75,6 +76,10 @@ MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop, const
     }
     start_ = loop.by_parameter() ? entered.value(loop.carried[0].phi).real : 0;
 }
+template MarchSlice::MarchSlice(const Function&, const MarchingLoop&, const PointEvaluator<float>&,
+                                Textures<Interval>, Surface);
+template MarchSlice::MarchSlice(const Function&, const MarchingLoop&, const PointEvaluator<double>&,
+                                Textures<Interval>, Surface);
 
 double MarchSlice::parameter(const Turn& turn) const {
     size_t longest = 0;
@@ -94,7 +99,8 @@ MarchSlice::run(Over<System>& over, const std::vector<typename System::Value>& p
         return std::nullopt;
     if (ended != Ended::stopped)
         return System::unknown();
-    return difference(over.evaluator.value(loop_->distance), over.evaluator.value(loop_->threshold));
+    return difference(over.evaluator.value(loop_->distance),
+                      surface_ == Surface::zero ? System::number(0) : over.evaluator.value(loop_->threshold));
 }
 
 Interval MarchSlice::place(size_t carried, const Interval& parameter) const {
@@ -141,19 +147,6 @@ bool MarchSlice::excludes_hit(const std::optional<Interval>& distance) const {
 
 bool MarchSlice::is_hit(const std::optional<Interval>& distance) const {
     return distance && !distance->partial && (loop_->at_equality ? distance->high <= 0 : distance->high < 0);
-}
-
-std::optional<size_t> enter_first(FloatEvaluator& evaluator, const std::vector<MarchingLoop>& loops) {
-    Decisions none(0);
-    std::optional<size_t> entered;
-    const auto visit = [&](uint32_t block) {
-        for (size_t i = 0; i < loops.size(); ++i)
-            if (block == loops[i].header)
-                entered = i;
-        return !entered;
-    };
-    evaluator.run(none, visit);
-    return entered;
 }
 
 March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop) {

@@ -14,7 +14,9 @@
 
 namespace tidemark::ir {
 
-using FloatEvaluator = Evaluator<PointSystem<float>>;
+template <class Real>
+using PointEvaluator = Evaluator<PointSystem<Real>>;
+using FloatEvaluator = PointEvaluator<float>;
 
 /// One turn of the loop as the text makes it, in float.
 struct Turn {
@@ -34,11 +36,15 @@ struct March {
 /// by one, as far as that is few ways, or many.
 enum class Care { quick, close, thorough };
 
+/// What counts as hit: where the loop's own test holds, or where the distance itself is below 0.
+enum class Surface { threshold, zero };
+
 /// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry.
 class MarchSlice {
 public:
-    MarchSlice(const Function& function, const MarchingLoop& loop, const FloatEvaluator& entered,
-               Textures<Interval> textures = {});
+    template <class Real>
+    MarchSlice(const Function& function, const MarchingLoop& loop, const PointEvaluator<Real>& entered,
+               Textures<Interval> textures = {}, Surface surface = Surface::threshold);
 
     /// Where the ray begins, in terms of its parameter.
     double start() const { return start_; }
@@ -64,7 +70,8 @@ private:
         Evaluator<System> evaluator;
         std::vector<typename System::Value> memory{}; ///< as the loop is entered
 
-        Over(const Function& function, const FloatEvaluator& entered);
+        template <class Real>
+        Over(const Function& function, const PointEvaluator<Real>& entered);
     };
 
     template <class System>
@@ -73,6 +80,7 @@ private:
     Interval place(size_t carried, const Interval& parameter) const;
 
     const MarchingLoop* loop_;
+    Surface surface_;
     Over<IntervalSystem> intervals_;
     Over<TangentSystem> tangents_;
     std::vector<double> first_, factor_;
@@ -82,7 +90,19 @@ private:
 
 /// Runs the pixel that `evaluator` is set up for until it enters one of the loops; its index, none where it
 /// enters none.
-std::optional<size_t> enter_first(FloatEvaluator& evaluator, const std::vector<MarchingLoop>& loops);
+template <class Real>
+std::optional<size_t> enter_first(PointEvaluator<Real>& evaluator, const std::vector<MarchingLoop>& loops) {
+    Decisions none(0);
+    std::optional<size_t> entered;
+    const auto visit = [&](uint32_t block) {
+        for (size_t i = 0; i < loops.size(); ++i)
+            if (block == loops[i].header)
+                entered = i;
+        return !entered;
+    };
+    evaluator.run(none, visit);
+    return entered;
+}
 
 /// Goes on from there through the loop.
 March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop);

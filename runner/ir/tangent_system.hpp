@@ -21,6 +21,7 @@ public:
     using Value = Tangent;
 
     static Value constant(uint32_t bits, Scalar type) { return {IntervalSystem::constant(bits, type), {}}; }
+    static Value number(double real) { return {IntervalSystem::number(real), {}}; }
     static Value unknown() { return {everything(), everything()}; }
 
     Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const;

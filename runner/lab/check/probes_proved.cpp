@@ -3,18 +3,17 @@
 #include "lab/check/probes.hpp"
 #include "lab/march/pass_textures.hpp"
 #include "lab/march/proved_hits.hpp"
+#include "lab/on_all_cores.hpp"
 #include "lab/statistics.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace tidemark::lab {
 namespace {
 
 constexpr Extent k_rays{16, 9};
-constexpr size_t k_stride = 89; ///< of 144: a golden section
 constexpr double k_moments[] = {1.0 / 3, 10};
 constexpr uint64_t k_most_evaluations = 2'000; ///< of a ray
 /// Of all rays: some seconds of a field of seven octaves. What is left of the rays is not looked at.
@@ -30,12 +29,10 @@ Answer none(std::string why) {
     return {Verdict::not_applicable, std::move(why)};
 }
 
-/// The i-th of the pixels of a picture, evenly spread however many are taken: steps of the golden section
-/// through the rows of a coarse one.
+/// The i-th of the rays, evenly spread over the picture however many are taken.
 glm::ivec2 pixel_of(size_t i, Extent whole) {
-    static_assert(std::gcd(size_t(k_rays.width * k_rays.height), k_stride) == 1);
-    const size_t at = i * k_stride % k_rays.pixels();
-    const int x = int(at) % k_rays.width, y = int(at) / k_rays.width;
+    const auto at = int(spread(i, k_rays.pixels()));
+    const int x = at % k_rays.width, y = at / k_rays.width;
     return {(2 * x + 1) * whole.width / (2 * k_rays.width), (2 * y + 1) * whole.height / (2 * k_rays.height)};
 }
 

@@ -38,11 +38,12 @@ gl::Reflection uniforms_of(const ir::Function& function) {
     return reflection;
 }
 
-void store(ir::FloatEvaluator& evaluator, const Variable& variable, uint32_t index, double value) {
+template <class Real>
+void store(ir::PointEvaluator<Real>& evaluator, const Variable& variable, uint32_t index, double value) {
     if (index < variable.size)
         evaluator.memory()[variable.first + index] = variable.type == Scalar::real
-                                                         ? ir::Point<float>{float(value), 0}
-                                                         : ir::Point<float>{0, uint32_t(int64_t(value))};
+                                                         ? ir::Point<Real>{Real(value), 0}
+                                                         : ir::Point<Real>{0, uint32_t(int64_t(value))};
 }
 
 /// glslang has `0:LINE: ` where we have the author's file and line.
@@ -75,9 +76,10 @@ Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene
     return result;
 }
 
-ir::FloatEvaluator PassFunction::frame(const render::Renderer& renderer, size_t pass,
-                                       const render::FrameInputs& inputs) const {
-    ir::FloatEvaluator evaluator(function_);
+template <class Real>
+ir::PointEvaluator<Real> PassFunction::frame(const render::Renderer& renderer, size_t pass,
+                                             const render::FrameInputs& inputs) const {
+    ir::PointEvaluator<Real> evaluator(function_);
     const render::UniformTable table(uniforms_of(function_), renderer.scene().knobs);
     table.hand_over(renderer.uniforms_of(pass, table, inputs, renderer.extent()),
                     [&](const gl::Uniform& uniform, std::span<const double> values, size_t) {
@@ -87,11 +89,18 @@ ir::FloatEvaluator PassFunction::frame(const render::Renderer& renderer, size_t 
                     });
     return evaluator;
 }
+template ir::PointEvaluator<float> PassFunction::frame(const render::Renderer&, size_t,
+                                                       const render::FrameInputs&) const;
+template ir::PointEvaluator<double> PassFunction::frame(const render::Renderer&, size_t,
+                                                        const render::FrameInputs&) const;
 
-void PassFunction::move_to(ir::FloatEvaluator& frame, glm::ivec2 at) const {
+template <class Real>
+void PassFunction::move_to(ir::PointEvaluator<Real>& frame, glm::ivec2 at) const {
     if (const Variable* place = function_.find("gl_FragCoord"))
         for (const auto& [i, value] : {std::pair{0u, at.x + 0.5}, {1u, at.y + 0.5}, {2u, 0.5}, {3u, 1.0}})
             store(frame, *place, i, value);
 }
+template void PassFunction::move_to(ir::PointEvaluator<float>&, glm::ivec2) const;
+template void PassFunction::move_to(ir::PointEvaluator<double>&, glm::ivec2) const;
 
 } // namespace tidemark::lab

@@ -27,10 +27,12 @@ public:
     SourceLocation locate(int line) const { return lines_.locate(line); }
 
     /// Set up with the uniforms of a frame, for a pass in the renderer's plan.
-    ir::FloatEvaluator frame(const render::Renderer& renderer, size_t pass,
-                             const render::FrameInputs& inputs) const;
+    template <class Real = float>
+    ir::PointEvaluator<Real> frame(const render::Renderer& renderer, size_t pass,
+                                   const render::FrameInputs& inputs) const;
     /// For that pixel of the frame, counted from the lower left.
-    void move_to(ir::FloatEvaluator& frame, glm::ivec2 at) const;
+    template <class Real>
+    void move_to(ir::PointEvaluator<Real>& frame, glm::ivec2 at) const;
 
 private:
     ir::Function function_;

@@ -1,6 +1,7 @@
 #include "base/hash.hpp"
 #include "base/try.hpp"
 #include "lab/fields/certified_march.hpp"
+#include "lab/on_all_cores.hpp"
 #include "lab/study/stricter.hpp"
 #include "lab/study/truth.hpp"
 
@@ -8,9 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 namespace tidemark::lab {
 namespace {
@@ -72,32 +71,17 @@ bool march(const Reference& reference, Extent extent, const CertifiedOptions& op
     hits.distance.assign(pixels, -1.0);
     hits.evaluations.assign(pixels, 0.0f);
     hits.flags.assign(pixels, 0);
-    std::atomic<int> next_row{0};
-    std::atomic<bool> going{true};
-    const auto rows = [&](const KeepGoing& ask) {
-        for (int row = next_row++; row < extent.height && going; row = next_row++) {
-            if (!ask())
-                going = false;
-            for (size_t i = size_t(row) * size_t(extent.width), end = i + size_t(extent.width); i < end;
-                 ++i) {
-                if (i % every != 0)
-                    continue;
-                const CertifiedHit hit = certified_march(reference.field, reference.ray(centre(i, extent)),
-                                                         reference.range, options);
-                hits.distance[i] = std::isfinite(hit.distance) ? hit.distance : std::nan("");
-                hits.evaluations[i] = float(hit.samples);
-            }
+    return on_all_cores(size_t(extent.height), keep_going, [&](size_t row) {
+        const size_t begin = row * size_t(extent.width);
+        for (size_t i = begin; i < begin + size_t(extent.width); ++i) {
+            if (i % every != 0)
+                continue;
+            const CertifiedHit hit =
+                certified_march(reference.field, reference.ray(centre(i, extent)), reference.range, options);
+            hits.distance[i] = std::isfinite(hit.distance) ? hit.distance : std::nan("");
+            hits.evaluations[i] = float(hit.samples);
         }
-    };
-    std::vector<std::jthread> helpers;
-    try {
-        for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
-            helpers.emplace_back(rows, [] { return true; });
-    } catch (const std::system_error&) { // the system's limit: fewer do it
-    }
-    rows(keep_going);
-    helpers.clear(); // waits
-    return going;
+    });
 }
 
 std::vector<double> footprints(const Reference& reference, Extent extent) {
@@ -177,7 +161,7 @@ Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& stu
     const auto set = TRY(with(scene, settings));
     const auto found = find_reference(set);
     if (!found)
-        return CertifiedHits{{}, found.error().message};
+        return hits_proved_from_text(set, study, settings, keep_going);
     const auto lattice = TRY(lattice_of(*found));
     HitTruth truth;
     SelfCheck check;

@@ -30,9 +30,15 @@ struct CertifiedHits {
 };
 
 /// Marches the reference that was written for the text of the scene's field (lab/fields/reference.hpp), in
-/// double.
+/// double; where there is none, what is proved from the text itself.
 Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& study,
                                      const KeepGoing& keep_going);
+
+/// The first zeros of the field of the scene's own march, at those settings, which `set` has, proved from its
+/// text (lab/march/true_hits.hpp).
+Result<CertifiedHits> hits_proved_from_text(const scene::Scene& set, const Study& study,
+                                            const std::vector<Setting>& settings,
+                                            const KeepGoing& keep_going);
 
 /// The truth about the pictures, and about the hits where there is nothing better.
 struct PictureTruth {

@@ -1,0 +1,41 @@
+#include "lab/on_all_cores.hpp"
+
+#include <atomic>
+#include <numeric>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace tidemark::lab {
+
+bool on_all_cores(size_t count, const KeepGoing& keep_going, const std::function<void(size_t)>& work) {
+    std::atomic<size_t> next{0};
+    std::atomic<bool> going{true};
+    const auto run = [&](const KeepGoing& ask) {
+        for (size_t i = next++; i < count && going; i = next++) {
+            if (ask())
+                work(i);
+            else
+                going = false;
+        }
+    };
+    std::vector<std::jthread> helpers;
+    try {
+        for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
+            helpers.emplace_back(run, [] { return true; });
+    } catch (const std::system_error&) { // the system's limit: fewer do it
+    }
+    run(keep_going);
+    helpers.clear(); // waits
+    return going;
+}
+
+size_t spread(size_t i, size_t count) {
+    constexpr double k_golden_section = 0.6180339887498949;
+    auto step = size_t(double(count) * k_golden_section) + 1;
+    while (std::gcd(step, count) != 1)
+        ++step;
+    return i * step % count;
+}
+
+} // namespace tidemark::lab
