@@ -23,12 +23,14 @@ double end_of(const ir::MarchSlice& slice, const ir::MarchingLoop& loop, const i
     return slice.start() + (march.hit ? k_beyond : 1) * way;
 }
 
-/// No sample of the march may have been below the threshold where that is excluded.
+/// No sample of the march may have been below the threshold where that is excluded. One that goes backwards
+/// may come to what lies before its start.
 bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {
     const double free_to = found.verdict == Verdict::none ? found.where.high : found.where.low;
     return std::ranges::any_of(march.turns, [&](const ir::Turn& turn) {
         const double at = slice.parameter(turn);
-        return turn.distance < k_surely_below && at < free_to - 1e-6 * std::max(1.0, std::abs(free_to));
+        return turn.distance < k_surely_below && at >= slice.start() &&
+               at < free_to - 1e-6 * std::max(1.0, std::abs(free_to));
     });
 }
 

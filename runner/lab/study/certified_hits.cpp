@@ -160,8 +160,12 @@ Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& stu
     const std::vector<Setting> settings = strictest(study, 0);
     const auto set = TRY(with(scene, settings));
     const auto found = find_reference(set);
-    if (!found)
-        return hits_proved_from_text(set, study, settings, keep_going);
+    if (!found) {
+        auto proved = TRY(hits_proved_from_text(set, study, settings, keep_going));
+        if (!proved.truth)
+            proved.why_not = fmt::format("{}, and {}", found.error().message, proved.why_not);
+        return proved;
+    }
     const auto lattice = TRY(lattice_of(*found));
     HitTruth truth;
     SelfCheck check;

@@ -11,7 +11,7 @@ namespace tidemark::lab {
 namespace {
 
 /// Of each core, for all views.
-constexpr double k_seconds = 30;
+constexpr double k_seconds = 10;
 
 CertifiedHits none(std::string why) {
     return {{}, std::move(why)};
@@ -34,8 +34,9 @@ Standard standard_of(const PassFunction& function, const std::vector<Setting>& s
     }
     standard.uncertainty = std::sqrt(squares / double(std::max<size_t>(1, looked_at)));
     standard.check =
-        fmt::format("{} rays, each hit between two places; {} are not known", looked_at, unknown);
-    standard.blind = views.size() * views.front().hits.size() - (looked_at - unknown);
+        fmt::format("{} of {} rays, evenly spread, each hit between two places; {} are not known", looked_at,
+                    views.size() * views.front().hits.size(), unknown);
+    standard.blind = unknown;
     return standard;
 }
 

@@ -208,6 +208,14 @@ TEST(Interval, a_root_of_a_sum_of_squares_is_defined_at_zero) {
     EXPECT_FALSE(sqrt(square({-1, 1}) + square({-1, 1})).partial);
 }
 
+/// Else a choice of 0 or 1 times a number is no number of the text's, and a hash of it another one.
+TEST(Interval, an_exact_product_is_not_widened) {
+    EXPECT_TRUE((Interval{0, 0} * Interval{-3, 5}).point());
+    EXPECT_TRUE((Interval{1, 1} * Interval{0.1, 0.1}).point());
+    EXPECT_EQ((Interval{0.5, 3} * Interval{-0.25, -0.25}).high, -0.125);
+    EXPECT_LT((Interval{0.1, 0.1} * Interval{0.1, 0.1}).low, (Interval{0.1, 0.1} * Interval{0.1, 0.1}).high);
+}
+
 TEST(Interval, an_exact_sum_is_not_widened) {
     EXPECT_EQ((Interval{0.01, 0.01} - Interval{0.01, 0.01}).high, 0);
     EXPECT_EQ((Interval{0.5, 3} + Interval{0.25, 0.25}).low, 0.75);

@@ -1,0 +1,46 @@
+// What is proved of rays from a scene's own text, held against the references that were written for the
+// waters: two truths that share nothing but the scene.
+#include "lab/fields/certified_march.hpp"
+#include "lab/march/true_hits.hpp"
+#include "waters.hpp"
+
+#include <cmath>
+
+namespace tidemark::render {
+namespace {
+
+constexpr Extent k_few{24, 14};
+
+TEST_F(Waters, FirstHitsFromTheTextAreThoseOfTheReferences) {
+    for (const Water& water : k_waters) {
+        auto loaded = scene::load_scene(k_shaders / (std::string(water.scene) + ".glsl"));
+        ASSERT_TRUE(loaded) << to_string(loaded.error());
+        scene::Scene scene = *std::move(loaded);
+        define(scene, "SOLVER=MARCH_SPHERE");
+        define(scene, "MAX_STEPS=1024");
+        Renderer drawing = renderer(scene, k_few);
+        const FrameInputs inputs = at(10, 20, 8);
+        drawing.draw(inputs);
+        const auto function = lab::PassFunction::create(scene, scene.passes[0]);
+        ASSERT_TRUE(function) << function.error().message;
+        const auto proved = lab::true_hits({*function, drawing, 0, inputs}, 1e6, [] { return true; });
+        ASSERT_TRUE(proved);
+        EXPECT_EQ(proved->looked_at, k_few.pixels());
+        EXPECT_EQ(proved->unknown, 0u) << water.scene;
+        EXPECT_LT(proved->half_width, 1e-6);
+        const lab::Reference truth = reference(scene, water, inputs, k_few);
+        size_t hits = 0, others = 0;
+        for (size_t i = 0; i < k_few.pixels(); ++i) {
+            const glm::dvec2 place(double(i % k_few.width) + 0.5, double(i / k_few.width) + 0.5);
+            const double written = lab::certified_march(truth.field, truth.ray(place), truth.range).distance;
+            const double found = proved->hits.distance[i];
+            hits += written >= 0;
+            others += std::abs(written - found) > 1e-5 * std::max(1.0, std::abs(written));
+        }
+        EXPECT_GT(hits, k_few.pixels() / 3) << water.scene;
+        EXPECT_LE(others, k_few.pixels() / 200) << water.scene; // rays that graze a crest to a rounding
+    }
+}
+
+} // namespace
+} // namespace tidemark::render
