@@ -8,6 +8,8 @@ namespace tidemark::ir {
 namespace {
 
 constexpr double k_first_part = 1.0 / 16;
+/// Over larger parts too many ways are open for a close look.
+constexpr double k_looked_at = 1.0 / 256;
 /// Of the ray's length: near the start a hit is not narrowed down further than by the relative width of that,
 /// or of the distance there if it is less.
 constexpr double k_near_part = 1e-2;
@@ -69,7 +71,7 @@ private:
         const bool asked = !std::exchange(slopes_told_, false);
         if (!asked && slice_.excludes_hit(slice_.distance(cell, Care::quick)))
             return all;
-        const bool near = cell.width() < length_ * k_first_part;
+        const bool near = cell.width() < length_ * k_looked_at;
         const Care care = cell.width() > narrowest(cell.low) ? Care::close : Care::thorough;
         return near && slice_.excludes_hit(slice_.distance(cell, care)) ? all : Look{};
     }

@@ -221,24 +221,27 @@ Interval bits_as(const Interval& a, Scalar of, Scalar result) {
     return {number(a.low), number(a.high)};
 }
 
-/// Where the operation jumps: at first + k unit for every whole k; a unit of 0: at `first` alone.
+/// Where the operation jumps: at first + k unit for every whole k; a unit of 0: at `first` alone. Whether it
+/// has another value there than below, and than above.
 struct Jumps {
     double first = 0, unit = 1;
+    bool from_below = true, from_above = false;
 };
 
 std::optional<Jumps> jumps_of(Op op, std::span<const Interval> operands) {
     switch (op) {
     case Op::floor:
-    case Op::ceil:
     case Op::fract: return Jumps{};
+    case Op::ceil: return Jumps{0, 1, false, true};
     case Op::round:
-    case Op::round_even: return Jumps{0.5};
+    case Op::round_even: return Jumps{0.5, 1, true, true};
     case Op::modulo:
     case Op::whole_multiple:
     case Op::nearest_rest:
         if (operands[1].point() && operands[1].low != 0) {
             const double unit = std::abs(operands[1].low);
-            return Jumps{op == Op::nearest_rest ? unit / 2 : 0, unit};
+            const bool nearest = op == Op::nearest_rest, negative = operands[1].low < 0;
+            return Jumps{nearest ? unit / 2 : 0, unit, nearest || !negative, nearest || negative};
         }
         return std::nullopt;
     case Op::atan2: // from pi to -pi
@@ -249,14 +252,19 @@ std::optional<Jumps> jumps_of(Op op, std::span<const Interval> operands) {
     }
 }
 
-/// The jump within the interval, where there is one alone.
+/// The jump within the interval, or at a bound of it that has another value than what lies beside, where
+/// there is one alone.
 std::optional<double> jump_in(const Interval& a, const Jumps& jumps) {
+    const bool at_low = jumps.from_above && !a.from_above, at_high = jumps.from_below && !a.from_below;
+    const auto inside = [&](double at) {
+        return (at_low ? at >= a.low : at > a.low) && (at_high ? at <= a.high : at < a.high);
+    };
     if (jumps.unit == 0)
-        return a.low < jumps.first && jumps.first < a.high ? std::optional(jumps.first) : std::nullopt;
+        return inside(jumps.first) ? std::optional(jumps.first) : std::nullopt;
     double at = std::ceil((a.low - jumps.first) / jumps.unit) * jumps.unit + jumps.first;
-    if (at <= a.low)
+    if (!inside(at))
         at += jumps.unit;
-    return at < a.high && at + jumps.unit > a.high ? std::optional(at) : std::nullopt;
+    return inside(at) && !inside(at + jumps.unit) ? std::optional(at) : std::nullopt;
 }
 
 } // namespace
@@ -311,7 +319,7 @@ std::optional<std::pair<Interval, Interval>> IntervalSystem::split(Op op,
                                                                    std::span<const Interval> operands) {
     const Interval& a = operands[0];
     const auto jumps = jumps_of(op, operands);
-    if (!jumps || a.partial || !(a.width() < 1e9))
+    if (!jumps || a.partial || !(a.width() > 0 && a.width() < 1e9))
         return std::nullopt;
     const auto at = jump_in(a, *jumps);
     if (!at)

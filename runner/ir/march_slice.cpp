@@ -9,7 +9,7 @@ namespace {
 
 /// Ways through undecided conditions: so many decisions after one another, so many ways in all.
 constexpr size_t k_most_decisions = 14;
-constexpr int k_few_ways = 64;
+constexpr int k_few_ways = 32;
 constexpr int k_many_ways = 2048;
 constexpr uint64_t k_most_steps = 2'000'000;
 

@@ -19,7 +19,7 @@ TEST_F(Waters, FirstHitsFromTheTextAreThoseOfTheReferences) {
         define(scene, "SOLVER=MARCH_SPHERE");
         define(scene, "MAX_STEPS=1024");
         Renderer drawing = renderer(scene, k_few);
-        const FrameInputs inputs = at(10, 20, 8);
+        const FrameInputs inputs = at(10, 15, 6);
         drawing.draw(inputs);
         const auto function = lab::PassFunction::create(scene, scene.passes[0]);
         ASSERT_TRUE(function) << function.error().message;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Extent k_rays{16, 9};
 constexpr double k_moments[] = {1.0 / 3, 10};
-constexpr uint64_t k_most_evaluations = 2'000; ///< of a ray
+constexpr uint64_t k_most_evaluations = 5'000; ///< of a ray
 /// Of all rays: some seconds of a field of seven octaves. What is left of the rays is not looked at.
 constexpr uint64_t k_most_of_all = 25'000;
 /// Of the decided rays; below that is a matter of silhouettes.

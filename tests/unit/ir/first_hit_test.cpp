@@ -65,6 +65,17 @@ TEST(FirstHit, with_lattice_points_that_are_a_difference_is_decided) {
     EXPECT_LT(hit.where.width(), 1e-3);
 }
 
+/// At the start the lattice's plane itself belongs to another cell than all behind it.
+TEST(FirstHit, is_decided_though_the_ray_begins_at_a_jump) {
+    const FirstHit hit =
+        hit_of("5.0 + p.z + 0.3 * fract(sin(floor(-p.z) * 91.7) * 4311.3)", 0, 20,
+               "for (int i = 0; i < 100; ++i) { float d = map(ro - rd * t); if (d < 0.001 || t > "
+               "20.0) break; t += 0.5 * d; }");
+    EXPECT_EQ(hit.verdict, Verdict::hit) << to_string(hit.reason);
+    EXPECT_GT(hit.where.low, 1.9);
+    EXPECT_LT(hit.where.width(), 1e-3);
+}
+
 TEST(FirstHit, is_found_behind_the_cut_of_an_angle_and_between_halves) {
     // At a way of 4 the angle jumps from pi to -pi.
     expect_hit(hit_of("min(5.0 - p.z, abs(atan(1.0 - p.z, -1.0)) - 1.0)", 0), 8 - 0.001);
