@@ -121,7 +121,7 @@ std::optional<Interval> MarchSlice::distance(const Interval& parameter, Care car
     for (int way = 0; way == 0 || decisions.next(); ++way) {
         const auto one = run(intervals_, places, decisions);
         if (way == most_ways || decisions.exhausted())
-            return everything();
+            return everything(false); // too many ways: too many jumps
         if (one)
             all = all ? hull(*all, *one) : *one;
     }

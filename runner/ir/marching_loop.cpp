@@ -227,7 +227,7 @@ private:
                                       const std::vector<Value>& cuts) const {
         std::vector<Value> result;
         for (const Value value : values)
-            if (is_header_phi(value) && at(value).type == Scalar::real &&
+            if (is_header_phi(value) && at(value).type == Scalar::real && next_of(value) != value &&
                 std::ranges::find(cuts, value) == cuts.end())
                 result.push_back(value);
         return result;
