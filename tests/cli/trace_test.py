@@ -168,6 +168,11 @@ class Trace(ProgramTest):
         self.assertEqual(run.returncode, 2)
         self.assertIn("Buffer Z", run.stderr)
 
+    def test_a_look_up_that_nobody_uses_does_not_matter(self):
+        report = self.report("void mainImage(out vec4 c, in vec2 p) {\n    vec4 unused = texture(iChannel1, p);\n"
+                             "    c = vec4(0.5);\n}\n")
+        self.assertTrue(report["colour"]["as_drawn"], report["colour"])
+
     def test_textures_are_read_as_the_device_reads_them(self):
         report = self.report("void mainImage(out vec4 c, in vec2 p) {\n"
                              "    c = textureLod(iChannel0, (floor(p) + 0.5) / 256.0, 0.0) + texelFetch(iChannel0, ivec2(p), 1);\n"

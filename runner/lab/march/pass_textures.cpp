@@ -42,6 +42,12 @@ Texels texels_of(const gl::Texture& texture, const scene::Sampling& sampling) {
     return texels;
 }
 
+std::shared_ptr<const Texels> black() {
+    Texels texels;
+    texels.levels.push_back({{1, 1, 1}, {0, 0, 0, 1}});
+    return std::make_shared<const Texels>(std::move(texels));
+}
+
 } // namespace
 
 ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass) {
@@ -49,13 +55,17 @@ ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass) {
     const scene::Channels& channels = renderer.scene().passes[pass].channels;
     for (int unit = 0; unit < scene::k_channel_count; ++unit) {
         const scene::Channel& channel = channels[size_t(unit)];
+        const std::string sampler = fmt::format("iChannel{}", unit);
         const size_t* source = scene::source_pass(channel.input);
         const bool gone = source && render::frame_ref(pass, *source) == render::FrameRef::previous;
         const gl::Texture* texture = renderer.texture_at(pass, unit);
-        if (!texture || gone || texture->extent.pixels() * size_t(texture->depth) > k_most_texels)
+        if (!texture) { // the linked program reads it nowhere: what the text makes of it does not matter
+            textures.emplace(sampler, black());
             continue;
-        textures.emplace(fmt::format("iChannel{}", unit),
-                         std::make_shared<const Texels>(texels_of(*texture, channel.sampling)));
+        }
+        if (gone || texture->extent.pixels() * size_t(texture->depth) > k_most_texels)
+            continue;
+        textures.emplace(sampler, std::make_shared<const Texels>(texels_of(*texture, channel.sampling)));
     }
     return textures;
 }

@@ -6,7 +6,7 @@
 
 namespace tidemark::lab {
 
-/// As the last frame left them. Left out, and so unknown, are what a pass reads of the frame before (it is
+/// As the last frame left them, by the names of their samplers. Left out, and so unknown, are what a pass reads of the frame before (it is
 /// gone) and what is too large to be kept twice.
 ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass);
 

@@ -31,7 +31,8 @@ ir::LockstepEvaluator in_lockstep(const ir::Function& function, const ir::FloatE
 /// Each of the three numbers where it looks; `base_level` is set where the device would choose a mipmap.
 ir::Textures<ir::Lockstep> looked_up(const ir::TextureSet& textures, bool& base_level) {
     return [&](const ir::Lookup& lookup, std::span<const ir::Lockstep> operands) {
-        base_level = base_level || textures.find(lookup.sampler)->second->chooses_level(lookup);
+        const auto texels = textures.find(lookup.sampler);
+        base_level = base_level || (texels != textures.end() && texels->second->chooses_level(lookup));
         const auto at = [&]<class Real>(auto member) {
             std::vector<ir::Point<Real>> places;
             for (const ir::Lockstep& operand : operands)
