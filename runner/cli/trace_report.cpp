@@ -100,7 +100,7 @@ std::string colour(const PixelTrace& trace) {
 std::string mark(const TracedValue& value, double fewest) {
     if (!value.finite())
         return "  not finite";
-    if (value.parted())
+    if (value.mismatch())
         return "  double has it otherwise";
     if (value.unstable)
         return "  rounding decides";
@@ -204,9 +204,9 @@ std::string occurrence_words(const lab::Occurrence& what) {
     return turn_words(what.first) + (what.times > 1 ? fmt::format(", {} times in all", what.times) : "");
 }
 
-std::string parted_words(const TracedLine& line) {
+std::string mismatch_words(const TracedLine& line) {
     return (line.float_holds ? "holds in float, not in double" : "holds in double, not in float") +
-           occurrence_words(line.parted);
+           occurrence_words(line.mismatch);
 }
 
 std::string unstable_words(const TracedLine& line) {
@@ -220,8 +220,8 @@ std::string not_finite_words(const TracedLine& line) {
 double loss_of(const TracedLine& line) {
     return line.lost >= k_least_loss ? line.lost : 0;
 }
-double partings_of(const TracedLine& line) {
-    return double(line.parted.times);
+double mismatches_of(const TracedLine& line) {
+    return double(line.mismatch.times);
 }
 double instabilities_of(const TracedLine& line) {
     return double(line.unstable.times);
@@ -235,7 +235,7 @@ std::string summary(const PixelTrace& trace) {
     const auto& lines = trace.lines;
     const std::string losses = fmt::format("digits are lost (of {:.1f} that a float has)", ir::k_most_digits);
     const std::string text = section(losses, lines, loss_of, lost_words) +
-                             section("float and double part ways", lines, partings_of, parted_words) +
+                             section("float and double part ways", lines, mismatches_of, mismatch_words) +
                              section("rounding alone decides", lines, instabilities_of, unstable_words) +
                              section("not finite", lines, earliness_of, not_finite_words);
     return text.empty() ? "no line loses more than a digit; float and double go the same way\n" : text;
@@ -274,9 +274,10 @@ Json to_json(const TracedLine& line) {
         json["fewest"] = {{"name", line.fewest}, {"turns", line.fewest_turns}};
     if (line.not_finite)
         json["not_finite"] = to_json(*line.not_finite);
-    if (line.parted.times > 0)
-        json["parted"] = {
-            {"times", line.parted.times}, {"turns", line.parted.first}, {"float_holds", line.float_holds}};
+    if (line.mismatch.times > 0)
+        json["parted"] = {{"times", line.mismatch.times},
+                          {"turns", line.mismatch.first},
+                          {"float_holds", line.float_holds}};
     if (line.unstable.times > 0)
         json["unstable"] = {{"times", line.unstable.times}, {"turns", line.unstable.first}};
     return json;

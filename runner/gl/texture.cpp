@@ -33,10 +33,15 @@ Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, in
     return new_texture(GL_TEXTURE_3D, extent, depth, internal_format, levels);
 }
 
+std::array<int, 3> level_size(const Texture& texture, int level) {
+    const auto halved = [level](int size) { return std::max(1, size >> level); };
+    return {halved(texture.extent.width), halved(texture.extent.height),
+            texture.target == GL_TEXTURE_3D ? halved(texture.depth) : texture.depth};
+}
+
 std::vector<float> read_level(const Texture& texture, int level) {
-    const auto halved = [level](int size) { return size_t(std::max(1, size >> level)); };
-    const size_t layers = texture.target == GL_TEXTURE_3D ? halved(texture.depth) : size_t(texture.depth);
-    std::vector<float> rgba(halved(texture.extent.width) * halved(texture.extent.height) * layers * 4);
+    const auto [width, height, layers] = level_size(texture, level);
+    std::vector<float> rgba(size_t(width) * size_t(height) * size_t(layers) * 4);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(texture.id(), level, GL_RGBA, GL_FLOAT, GLsizei(rgba.size() * sizeof(float)),
                       rgba.data());

@@ -4,6 +4,7 @@
 #include "base/extent.hpp"
 #include "gl/handle.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -25,6 +26,9 @@ struct Texture {
 Texture make_texture(Extent extent, GLenum internal_format, int levels);
 Texture make_cube_texture(int side, GLenum internal_format, int levels);
 Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, int levels);
+
+/// Width, height and layers of a level; a cube has six at each.
+std::array<int, 3> level_size(const Texture& texture, int level);
 
 /// A level in floats, RGBA: row by row, one face or slice after the other.
 std::vector<float> read_level(const Texture& texture, int level);

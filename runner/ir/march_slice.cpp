@@ -103,6 +103,13 @@ MarchSlice::run(Over<System>& over, const std::vector<typename System::Value>& p
                       surface_ == Surface::zero ? System::number(0) : over.evaluator.value(loop_->threshold));
 }
 
+double MarchSlice::end(const March& march) const {
+    constexpr double k_beyond = 1.5; // a hit that is a little early is still found
+    if (loop_->limited())
+        return march.far;
+    return start_ + (march.hit ? k_beyond : 1) * (parameter(march.turns.back()) - start_);
+}
+
 Interval MarchSlice::place(size_t carried, const Interval& parameter) const {
     if (loop_->by_parameter())
         return parameter;

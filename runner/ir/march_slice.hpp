@@ -50,6 +50,8 @@ public:
     double start() const { return start_; }
     /// The parameter at which a turn measured.
     double parameter(const Turn& turn) const;
+    /// Up to where a first hit is looked for: the loop's limit; else the march's end, and beyond its own hit.
+    double end(const March& march) const;
 
     /// Bounds of distance - threshold over that piece of the ray; `partial` where NaN or an infinity may come
     /// of it. Nothing where the loop is left before it measures.

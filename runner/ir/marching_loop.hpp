@@ -42,6 +42,8 @@ struct MarchingLoop {
 
     /// One value that is the ray's parameter itself.
     bool by_parameter() const { return carried.size() == 1; }
+    /// It gives up where the ray's parameter exceeds `far`.
+    bool limited() const { return far != k_no_value && by_parameter(); }
     Value cut(const Carried& each) const { return cut_at_update ? each.update : each.phi; }
 };
 

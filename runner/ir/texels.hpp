@@ -3,7 +3,7 @@
 // numbers: a device has them in 8 bits or more.
 #pragma once
 
-#include "ir/function.hpp"
+#include "ir/evaluate.hpp"
 #include "ir/interval.hpp"
 #include "ir/point.hpp"
 
@@ -29,7 +29,7 @@ public:
 
     const TexelIndex& size() const { return extrema_.front().size; }
     /// The least and the largest with an index in [first, last], which lie within the level.
-    /// Where one of them is no number, nothing is known.
+    /// Where one of them is NaN or infinite, nothing is known.
     Interval range(const TexelIndex& first, const TexelIndex& last, uint32_t component) const;
 
 private:
@@ -86,6 +86,14 @@ Point<Real> look_up(const TextureSet& textures, const Lookup& lookup, std::span<
     if (lookup.form == Lookup::Form::size)
         return {0, uint32_t(int64_t(found.low))};
     return {Real(found.low + (found.high - found.low) / 2), 0};
+}
+
+/// For an evaluator that lives no longer than the set.
+template <class Number>
+Textures<Number> textures_in(const TextureSet& textures) {
+    return [&textures](const Lookup& lookup, std::span<const Number> operands) {
+        return look_up(textures, lookup, operands);
+    };
 }
 
 } // namespace tidemark::ir

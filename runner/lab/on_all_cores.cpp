@@ -1,7 +1,6 @@
 #include "lab/on_all_cores.hpp"
 
 #include <atomic>
-#include <numeric>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -28,14 +27,6 @@ bool on_all_cores(size_t count, const KeepGoing& keep_going, const std::function
     run(keep_going);
     helpers.clear(); // waits
     return going;
-}
-
-size_t spread(size_t i, size_t count) {
-    constexpr double k_golden_section = 0.6180339887498949;
-    auto step = size_t(double(count) * k_golden_section) + 1;
-    while (std::gcd(step, count) != 1)
-        ++step;
-    return i * step % count;
 }
 
 } // namespace tidemark::lab

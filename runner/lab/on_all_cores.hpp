@@ -12,8 +12,4 @@ namespace tidemark::lab {
 /// false: it ended the work before all was done.
 bool on_all_cores(size_t count, const KeepGoing& keep_going, const std::function<void(size_t)>& work);
 
-/// The i-th of a walk through 0 to count - 1 that comes to each once and is evenly spread at any time: steps
-/// of the golden section.
-size_t spread(size_t i, size_t count);
-
 } // namespace tidemark::lab

@@ -34,9 +34,7 @@ void expect_the_devices_colours(const scene::Scene& scene, float rounding = k_ro
     ASSERT_TRUE(function) << function.error().message;
     const ir::TextureSet textures = textures_of(renderer, 0);
     ir::FloatEvaluator frame = function->frame(renderer, 0, k_inputs);
-    frame.textures = [&](const ir::Lookup& lookup, std::span<const ir::Point<float>> operands) {
-        return ir::look_up(textures, lookup, operands);
-    };
+    frame.textures = ir::textures_in<ir::Point<float>>(textures);
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
             ir::FloatEvaluator evaluator = frame;

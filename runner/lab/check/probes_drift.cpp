@@ -14,7 +14,7 @@ namespace {
 
 struct Drift {
     size_t rays = 0, entered = 0; ///< entered: the march, in the recording
-    size_t parted = 0;            ///< one met something, the other nothing or something else
+    size_t differing = 0;         ///< one met something, the other nothing or something else
     double largest = 0;           ///< of the distances where both met something
     std::vector<bool> marks{};
 };
@@ -36,7 +36,7 @@ Drift drift_of(const Hits& written, const Hits& recorded, Extent extent) {
         const double one = written.distance[i], other = recorded.distance[i];
         drift.entered += entered;
         drift.marks.push_back(entered && !is_same(one, other, extent));
-        drift.parted += drift.marks.back();
+        drift.differing += drift.marks.back();
         if (drift.marks.back() && one >= 0 && other >= 0)
             drift.largest = std::max(drift.largest, std::abs(one - other));
     }
@@ -62,22 +62,22 @@ Result<Answer> ask_drift(ProbeBench& bench) {
         const auto written = TRY(bench.hits(view));
         const Hits recorded = hits_of(TRY(bench.recorded(view, glsl::RecordAnswer::hit)));
         const Drift drift = drift_of(written, recorded, view.extent);
-        if (drift.parted > 0 && !answer.where) {
+        if (drift.differing > 0 && !answer.where) {
             answer.where = view;
             answer.picture = ray_map(recorded, view.extent, [&](size_t i) { return drift.marks[i]; });
         }
         all.rays += drift.rays;
         all.entered += drift.entered;
-        all.parted += drift.parted;
+        all.differing += drift.differing;
         all.largest = std::max(all.largest, drift.largest);
     }
     if (all.entered == 0)
         return Answer{Verdict::not_applicable, "no ray comes to the loop that marches"};
     answer.sentence =
-        fmt::format("mainHit and the march of mainImage part in {} of {} rays", all.parted, all.entered);
+        fmt::format("mainHit and the march of mainImage part in {} of {} rays", all.differing, all.entered);
     if (all.largest > 0)
         answer.sentence += fmt::format(", by up to {:.3g} where both meet something", all.largest);
-    if (100.0 * double(all.parted) > k_same * double(all.entered))
+    if (100.0 * double(all.differing) > k_same * double(all.entered))
         answer.verdict = Verdict::warn;
     else {
         answer.where.reset();

@@ -158,6 +158,19 @@ std::string place_of(const Steep& found) {
                        found.pixel.x, found.pixel.y, found.distance);
 }
 
+/// Held against the bound that the scene states; `slack`: what roundings may add.
+Result<Answer> judged(ProbeBench& bench, const std::string& seen, const Steep& found, double slack) {
+    const double stated = bench.promises().largest_slope;
+    Answer answer{Verdict::pass, seen + bound_of(stated) + place_of(found)};
+    if (found.slope > stated * slack) {
+        answer.verdict = Verdict::fail;
+        answer.sentence += k_too_long;
+        answer.where = found.view;
+        answer.picture = TRY(map_of(bench, found));
+    }
+    return answer;
+}
+
 /// Of a march that is recorded: by how much its distance falls between two samples, a unit of the way. No
 /// less than that is a slope of the field somewhere between them.
 Result<Answer> ask_recorded(ProbeBench& bench) {
@@ -173,18 +186,10 @@ Result<Answer> ask_recorded(ProbeBench& bench) {
                          {i % view.extent.width + 0.5, i / view.extent.width + 0.5},
                          view};
     }
-    const double stated = bench.promises().largest_slope;
-    Answer answer{Verdict::pass, fmt::format("the distance falls by up to {:.3g} a unit between two samples "
-                                             "of a ray",
-                                             found.slope)};
-    answer.sentence += bound_of(stated) + place_of(found);
-    if (found.slope > stated * k_float_slack) {
-        answer.verdict = Verdict::fail;
-        answer.sentence += k_too_long;
-        answer.where = found.view;
-        answer.picture = TRY(map_of(bench, found));
-    }
-    return answer;
+    return judged(
+        bench,
+        fmt::format("the distance falls by up to {:.3g} a unit between two samples of a ray", found.slope),
+        found, k_float_slack);
 }
 
 } // namespace
@@ -213,15 +218,8 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
             found = exact->climbed(found);
             slack = 1.001;
         }
-    Answer answer{Verdict::pass, fmt::format("the field's slope along a ray reaches {:.3g}", found.slope)};
-    answer.sentence += bound_of(stated) + place_of(found);
-    if (found.slope > stated * slack) {
-        answer.verdict = Verdict::fail;
-        answer.sentence += k_too_long;
-        answer.where = found.view;
-        answer.picture = TRY(map_of(bench, found));
-    }
-    return answer;
+    return judged(bench, fmt::format("the field's slope along a ray reaches {:.3g}", found.slope), found,
+                  slack);
 }
 
 } // namespace tidemark::lab

@@ -3,7 +3,7 @@
 #include "lab/check/probes.hpp"
 #include "lab/march/pass_textures.hpp"
 #include "lab/march/proved_hits.hpp"
-#include "lab/on_all_cores.hpp"
+#include "lab/spread.hpp"
 #include "lab/statistics.hpp"
 
 #include <fmt/format.h>

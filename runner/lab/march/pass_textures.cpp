@@ -1,10 +1,6 @@
 #include "lab/march/pass_textures.hpp"
 
-#include "render/bound_channel.hpp"
-
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace tidemark::lab {
 namespace {
@@ -22,13 +18,6 @@ Texels::Kind kind_of(const gl::Texture& texture) {
     }
 }
 
-ir::TexelLevel level_of(const gl::Texture& texture, int level) {
-    const auto halved = [level](int size) { return int64_t(std::max(1, size >> level)); };
-    const int64_t depth = texture.target == GL_TEXTURE_3D ? halved(texture.depth) : texture.depth;
-    return {{halved(texture.extent.width), halved(texture.extent.height), depth},
-            gl::read_level(texture, level)};
-}
-
 Texels texels_of(const gl::Texture& texture, const scene::Sampling& sampling) {
     Texels texels;
     texels.kind = kind_of(texture);
@@ -37,8 +26,10 @@ Texels texels_of(const gl::Texture& texture, const scene::Sampling& sampling) {
     texels.magnify_linear = sampling.magnify == scene::Filter::linear;
     texels.minify_linear = sampling.minify == scene::Filter::linear;
     const int levels = sampling.mipmaps == scene::Mipmaps::none ? 1 : texture.levels;
-    for (int level = 0; level < levels; ++level)
-        texels.levels.push_back(level_of(texture, level));
+    for (int level = 0; level < levels; ++level) {
+        const auto [width, height, layers] = gl::level_size(texture, level);
+        texels.levels.push_back({{width, height, layers}, gl::read_level(texture, level)});
+    }
     return texels;
 }
 

@@ -11,17 +11,8 @@ using Verdict = ir::FirstHit::Verdict;
 
 /// A march stops within its threshold, and nobody sees a step of a hundredth.
 constexpr double k_same_place = 0.01;
-/// Where a march has no limit, a hit is looked for so much further than the one it found.
-constexpr double k_beyond = 1.5;
 /// Below the threshold by more than a rounding.
 constexpr float k_surely_below = -1e-5f;
-
-double end_of(const ir::MarchSlice& slice, const ir::MarchingLoop& loop, const ir::March& march) {
-    if (loop.far != ir::k_no_value && loop.by_parameter())
-        return march.far;
-    const double way = slice.parameter(march.turns.back()) - slice.start();
-    return slice.start() + (march.hit ? k_beyond : 1) * way;
-}
 
 /// No sample of the march may have been below the threshold where that is excluded. One that goes backwards
 /// may come to what lies before its start.
@@ -94,11 +85,8 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
         ray.outcome = Outcome::unfaithful;
         return ray;
     }
-    ir::MarchSlice slice(function.function(), loop, entered,
-                         [&](const ir::Lookup& lookup, std::span<const ir::Interval> operands) {
-                             return ir::look_up(textures, lookup, operands);
-                         });
-    const double end = end_of(slice, loop, march);
+    ir::MarchSlice slice(function.function(), loop, entered, ir::textures_in<ir::Interval>(textures));
+    const double end = slice.end(march);
     if (!std::isfinite(end) || end <= slice.start()) {
         ray.reason = ir::FirstHit::Reason::not_finite;
         return ray;

@@ -3,6 +3,7 @@
 #include "ir/first_hit.hpp"
 #include "lab/march/pass_textures.hpp"
 #include "lab/on_all_cores.hpp"
+#include "lab/spread.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -16,8 +17,6 @@ constexpr double k_relative_width = 1e-9;
 constexpr uint64_t k_most_evaluations = 20'000;
 /// Rays that tell how long one takes.
 constexpr size_t k_pilot = 64;
-/// Beyond a hit of the march's own, where it has no limit.
-constexpr double k_beyond = 1.5;
 
 /// The rays of one picture.
 class Rays {
@@ -26,14 +25,15 @@ public:
         : drawn_(drawn), textures_(textures_of(drawn.renderer, drawn.pass)),
           floats_(drawn.function.frame<float>(drawn.renderer, drawn.pass, drawn.inputs)),
           doubles_(drawn.function.frame<double>(drawn.renderer, drawn.pass, drawn.inputs)) {
-        floats_.textures = looked_up<ir::Point<float>>();
-        doubles_.textures = looked_up<ir::Point<double>>();
+        floats_.textures = ir::textures_in<ir::Point<float>>(textures_);
+        doubles_.textures = ir::textures_in<ir::Point<double>>(textures_);
     }
 
     Extent extent() const { return drawn_.renderer.extent(); }
 
     /// The interval of the first hit; of a ray that has none {-1, -1}; nothing where it is not known.
-    std::optional<ir::Interval> hit(glm::ivec2 pixel) const {
+    std::optional<ir::Interval> hit(size_t number) const {
+        const glm::ivec2 pixel{int(number) % extent().width, int(number) / extent().width};
         const PassFunction& function = drawn_.function;
         ir::FloatEvaluator in_float = floats_;
         ir::PointEvaluator<double> in_double = doubles_;
@@ -51,7 +51,7 @@ public:
             return k_miss;
         if (!ir::is_faithful(loop, entered, march))
             return std::nullopt;
-        ir::MarchSlice slice(function.function(), loop, in_double, looked_up<ir::Interval>(),
+        ir::MarchSlice slice(function.function(), loop, in_double, ir::textures_in<ir::Interval>(textures_),
                              ir::Surface::zero);
         return first_hit_of(slice, loop, march);
     }
@@ -59,18 +59,10 @@ public:
 private:
     static constexpr ir::Interval k_miss{-1, -1};
 
-    template <class Number>
-    ir::Textures<Number> looked_up() const {
-        return [this](const ir::Lookup& lookup, std::span<const Number> operands) {
-            return ir::look_up(textures_, lookup, operands);
-        };
-    }
-
     static std::optional<ir::Interval> first_hit_of(ir::MarchSlice& slice, const ir::MarchingLoop& loop,
                                                     const ir::March& march) {
-        const bool limited = loop.far != ir::k_no_value && loop.by_parameter();
-        const double way = slice.parameter(march.turns.back()) - slice.start();
-        const double last = limited ? march.far : slice.start() + (march.hit ? k_beyond : 1) * way;
+        const bool limited = loop.limited();
+        const double last = slice.end(march);
         if (!std::isfinite(last) || last <= slice.start())
             return limited ? std::optional(k_miss) : std::nullopt;
         const ir::FirstHit found = ir::first_hit(slice, last, k_most_evaluations, k_relative_width);
@@ -86,36 +78,24 @@ private:
     ir::PointEvaluator<double> doubles_;
 };
 
-double seconds_of(const Rays& rays, size_t pixels) {
+using Found = std::vector<std::optional<ir::Interval>>;
+
+/// The first few rays, and how many seconds one takes.
+double pilot(const Rays& rays, Found& found) {
+    const size_t pixels = rays.extent().pixels();
     const auto start = std::chrono::steady_clock::now();
-    for (size_t i = 0; i < k_pilot; ++i) {
-        const auto at = int(spread(i, pixels));
-        (void)rays.hit({at % rays.extent().width, at / rays.extent().width});
-    }
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / k_pilot;
+    while (found.size() < std::min(k_pilot, pixels))
+        found.push_back(rays.hit(spread(found.size(), pixels)));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+           double(found.size());
 }
 
-} // namespace
-
-std::optional<TrueHits> true_hits(const DrawnPass& drawn, double seconds, const KeepGoing& keep_going) {
-    const Rays rays(drawn);
-    const Extent extent = rays.extent();
-    const size_t pixels = extent.pixels();
-    const double affordable =
-        seconds * std::max(1u, std::thread::hardware_concurrency()) / seconds_of(rays, pixels);
+TrueHits truth_of(const Found& found, size_t pixels) {
     TrueHits truth;
-    truth.every = size_t(std::ceil(std::max(1.0, double(pixels) / affordable)));
-    truth.looked_at = pixels / truth.every;
+    truth.looked_at = found.size();
     truth.hits.distance.assign(pixels, std::nan(""));
     truth.hits.evaluations.assign(pixels, 0.0f);
     truth.hits.flags.assign(pixels, 0);
-    std::vector<std::optional<ir::Interval>> found(truth.looked_at);
-    const bool complete = on_all_cores(truth.looked_at, keep_going, [&](size_t i) {
-        const auto at = int(spread(i, pixels));
-        found[i] = rays.hit({at % extent.width, at / extent.width});
-    });
-    if (!complete)
-        return std::nullopt;
     double squares = 0;
     for (size_t i = 0; i < found.size(); ++i) {
         if (!found[i]) {
@@ -127,6 +107,23 @@ std::optional<TrueHits> true_hits(const DrawnPass& drawn, double seconds, const 
     }
     truth.half_width = std::sqrt(squares / double(std::max<size_t>(1, truth.looked_at - truth.unknown)));
     return truth;
+}
+
+} // namespace
+
+std::optional<TrueHits> true_hits(const DrawnPass& drawn, double seconds, const KeepGoing& keep_going) {
+    const Rays rays(drawn);
+    const size_t pixels = rays.extent().pixels();
+    Found found;
+    const double one = pilot(rays, found);
+    const double affordable = seconds * std::max(1u, std::thread::hardware_concurrency()) / one;
+    const auto every = size_t(std::ceil(std::max(1.0, double(pixels) / affordable)));
+    const size_t first = found.size();
+    found.resize(std::max(first, pixels / every));
+    const bool complete = on_all_cores(found.size() - first, keep_going, [&](size_t i) {
+        found[first + i] = rays.hit(spread(first + i, pixels));
+    });
+    return complete ? std::optional(truth_of(found, pixels)) : std::nullopt;
 }
 
 } // namespace tidemark::lab

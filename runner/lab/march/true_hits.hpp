@@ -13,8 +13,7 @@
 namespace tidemark::lab {
 
 struct TrueHits {
-    Hits hits;        ///< NaN: not looked at, or not known; -1: nothing up to the march's limit
-    size_t every = 1; ///< so many pixels one was looked at
+    Hits hits; ///< NaN: not looked at, or not known; -1: nothing up to the march's limit
     size_t looked_at = 0;
     size_t unknown = 0;    ///< of those
     double half_width = 0; ///< of the proved places, root of the mean square

@@ -17,7 +17,7 @@ bool TracedValue::finite() const {
     return std::ranges::all_of(in_float, [](double each) { return std::isfinite(each); });
 }
 
-bool TracedValue::parted() const {
+bool TracedValue::mismatch() const {
     return kind != Kind::real && in_float != in_double;
 }
 
@@ -35,7 +35,7 @@ void KeptValues::add(TracedValue value, const std::optional<TurnRange>& turns) {
             event = value;
     };
     note(not_finite_, !value.finite());
-    note(parted_, value.parted());
+    note(mismatch_, value.mismatch());
     note(unstable_, value.unstable);
     if (!fewest_ || value.digits < fewest_->digits)
         fewest_ = value;
@@ -54,7 +54,7 @@ std::vector<TracedValue> KeptValues::all() const {
         by_number.emplace(each.number, each);
     for (const TracedValue& each : last_)
         by_number.emplace(each.number, each);
-    for (const auto* event : {&not_finite_, &parted_, &unstable_, &fewest_})
+    for (const auto* event : {&not_finite_, &mismatch_, &unstable_, &fewest_})
         if (*event)
             by_number.emplace((*event)->number, **event);
     std::vector<TracedValue> result;

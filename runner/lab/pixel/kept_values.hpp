@@ -22,7 +22,7 @@ private:
     std::vector<TracedValue> first_;
     std::deque<TracedValue> last_;
     /// The first of its kind each; `fewest_` digits.
-    std::optional<TracedValue> not_finite_, parted_, unstable_, fewest_;
+    std::optional<TracedValue> not_finite_, mismatch_, unstable_, fewest_;
 };
 
 } // namespace tidemark::lab

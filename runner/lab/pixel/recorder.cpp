@@ -175,7 +175,7 @@ void Recorder::compare(const Lockstep& condition, int number, uint32_t block) {
             what.first = turns(block);
         return what.times == 1;
     };
-    if (parts && note(on->traced.parted))
+    if (parts && note(on->traced.mismatch))
         on->traced.float_holds = condition.in_float.bits != 0;
     if (unstable)
         note(on->traced.unstable);

@@ -40,7 +40,7 @@ struct TracedValue {
     /// In float.
     bool finite() const;
     /// A condition or a whole number that is another one in double.
-    bool parted() const;
+    bool mismatch() const;
 };
 
 /// The values of a line in one call of its function.
@@ -66,7 +66,7 @@ struct TracedLine {
     double lost = 0; ///< digits that the result of one operation had less than its operands
     Turns lost_turns{};
     std::optional<TracedValue> not_finite{}; ///< the first
-    Occurrence parted{};                     ///< a condition that double decides otherwise
+    Occurrence mismatch{};                   ///< a condition that double decides otherwise
     bool float_holds = false;                ///< that condition in float
     Occurrence unstable{};                   ///< a condition that rounding alone decides
 };
