@@ -113,14 +113,17 @@ Interval operator-(const Interval& a, const Interval& b) {
     return a + -b;
 }
 
-/// The least of the products of the bounds, rounded downwards; NaN where one is.
+/// The least product, rounded downwards: signs tell which bounds it is of.
 static double least_product(const Interval& a, const Interval& b) {
-    const std::array<double, 4> products{product_below(a.low, b.low), product_below(a.low, b.high),
-                                         product_below(a.high, b.low), product_below(a.high, b.high)};
-    double least = products[0];
-    for (const double each : products)
-        least = each < least || std::isnan(each) ? each : least;
-    return least;
+    if (a.low >= 0)
+        return product_below(b.low >= 0 ? a.low : a.high, b.low);
+    if (a.high <= 0)
+        return product_below(b.high <= 0 ? a.high : a.low, b.high);
+    if (b.low >= 0)
+        return product_below(a.low, b.high);
+    if (b.high <= 0)
+        return product_below(a.high, b.low);
+    return std::min(product_below(a.low, b.high), product_below(a.high, b.low));
 }
 
 Interval operator*(const Interval& a, const Interval& b) {
