@@ -31,7 +31,7 @@ ROOMS = {
     "ir": {"": ["plugin"], "plugin": []},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
-    "lab": {"": [], "fields": [], "march": [""], "study": ["", "fields", "march"], "trace": [], "pixel": ["march"],
+    "lab": {"": [], "march": [""], "study": ["", "march"], "trace": [], "pixel": ["march"],
             "check": ["", "march", "trace"]},
     "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""]},
 }

@@ -89,9 +89,19 @@ double MarchSlice::parameter(const Turn& turn) const {
     return (turn.carried[longest] - first_[longest]) / factor_[longest];
 }
 
+double MarchSlice::unit() const {
+    if (std::ranges::any_of(loop_->carried, [](const Carried& each) { return each.factor == k_no_value; }))
+        return 1;
+    double squares = 0;
+    for (const double factor : factor_)
+        squares += factor * factor;
+    return std::sqrt(squares);
+}
+
 template <class System>
-std::optional<typename System::Value>
-MarchSlice::run(Over<System>& over, const std::vector<typename System::Value>& places, Decisions& decisions) {
+std::optional<typename System::Value> MarchSlice::run(Over<System>& over,
+                                                      const std::vector<typename System::Value>& places,
+                                                      Decisions& decisions, Surface surface) {
     ++evaluations_;
     over.evaluator.memory() = over.memory;
     const Ended ended = run_to_test(over.evaluator, *loop_, places, decisions);
@@ -100,7 +110,7 @@ MarchSlice::run(Over<System>& over, const std::vector<typename System::Value>& p
     if (ended != Ended::stopped)
         return System::unknown();
     return difference(over.evaluator.value(loop_->distance),
-                      surface_ == Surface::zero ? System::number(0) : over.evaluator.value(loop_->threshold));
+                      surface == Surface::zero ? System::number(0) : over.evaluator.value(loop_->threshold));
 }
 
 double MarchSlice::end(const March& march) const {
@@ -117,7 +127,7 @@ Interval MarchSlice::place(size_t carried, const Interval& parameter) const {
            Interval{factor_[carried], factor_[carried]} * parameter;
 }
 
-std::optional<Interval> MarchSlice::distance(const Interval& parameter, Care care) {
+std::optional<Interval> MarchSlice::bounds(const Interval& parameter, Care care, Surface surface) {
     std::vector<Interval> places;
     for (size_t i = 0; i < loop_->carried.size(); ++i)
         places.push_back(place(i, parameter));
@@ -126,7 +136,7 @@ std::optional<Interval> MarchSlice::distance(const Interval& parameter, Care car
     Decisions decisions(k_most_decisions);
     std::optional<Interval> all;
     for (int way = 0; way == 0 || decisions.next(); ++way) {
-        const auto one = run(intervals_, places, decisions);
+        const auto one = run(intervals_, places, decisions, surface);
         if (way == most_ways || decisions.exhausted())
             return everything(false); // too many ways: too many jumps
         if (one)
@@ -140,7 +150,7 @@ std::optional<Tangent> MarchSlice::tangent(const Interval& parameter) {
     for (size_t i = 0; i < loop_->carried.size(); ++i)
         places.push_back({place(i, parameter), {factor_[i], factor_[i]}});
     Decisions none(0);
-    auto found = run(tangents_, places, none);
+    auto found = run(tangents_, places, none, surface_);
     const bool known = found && !none.exhausted() && !found->value.partial && std::isfinite(found->slope.low);
     return known ? found : std::nullopt;
 }

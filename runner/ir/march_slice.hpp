@@ -50,12 +50,20 @@ public:
     double start() const { return start_; }
     /// The parameter at which a turn measured.
     double parameter(const Turn& turn) const;
+    /// How long the way is that the parameter calls 1: 1, where the loop carries the parameter itself.
+    double unit() const;
     /// Up to where a first hit is looked for: the loop's limit; else the march's end, and beyond its own hit.
     double end(const March& march) const;
 
-    /// Bounds of distance - threshold over that piece of the ray; `partial` where NaN or an infinity may come
-    /// of it. Nothing where the loop is left before it measures.
-    std::optional<Interval> distance(const Interval& parameter, Care care);
+    /// Bounds, over that piece of the ray, of what is negative behind the surface; `partial` where NaN or an
+    /// infinity may come of it. Nothing where the loop is left before it measures.
+    std::optional<Interval> distance(const Interval& parameter, Care care) {
+        return bounds(parameter, care, surface_);
+    }
+    /// Of distance - threshold, whatever the surface is.
+    std::optional<Interval> above_threshold(const Interval& parameter, Care care) {
+        return bounds(parameter, care, Surface::threshold);
+    }
     /// The same with bounds of its slope, where all conditions are decided and nothing jumps: nothing else.
     std::optional<Tangent> tangent(const Interval& parameter);
 
@@ -76,9 +84,11 @@ private:
         Over(const Function& function, const PointEvaluator<Real>& entered);
     };
 
+    std::optional<Interval> bounds(const Interval& parameter, Care care, Surface surface);
     template <class System>
-    std::optional<typename System::Value>
-    run(Over<System>& over, const std::vector<typename System::Value>& places, Decisions& decisions);
+    std::optional<typename System::Value> run(Over<System>& over,
+                                              const std::vector<typename System::Value>& places,
+                                              Decisions& decisions, Surface surface);
     Interval place(size_t carried, const Interval& parameter) const;
 
     const MarchingLoop* loop_;

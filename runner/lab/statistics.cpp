@@ -26,6 +26,14 @@ double quantile_of_sorted(std::span<const double> values, double part) {
     return values[low] + (place - double(low)) * (values[high] - values[low]);
 }
 
+double most_of_share(size_t some, size_t sampled) {
+    if (sampled == 0)
+        return 1;
+    constexpr double k_z = 1.6448536269514722; // 95 % of a normal distribution lies below
+    const double n = double(sampled), part = double(some) / n, z2 = k_z * k_z;
+    return (part + z2 / (2 * n) + k_z * std::sqrt(part * (1 - part) / n + z2 / (4 * n * n))) / (1 + z2 / n);
+}
+
 double quantile(std::vector<double> values, double part) {
     std::sort(values.begin(), values.end());
     return quantile_of_sorted(values, part);

@@ -30,6 +30,10 @@ struct Interval {
 Interval bootstrap(size_t count, const std::function<double(const std::vector<size_t>& rows)>& of);
 Interval bootstrap_median(const std::vector<double>& values);
 
+/// Of a share that is known by a sample: in 95 of 100 cases no more than that (E. B. Wilson: Probable
+/// inference, JASA 22, 1927).
+double most_of_share(size_t some, size_t sampled);
+
 /// Of fewer values there is no interval worth the name: it is NaN, and contains and overlaps nothing.
 inline constexpr size_t k_fewest_runs = 5;
 

@@ -1,5 +1,6 @@
 """`tidemark check SCENE`: what probes find in scenes with one fault each, and in sound ones."""
 import json
+import re
 import shlex
 
 from support.program import ROOT, ProgramTest, main
@@ -84,6 +85,19 @@ class Check(ProgramTest):
                 self.assertRegex(entry["found"], rf"^(9\d(\.\d)?|100) % of 288 rays are decided: {wrong} % of these step over")
         said = self.succeed("inspect", str(scene)).stdout.decode()
         self.assertRegex(said, r"(?m)^  march     \S*march.glsl:5: steps by the distance \(sphere tracing\)")
+
+    def test_how_long_a_step_may_be_is_proved(self):
+        for field, verdict, scale in (("length(p) - 1.0", "pass", 1), ("1.6 * (length(p) - 1.0)", "warn", 1 / 1.6)):
+            with self.subTest(field):
+                scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "d").replace("length(p) - 1.0", field))
+                entry = self.verdicts(scene, "--probe", "step_scale")["step_scale"]
+                self.assertEqual(entry["verdict"], verdict, entry["found"])
+                said = re.match(r"steps of ([\d.]+) x the distance are safe on \d+ rays that hit, [\d.]+ x on 95 % of them; ([\d.]+) x steps over "
+                                r"the hit from .*; its own steps are 1 x in the median", entry["found"])
+                self.assertTrue(said, entry["found"])
+                self.assertLessEqual(float(said[1]), scale * 1.01)
+                self.assertGreater(float(said[1]), 0.85 * scale)
+                self.assertAlmostEqual(float(said[2]), scale, delta=0.06 * scale)
 
     def test_rays_are_recorded_where_no_main_hit_says_what_they_meet(self):
         """The march's own faults, and the probes that answer of a sound one."""

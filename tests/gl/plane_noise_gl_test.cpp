@@ -1,7 +1,7 @@
 // What shaders/lib has for the plane: the noise's gradient, and cells.
+#include "fields/lattice.hpp"
+#include "fields/value_noise.hpp"
 #include "gl_test.hpp"
-#include "lab/fields/lattice.hpp"
-#include "lab/fields/value_noise.hpp"
 #include "scene/load_scene.hpp"
 
 #include <algorithm>
@@ -30,14 +30,14 @@ TEST_F(PlaneNoise, gradient_is_that_of_differences) {
         vec3 noise = value_noise_gradient(at, ivec2(70000, -3));
         c = vec4(noise.x - value_noise(at, ivec2(70000, -3)), noise.yz, 1.0);)",
                                      {64, 48});
-    const lab::IntegerLattice lattice;
+    const fields::IntegerLattice lattice;
     const double e = 1e-5;
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x) {
             const auto [off, along_x, along_y, alpha] = floats_at(image, x, y);
             const glm::dvec2 at((x + 0.5) * 0.375 - 11.0 + 70000.0, (y + 0.5) * 0.625 - 13.0 - 3.0);
             const auto slope = [&](glm::dvec2 step) {
-                return (lab::value_noise(lattice, at + step) - lab::value_noise(lattice, at - step)) /
+                return (fields::value_noise(lattice, at + step) - fields::value_noise(lattice, at - step)) /
                        (2.0 * e);
             };
             EXPECT_NEAR(off, 0.0, 1e-7) << x << ' ' << y;

@@ -1,7 +1,7 @@
 // shaders/lib against its twins in double.
+#include "fields/lattice.hpp"
+#include "fields/value_noise.hpp"
 #include "gl_test.hpp"
-#include "lab/fields/lattice.hpp"
-#include "lab/fields/value_noise.hpp"
 #include "scene/load_scene.hpp"
 
 #include <cmath>
@@ -49,14 +49,14 @@ TEST_F(ShaderLibrary, NoiseIsThatOfTheReference) {
               std::string(k_position) + "c.rgb = vec3(value_noise(at, ivec3(0)), value_noise(at.xy, "
                                         "ivec2(0)), value_noise(at, ivec3(70000, -3, 2147483647)));",
               k_points);
-    const lab::IntegerLattice lattice;
+    const fields::IntegerLattice lattice;
     for (int y = 0; y < k_points.height; ++y)
         for (int x = 0; x < k_points.width; ++x) {
             const auto [solid, flat, far, alpha] = floats_at(image, x, y);
             const glm::dvec3 at = position(x, y);
-            EXPECT_NEAR(solid, lab::value_noise(lattice, at), 3e-7);
-            EXPECT_NEAR(flat, lab::value_noise(lattice, glm::dvec2(at)), 3e-7);
-            EXPECT_NEAR(far, lab::value_noise(lattice, at + glm::dvec3(70000, -3, 2147483647)), 3e-7);
+            EXPECT_NEAR(solid, fields::value_noise(lattice, at), 3e-7);
+            EXPECT_NEAR(flat, fields::value_noise(lattice, glm::dvec2(at)), 3e-7);
+            EXPECT_NEAR(far, fields::value_noise(lattice, at + glm::dvec3(70000, -3, 2147483647)), 3e-7);
         }
 }
 
@@ -67,7 +67,7 @@ TEST_F(ShaderLibrary, NoiseGradientIsThatOfDifferencesAndWithinItsBound) {
         "noise.glsl",
         std::string(k_position) + "c.r = value_noise_gradient(at, ivec3(0)).x - value_noise(at, ivec3(0));",
         k_points);
-    const lab::IntegerLattice lattice;
+    const fields::IntegerLattice lattice;
     const double e = 1e-6;
     for (int y = 0; y < k_points.height; ++y)
         for (int x = 0; x < k_points.width; ++x) {
@@ -78,11 +78,11 @@ TEST_F(ShaderLibrary, NoiseGradientIsThatOfDifferencesAndWithinItsBound) {
                 step[axis] = e;
                 const glm::dvec3 at = position(x, y);
                 const double slope =
-                    (lab::value_noise(lattice, at + step) - lab::value_noise(lattice, at - step)) / (2 * e);
+                    (fields::value_noise(lattice, at + step) - fields::value_noise(lattice, at - step)) / (2 * e);
                 EXPECT_NEAR(gradient[size_t(axis)], slope, 2e-6) << x << ' ' << y << ' ' << axis;
                 square += slope * slope;
             }
-            EXPECT_LE(std::sqrt(square), lab::k_value_noise_slope);
+            EXPECT_LE(std::sqrt(square), fields::k_value_noise_slope);
             EXPECT_EQ(floats_at(values, x, y)[0], 0);
         }
 }
@@ -93,7 +93,7 @@ TEST_F(ShaderLibrary, IntegerHashIsTheReferencesBitForBit) {
               "c.r = scatter(uvec4(lattice_point(vec3(floor(p) - 20.0, 0.0), ivec3(5, -7, 99))))"
               ".x * k_hash_unit;",
               k_points);
-    const lab::IntegerLattice lattice;
+    const fields::IntegerLattice lattice;
     for (int y = 0; y < k_points.height; ++y)
         for (int x = 0; x < k_points.width; ++x)
             EXPECT_EQ(floats_at(image, x, y)[0], lattice(x - 15, y - 27, 99)) << x << ' ' << y;

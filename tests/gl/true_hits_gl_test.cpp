@@ -1,6 +1,6 @@
 // What is proved of rays from a scene's own text, held against the references that were written for the
 // waters: two truths that share nothing but the scene.
-#include "lab/fields/certified_march.hpp"
+#include "fields/certified_march.hpp"
 #include "lab/march/true_hits.hpp"
 #include "waters.hpp"
 
@@ -28,11 +28,11 @@ TEST_F(Waters, FirstHitsFromTheTextAreThoseOfTheReferences) {
         EXPECT_EQ(proved->looked_at, k_few.pixels());
         EXPECT_EQ(proved->unknown, 0u) << water.scene;
         EXPECT_LT(proved->half_width, 1e-6);
-        const lab::Reference truth = reference(scene, water, inputs, k_few);
+        const fields::Reference truth = reference(scene, water, inputs, k_few);
         size_t hits = 0, others = 0;
         for (size_t i = 0; i < k_few.pixels(); ++i) {
             const glm::dvec2 place(double(i % k_few.width) + 0.5, double(i / k_few.width) + 0.5);
-            const double written = lab::certified_march(truth.field, truth.ray(place), truth.range).distance;
+            const double written = fields::certified_march(truth.field, truth.ray(place), truth.range).distance;
             const double found = proved->hits.distance[i];
             hits += written >= 0;
             others += std::abs(written - found) > 1e-5 * std::max(1.0, std::abs(written));

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "base/file.hpp"
+#include "fields/gerstner_waves_field.hpp"
+#include "fields/procedural_ocean_field.hpp"
+#include "fields/water_surface_field.hpp"
 #include "gl_test.hpp"
 #include "glsl/overrides.hpp"
-#include "lab/fields/gerstner_waves_field.hpp"
-#include "lab/fields/procedural_ocean_field.hpp"
-#include "lab/fields/water_surface_field.hpp"
 #include "scene/load_scene.hpp"
 
 #include <algorithm>
@@ -21,12 +21,12 @@ struct Water {
     const char* scene;
     int octaves;
     double wrong; ///< share of pixels that may be wrong by more than a pixel and 0.1
-    lab::MakeReference reference;
+    fields::MakeReference reference;
 };
 
-inline constexpr Water k_waters[] = {{"water_surface", 7, 0.004, lab::water_surface_reference},
-                                     {"gerstner_waves", 0, 0.006, lab::gerstner_waves_reference},
-                                     {"procedural_ocean", 3, 0.01, lab::procedural_ocean_reference}};
+inline constexpr Water k_waters[] = {{"water_surface", 7, 0.004, fields::water_surface_reference},
+                                     {"gerstner_waves", 0, 0.006, fields::gerstner_waves_reference},
+                                     {"procedural_ocean", 3, 0.01, fields::procedural_ocean_reference}};
 
 inline constexpr Extent k_small{64, 36};
 
@@ -54,8 +54,8 @@ protected:
         for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
             text.replace(at, from.size(), to);
     }
-    static lab::Reference reference(const scene::Scene& scene, const Water& water, const FrameInputs& inputs,
-                                    Extent extent, lab::Lattice3 lattice = lab::IntegerLattice{}) {
+    static fields::Reference reference(const scene::Scene& scene, const Water& water, const FrameInputs& inputs,
+                                    Extent extent, fields::Lattice3 lattice = fields::IntegerLattice{}) {
         const auto made = water.reference({.knobs = scene.knobs,
                                            .time = inputs.time,
                                            .resolution = {extent.width, extent.height},

@@ -1,8 +1,8 @@
 // The scenes of shaders/ against their mathematics in double: fields, hits of every solver, Newton's steps.
+#include "fields/certified_march.hpp"
+#include "fields/knob_reader.hpp"
+#include "fields/value_noise.hpp"
 #include "image/files/picture_file.hpp"
-#include "lab/fields/certified_march.hpp"
-#include "lab/fields/knob_reader.hpp"
-#include "lab/fields/value_noise.hpp"
 #include "lab/statistics.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/overrides.hpp"
@@ -14,8 +14,8 @@ namespace tidemark::render {
 namespace {
 
 /// What march_field is of the reference's value at this place of the ray.
-double scaled(const Water& water, const lab::Reference& reference, const scene::Scene& scene,
-              const lab::Ray& ray, double t) {
+double scaled(const Water& water, const fields::Reference& reference, const scene::Scene& scene,
+              const fields::Ray& ray, double t) {
     if (std::string_view(water.scene) == "gerstner_waves") // over the bound of its slope
         return reference.field.sample(ray.at(t), ray.direction).clearance;
     const auto step_scale = std::ranges::find(scene.knobs, "step_scale", &scene::Knob::name);
@@ -30,11 +30,11 @@ TEST_F(Waters, FieldsAreThoseOfTheReferencesAtAnyTime) {
         for (const double time : {0.0, 10.0, 1000.1, 100000.1, 1000000.3}) {
             const FrameInputs inputs = at(time, 30, 15);
             const image::Image image = frame(drawing, inputs);
-            const lab::Reference truth = reference(scene, water, inputs, k_small);
+            const fields::Reference truth = reference(scene, water, inputs, k_small);
             double worst = 0;
             for (int y = 0; y < k_small.height; y += 3)
                 for (int x = 0; x < k_small.width; x += 3) {
-                    const lab::Ray ray = truth.ray({x + 0.5, y + 0.5});
+                    const fields::Ray ray = truth.ray({x + 0.5, y + 0.5});
                     const Floats4 found = floats_at(image, x, y);
                     size_t i = 0;
                     for (const double t : {1.0, 9.0, 40.0})
@@ -51,14 +51,14 @@ struct StylizedWave {
 };
 StylizedWave stylized_wave(const scene::Scene& scene, const image::Image& ramps, const glm::dvec4& baked,
                            const glm::dvec2& at, double time) {
-    lab::KnobReader knobs(scene.knobs);
+    fields::KnobReader knobs(scene.knobs);
     const auto smoothstep = [](double low, double high, double x) {
         const double s = std::clamp((x - low) / (high - low), 0.0, 1.0);
         return s * s * (3.0 - 2.0 * s);
     };
     constexpr double k_circle = 30.0;
     const double bent =
-        knobs.number("bend") * (lab::value_noise(lab::IntegerLattice{}, 0.13 * at + 7.3) - 0.5);
+        knobs.number("bend") * (fields::value_noise(fields::IntegerLattice{}, 0.13 * at + 7.3) - 0.5);
     const double path = baked.x - knobs.number("coast_delay") * std::exp(-0.8 * baked.z);
     const double turns = path / knobs.number("wave_length") + time / knobs.number("wave_speed") + bent;
     StylizedWave wave;
@@ -120,7 +120,7 @@ TEST_F(Waters, SineHashIsTheReferencesOnTheDevicesOwnLattice) {
     ASSERT_TRUE(lattice_scene);
     Renderer lattice_drawing = renderer(*lattice_scene, {1024, 512});
     const image::Image values = frame(lattice_drawing);
-    lab::SineLattice lattice{-262144, std::vector<float>(1024 * 512)};
+    fields::SineLattice lattice{-262144, std::vector<float>(1024 * 512)};
     for (size_t i = 0; i < lattice.values.size(); ++i)
         lattice.values[i] = values.f32()[4 * i];
 
@@ -130,11 +130,11 @@ TEST_F(Waters, SineHashIsTheReferencesOnTheDevicesOwnLattice) {
     Renderer drawing = renderer(scene, k_small);
     const FrameInputs inputs = at(10, 30, 15);
     const image::Image image = frame(drawing, inputs);
-    const lab::Reference truth = reference(scene, water, inputs, k_small, lattice);
+    const fields::Reference truth = reference(scene, water, inputs, k_small, lattice);
     double worst = 0;
     for (int y = 0; y < k_small.height; y += 3)
         for (int x = 0; x < k_small.width; x += 3) {
-            const lab::Ray ray = truth.ray({x + 0.5, y + 0.5});
+            const fields::Ray ray = truth.ray({x + 0.5, y + 0.5});
             size_t i = 0;
             for (const double t : {1.0, 9.0, 20.0})
                 worst = std::max(worst,
@@ -149,7 +149,7 @@ struct Judged {
     double median = 0; ///< error of distance where both hit
 };
 
-Judged judge(const image::Image& image, const lab::Reference& truth) {
+Judged judge(const image::Image& image, const fields::Reference& truth) {
     std::vector<double> errors;
     Judged judged;
     int wrong = 0;
@@ -157,7 +157,7 @@ Judged judge(const image::Image& image, const lab::Reference& truth) {
         for (int x = 0; x < k_small.width; ++x) {
             const double found = floats_at(image, x, y)[0];
             const double t =
-                lab::certified_march(truth.field, truth.ray({x + 0.5, y + 0.5}), truth.range).distance;
+                fields::certified_march(truth.field, truth.ray({x + 0.5, y + 0.5}), truth.range).distance;
             judged.hits += t >= 0;
             if ((t < 0) != (found < 0))
                 ++wrong;

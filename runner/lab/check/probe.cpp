@@ -51,6 +51,11 @@ std::span<const Probe> all_probes() {
          "rays whose march steps over their first hit or misses it, proved from the text: intervals bound "
          "the field between the samples",
          ask_first_hit},
+        {"step_scale",
+         "by what multiple of the distance a step may be long and go past no first hit, wherever it is "
+         "taken, "
+         "proved from the text; and the longest of the march's own",
+         ask_step_scale},
         {"drift", "whether mainHit says what mainImage's own march does, recorded while it runs (mainHit)",
          ask_drift},
         {"overstep", "rays with a sample below the surface: proof that a step was too long (hits)",

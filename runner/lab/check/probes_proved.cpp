@@ -1,6 +1,8 @@
 // What is proved of a scene's rays from its text alone, without a mainHit.
 #include "base/try.hpp"
+#include "ir/step_scale.hpp"
 #include "lab/check/probes.hpp"
+#include "lab/march/march_rays.hpp"
 #include "lab/march/pass_textures.hpp"
 #include "lab/march/proved_hits.hpp"
 #include "lab/spread.hpp"
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tidemark::lab {
 namespace {
@@ -76,14 +79,22 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
     return text;
 }
 
-} // namespace
-
-Result<Answer> ask_first_hit(ProbeBench& bench) {
+/// Why nothing can be proved of its rays.
+std::optional<Answer> without_march(ProbeBench& bench) {
     const auto& function = bench.image_function();
     if (!function)
         return none("the text cannot be followed: " + function.error().message);
     if (function->loops().empty())
         return none("no loop of Image is found to march along a ray");
+    return std::nullopt;
+}
+
+} // namespace
+
+Result<Answer> ask_first_hit(ProbeBench& bench) {
+    if (auto answer = without_march(bench))
+        return *std::move(answer);
+    const auto& function = bench.image_function();
     const RayCounts counts = TRY(count(bench, *function));
     if (counts.rays == 0)
         return none("no ray comes to the loop that marches");
@@ -98,6 +109,119 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted));
     const bool wrong = percent(counts.step_over + counts.miss, counts.decided()) > k_most_wrong_percent;
     return Answer{wrong ? Verdict::warn : Verdict::pass, sentence_of(*function, counts)};
+}
+
+namespace {
+
+/// Of a ray, beside what its first hit takes.
+constexpr uint64_t k_most_for_scale = 400;
+/// A step that is as long as the distance, but for roundings.
+constexpr double k_rounded = 1.001;
+
+/// The steps of the march as multiples of the distances they were taken for.
+void add_own(ir::MarchSlice& slice, const ir::March& march, std::vector<double>& scales) {
+    for (size_t i = 0; i + 1 < march.turns.size(); ++i) {
+        const double at = slice.parameter(march.turns[i]);
+        const auto distance =
+            slice.distance(ir::Interval{at, std::nextafter(at, ir::k_infinity)}, ir::Care::close);
+        if (distance && distance->low > 0)
+            scales.push_back((slice.parameter(march.turns[i + 1]) - at) * slice.unit() / distance->low);
+    }
+}
+
+struct Scales {
+    size_t hits = 0;            ///< rays whose first hit is proved
+    std::vector<double> safe{}; ///< of those, where it is known
+    std::vector<double> own{};  ///< of all steps on those
+    ir::StepScale least{.safe = ir::k_longest_scale};
+    size_t loop = 0; ///< of that ray
+    glm::ivec2 pixel{0};
+    FrameState state{};
+
+    bool bounded() const { return 2 * safe.size() > hits; } ///< on most of them
+};
+
+/// Of one ray; what it took.
+uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& scales) {
+    ir::MarchSlice& slice = *ray.slice;
+    const double last = slice.end(ray.march);
+    if (!(last > slice.start()) || !std::isfinite(last))
+        return 0;
+    const ir::FirstHit hit = ir::first_hit(slice, last, k_most_evaluations);
+    if (hit.verdict != ir::FirstHit::Verdict::hit)
+        return slice.evaluations();
+    ++scales.hits;
+    add_own(slice, ray.march, scales.own);
+    const ir::StepScale scale = ir::step_scale(slice, hit.where, k_most_for_scale);
+    if (scale.safe > 0)
+        scales.safe.push_back(scale.safe);
+    if (scale.unsafe < scales.least.unsafe) {
+        scales.least = scale;
+        scales.loop = ray.loop;
+        scales.pixel = pixel;
+        scales.state = state;
+    }
+    return slice.evaluations();
+}
+
+Result<Scales> scales_of(ProbeBench& bench, const PassFunction& function) {
+    const size_t image = bench.scene().image_index();
+    Scales scales;
+    uint64_t left = k_most_of_all;
+    for (const double moment : k_moments) {
+        const FrameState state = state_at(moment);
+        const render::Renderer& renderer = *TRY(bench.drawn(state));
+        const MarchRays rays({function, renderer, image, render::inputs_of(state)}, ir::Surface::zero);
+        const uint64_t least_left = moment == k_moments[0] ? left / 2 : 0;
+        for (size_t i = 0; i < k_rays.pixels() && left > least_left; ++i) {
+            const glm::ivec2 pixel = pixel_of(i, renderer.extent());
+            if (auto ray = rays.enter(pixel); ray && ray->slice && !ray->march.turns.empty())
+                left -= std::min(left, add(*ray, pixel, state, scales));
+        }
+    }
+    return scales;
+}
+
+std::string scales_sentence(const Scales& scales) {
+    const size_t unknown = scales.hits - scales.safe.size();
+    std::string text;
+    if (scales.bounded())
+        text = fmt::format(
+            "steps of {:.2g} x the distance are safe on {} rays that hit, {:.2g} x on 95 % of them",
+            std::ranges::min(scales.safe), scales.safe.size(), quantile(scales.safe, 0.05));
+    if (unknown > 0)
+        text += fmt::format("{}on {} of {} rays the field cannot be bounded", text.empty() ? "" : "; ",
+                            unknown, scales.hits);
+    if (scales.least.unsafe < ir::k_longest_scale)
+        text += fmt::format("; {:.2g} x steps over the hit from {:.4g} on the ray of pixel {},{} at {:g} s",
+                            scales.least.unsafe, scales.least.at, scales.pixel.x, scales.pixel.y,
+                            scales.state.seconds());
+    return text + fmt::format("; its own steps are {:.2g} x in the median", median(scales.own));
+}
+
+} // namespace
+
+Result<Answer> ask_step_scale(ProbeBench& bench) {
+    if (auto answer = without_march(bench))
+        return *std::move(answer);
+    const auto& function = bench.image_function();
+    const auto fixed = [](const ir::MarchingLoop& loop) {
+        return loop.kind == ir::MarchingLoop::Kind::fixed_step;
+    };
+    if (std::ranges::all_of(function->loops(), fixed))
+        return none("the march goes in steps of a fixed length");
+    const Scales scales = TRY(scales_of(bench, *function));
+    if (scales.hits == 0)
+        return none("no ray is proved to come to a zero of the distance");
+    // A march that waits for a sample below the surface goes back from it.
+    const bool too_long =
+        function->loops()[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
+    if (!scales.bounded() && !too_long)
+        return none(scales_sentence(scales));
+    Answer answer{too_long ? Verdict::warn : Verdict::pass, scales_sentence(scales)};
+    if (too_long)
+        answer.where = scales.state;
+    return answer;
 }
 
 } // namespace tidemark::lab

@@ -13,8 +13,8 @@
 namespace tidemark::lab {
 namespace {
 
-/// Every so many pixels in either direction is compared with the CPU.
-constexpr int k_stride = 4;
+/// So many pixels, about, are compared with the CPU.
+constexpr double k_compared = 900;
 /// A march that takes a turn more or less ends within its threshold of the same place.
 constexpr float k_same_place = 2e-3f;
 constexpr float k_same_turns = 0.05f;
@@ -165,8 +165,9 @@ RecordingCheck check_recording(render::Renderer& plain, render::Renderer& record
     answer(recording, glsl::RecordAnswer::hit, state);
     const ir::FloatEvaluator frame = image.frame(plain, plain.scene().image_index(), inputs_of(state));
     const Extent extent = plain.extent();
-    for (int y = k_stride / 2; y < extent.height; y += k_stride)
-        for (int x = k_stride / 2; x < extent.width; x += k_stride) {
+    const int stride = std::max(1, int(std::sqrt(double(extent.pixels()) / k_compared)));
+    for (int y = stride / 2; y < extent.height; y += stride)
+        for (int x = stride / 2; x < extent.width; x += stride) {
             ir::FloatEvaluator pixel = frame;
             image.move_to(pixel, {x, y});
             const auto cpu = march_of(image, pixel);

@@ -26,10 +26,9 @@ double number_at(const Json& json, const std::string& pointer) {
 
 void compare_errors(const WorkPrecisionSet& set, const Json& before, const WorkPrecision& now,
                     Comparison& found) {
-    const double was = number_at(before, set.has_hits() ? "/all/hits/rms_t" : "/all/picture/rmse");
+    const double was = number_at(before, set.ranked_by_hits() ? "/all/hits/rms_t" : "/all/picture/rmse");
     const double is = error_of(set, now.all);
-    const double noise =
-        (set.has_hits() ? set.hit_standard.uncertainty : set.picture_standard.uncertainty).value_or(0.0);
+    const double noise = standard_of(set).uncertainty.value_or(0.0);
     if (std::isnan(was))
         found.notes.push_back(
             fmt::format("{}: its error is not compared: the baseline has no number for it", now.point.label));

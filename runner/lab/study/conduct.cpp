@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "gl/capabilities.hpp"
+#include "glsl/hit.hpp"
 #include "glsl/overrides.hpp"
 #include "lab/study/curves.hpp"
 #include "lab/study/outcome.hpp"
@@ -43,7 +44,7 @@ public:
 
     Result<Findings> run() {
         TRY(check_settings());
-        for (const auto part : {&Conductor::look, &Conductor::find_truth})
+        for (const auto part : {&Conductor::prove_hits, &Conductor::look, &Conductor::find_truth})
             TRY((this->*part)());
         hold_against_truth();
         take_sources_away();
@@ -106,7 +107,7 @@ private:
         const auto known = known_sights_.find(name);
         if (known != known_sights_.end())
             return &known->second;
-        auto specimen = Specimen::create(scene_, recipe, study().extent);
+        auto specimen = Specimen::create(scene_, recipe, study().extent, hit_source_);
         auto sight = TRY(specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error())));
         return &(known_sights_[name] = std::move(sight));
     }
@@ -123,6 +124,41 @@ private:
         return sight;
     }
 
+    /// What rays really meet, as far as the text proves it.
+    Result<void> prove_hits() {
+        watch_.begin("rays proved", 1);
+        auto proved = TRY(proved_hits(scene_, study(), [this] { return going(); }));
+        watch_.advance();
+        why_no_proof_ = std::move(proved.why_not);
+        if (!proved.truth && proved.marches && !glsl::hit_scene(scene_))
+            remark("where rays end is not measured: " + why_no_proof_);
+        if (!proved.truth)
+            return {};
+        set().hit_standard = std::move(proved.truth->standard);
+        truth_.hits = std::move(proved.truth->views);
+        truth_.footprints = std::move(proved.truth->footprints);
+        return record_hits();
+    }
+
+    /// Hits that no author tells are recorded, if there is something to hold them against.
+    Result<void> record_hits() {
+        if (glsl::hit_scene(scene_))
+            return {};
+        auto specimen =
+            Specimen::create(scene_, {{}, study().precision}, study().extent, HitSource::main_hit_or_march);
+        const auto hits = specimen ? specimen->hits(study().views.front()) : fail(specimen.error());
+        set().hits_recorded = hits.has_value();
+        if (hits) {
+            hit_source_ = HitSource::main_hit_or_march;
+            return {};
+        }
+        remark("the march of mainImage is not recorded: " + to_string(hits.error()));
+        set().hit_standard = {};
+        truth_.hits.clear();
+        truth_.footprints.clear();
+        return {};
+    }
+
     /// Draws every point on every view.
     Result<void> look() {
         watch_.begin("points drawn", set().points.size());
@@ -132,8 +168,8 @@ private:
                 point.failure = "interrupted";
                 continue;
             }
-            auto specimen =
-                Specimen::create(scene_, {point.point.settings, study().precision}, study().extent);
+            auto specimen = Specimen::create(scene_, {point.point.settings, study().precision},
+                                             study().extent, hit_source_);
             auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
             if (!sight && i == 0) // the scene as it is
                 return fail(std::move(sight.error()));
@@ -163,18 +199,10 @@ private:
             truth_.pictures = std::move(pictures->views);
             truth_.blind = std::move(pictures->blind);
         }
-        auto certified = certified_hits(scene_, study(), [this] { return going(); });
-        if (!certified)
-            return fail(std::move(certified.error()));
-        if (certified->truth) {
-            set().hit_standard = std::move(certified->truth->standard);
-            truth_.hits = std::move(certified->truth->views);
-            truth_.footprints = std::move(certified->truth->footprints);
-            truth_.references = std::move(certified->truth->references);
+        if (!truth_.hits.empty())
             check_pictures_by_hits(pictures->hits);
-        } else if (!pictures->hits.empty()) {
-            take_drawn_hits(*pictures, certified->why_not);
-        }
+        else if (!pictures->hits.empty())
+            take_drawn_hits(*pictures);
         if (study().precision != glsl::Precision::single && set().has_hits())
             allow_for_read_back(set().hit_standard);
         watch_.advance();
@@ -182,8 +210,8 @@ private:
     }
 
     /// Where no march has a proof, what the scene itself converges to.
-    void take_drawn_hits(PictureTruth& drawn, const std::string& why_no_proof) {
-        remark("no march in double holds the hits: " + why_no_proof +
+    void take_drawn_hits(PictureTruth& drawn) {
+        remark("no proof holds the hits: " + why_no_proof_ +
                (drawn.hit_standard.none.empty() ? "; they are held against the scene's own" : ""));
         if (!drawn.hit_standard.none.empty()) {
             remark("there is no truth about the hits: " + drawn.hit_standard.none);
@@ -210,7 +238,7 @@ private:
         standard.check += fmt::format("; distances are read back as floats, to {:.2g}", rounding);
     }
 
-    /// Where a march has a proof, the rays of the pictures' reference are held against it.
+    /// Where hits are proved, the rays of the pictures' reference are held against them.
     void check_pictures_by_hits(const std::vector<Hits>& hits) {
         Hits proved, drawn;
         std::vector<double> footprints;
@@ -223,9 +251,8 @@ private:
         if (hits.empty())
             return;
         const HitErrors errors = hit_errors(proved, drawn, footprints);
-        set().picture_standard.check +=
-            fmt::format("; its rays against the certified march: RMS {:.2g}, {:.2g} % wrong", errors.rms,
-                        errors.wrong_tenth);
+        set().picture_standard.check += fmt::format(
+            "; its rays against the proved hits: RMS {:.2g}, {:.2g} % wrong", errors.rms, errors.wrong_tenth);
     }
 
     void hold_against_truth() {
@@ -303,6 +330,8 @@ private:
     std::vector<Sight> sights_;
     std::map<std::string, Sight> known_sights_;
     Truth truth_;
+    std::string why_no_proof_;
+    HitSource hit_source_ = HitSource::main_hit;
     Recipe truth_recipe_; ///< of the pictures
     bool stopped_ = false;
 };

@@ -10,19 +10,18 @@
 
 namespace tidemark::lab {
 
-/// What a point shows on each view; `hits` is empty without mainHit.
+/// What a point shows on each view; `hits` is empty where they are not known.
 struct Sight {
     std::vector<image::Image> pictures;
     std::vector<Hits> hits;
 };
 
-/// The truth about each view. `hits` may be empty; `references` may be, too.
+/// The truth about each view. `hits` may be empty.
 struct Truth {
     std::vector<image::Image> pictures; ///< empty: there is no truth about them
     std::vector<PixelMask> blind;       ///< of each view: pixels that have none
     std::vector<Hits> hits;
     std::vector<std::vector<double>> footprints;
-    std::vector<Reference> references;
 };
 
 Outcome outcome_of(const Sight& sight, const Truth& truth, size_t view);

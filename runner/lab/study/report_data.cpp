@@ -62,6 +62,7 @@ const std::vector<Column>& columns() {
             hit("false_hit_percent", &HitErrors::false_hit),
             hit("wrong_0.01_percent", &HitErrors::wrong_hundredth),
             hit("wrong_0.1_percent", &HitErrors::wrong_tenth),
+            hit("wrong_0.1_percent_at_most", &HitErrors::most_wrong_tenth),
             hit("wrong_footprint_percent", &HitErrors::wrong_footprint),
             hit("exhausted_percent", &HitErrors::exhausted),
             hit("negative_sample_percent", &HitErrors::negative),
@@ -69,8 +70,6 @@ const std::vector<Column>& columns() {
             hit("evaluations_per_pixel", &HitErrors::evaluations),
             {"hits", "no_truth_pixels",
              [](const Outcome& o) { return o.hits ? double(o.hits->no_truth) : missing(); }},
-            {"hits", "normal_degrees_median",
-             [](const Outcome& o) { return o.normal_degrees.value_or(missing()); }},
             picture("rmse", [](const Metrics& m) { return m.samples.rmse; }),
             picture("psnr_db", [](const Metrics& m) { return m.samples.psnr; }),
             picture("relative_mse", [](const Metrics& m) { return m.samples.relative_mse; }),
@@ -137,8 +136,6 @@ Json standard_json(const Standard& standard) {
                  {"no_truth_pixels", standard.blind}};
     if (!standard.none.empty())
         json["none"] = standard.none;
-    if (!standard.field_hash.empty())
-        json["field_sha256"] = standard.field_hash;
     return json;
 }
 

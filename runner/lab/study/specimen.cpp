@@ -20,12 +20,15 @@ void draw(render::Renderer& renderer, const View& view) {
 
 } // namespace
 
-Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recipe, Extent extent) {
+Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recipe, Extent extent,
+                                  HitSource hits) {
     auto set = TRY(with(scene, recipe.settings));
     Specimen specimen;
     specimen.extent_ = extent;
     specimen.precision_ = recipe.precision;
     specimen.hit_scene_ = glsl::hit_scene(set);
+    if (!specimen.has_hits() && hits == HitSource::main_hit_or_march)
+        TRY(specimen.record(set));
     const Stopwatch watch;
     auto renderer = render::Renderer::create(
         std::move(set), {.extent = extent,
@@ -50,10 +53,26 @@ image::Image Specimen::picture(const View& view) {
     return image::without_alpha(renderer_->read_back());
 }
 
+Result<void> Specimen::record(const scene::Scene& set) {
+    recorded_ = TRY(PassFunction::create(set, set.image()));
+    hit_scene_ = TRY(record_hits(set, *recorded_)).scene;
+    return {};
+}
+
+/// Against the text on the CPU, which computes in float.
+Result<void> Specimen::check_recording(const View& view) {
+    if (!recorded_ || precision_ != glsl::Precision::single)
+        return {};
+    const render::FrameState state = state_of(view, extent_);
+    const std::string why = refusal_of(lab::check_recording(*renderer_, *hit_renderer_, *recorded_, state));
+    return why.empty() ? Result<void>() : fail(ErrorCode::load, why);
+}
+
 Result<Hits> Specimen::hits(const View& view) {
     if (!hit_renderer_) {
         hit_renderer_ = TRY(render::Renderer::create(
             *hit_scene_, {extent_, image::SampleType::f32, "", precision_, glsl::Specialise::unreachable}));
+        TRY(check_recording(view));
     }
     draw(*hit_renderer_, view);
     return hits_of(hit_renderer_->read_back());

@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 #include "lab/hits.hpp"
+#include "lab/march/recorded_hits.hpp"
 #include "lab/setting.hpp"
 #include "lab/study/timing.hpp"
 #include "lab/study/view.hpp"
@@ -19,15 +20,23 @@ struct Recipe {
     glsl::Precision precision = glsl::Precision::single;
 };
 
+/// Where a scene's hits come from.
+enum class HitSource {
+    main_hit,         ///< its mainHit, if it has one
+    main_hit_or_march ///< else the march of its mainImage, recorded while it runs
+};
+
 class Specimen {
 public:
-    /// Compiles the scene as a picture; its mainHit, if it has one, with the first question for it. The error
-    /// has the authors' files and lines.
-    static Result<Specimen> create(const scene::Scene& scene, const Recipe& recipe, Extent extent);
+    /// Compiles the scene as a picture; what tells its hits, if anything does, with the first question for
+    /// them. The error has the authors' files and lines.
+    static Result<Specimen> create(const scene::Scene& scene, const Recipe& recipe, Extent extent,
+                                   HitSource hits = HitSource::main_hit);
 
     /// RGB, floats. Where a frame depends on the one before it, all frames from 0 are drawn.
     image::Image picture(const View& view);
     bool has_hits() const { return hit_scene_.has_value(); }
+    /// The error says why what was recorded is not to be used.
     Result<Hits> hits(const View& view);
 
     /// One more picture of that view, from idle to idle.
@@ -43,10 +52,14 @@ public:
 private:
     Specimen() = default;
 
+    Result<void> record(const scene::Scene& set);
+    Result<void> check_recording(const View& view);
+
     Extent extent_;
     glsl::Precision precision_ = glsl::Precision::single;
     std::optional<render::Renderer> renderer_;
     std::optional<scene::Scene> hit_scene_;
+    std::optional<PassFunction> recorded_; ///< what the hits of are recorded
     std::optional<render::Renderer> hit_renderer_;
     double compile_milliseconds_ = 0;
     double first_draw_milliseconds_ = 0;

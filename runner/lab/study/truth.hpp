@@ -1,8 +1,7 @@
-// The truths of a study: what rays really meet, from a march with a proof, and what pictures converge to. A
-// context must be current.
+// The truths of a study: what rays really meet, proved from the scene's text, and what pictures converge to.
+// A context must be current.
 #pragma once
 
-#include "lab/fields/reference.hpp"
 #include "lab/hits.hpp"
 #include "lab/study/specimen.hpp"
 #include "lab/study/work_precision.hpp"
@@ -21,24 +20,17 @@ struct HitTruth {
     Standard standard;
     std::vector<Hits> views;
     std::vector<std::vector<double>> footprints; ///< width of a pixel at distance 1, one for each pixel
-    std::vector<Reference> references;           ///< of each view, where there is one in double
 };
 
-struct CertifiedHits {
-    std::optional<HitTruth> truth;
-    std::string why_not; ///< where there is none
+struct ProvedHits {
+    std::optional<HitTruth> truth{};
+    std::string why_not{}; ///< where there is none
+    bool marches = true;   ///< false: no loop is found that does
 };
 
-/// Marches the reference that was written for the text of the scene's field (lab/fields/reference.hpp), in
-/// double; where there is none, what is proved from the text itself.
-Result<CertifiedHits> certified_hits(const scene::Scene& scene, const Study& study,
-                                     const KeepGoing& keep_going);
-
-/// The first zeros of the field of the scene's own march, at those settings, which `set` has, proved from its
+/// The first zeros of the field of the scene's own march, at the study's strictest settings, proved from the
 /// text (lab/march/true_hits.hpp).
-Result<CertifiedHits> hits_proved_from_text(const scene::Scene& set, const Study& study,
-                                            const std::vector<Setting>& settings,
-                                            const KeepGoing& keep_going);
+Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going);
 
 /// The truth about the pictures, and about the hits where there is nothing better.
 struct PictureTruth {

@@ -26,7 +26,7 @@ bool keeps(const WorkPrecisionSet& set, const WorkPrecision& point) {
     // them.
     const bool distinct =
         set.hit_standard.uncertainty && *set.hit_standard.uncertainty <= 0.1 * k_wrong_distance;
-    if (set.has_hits() && !(distinct && hits && hits->wrong_tenth <= promise.most_wrong_percent))
+    if (set.ranked_by_hits() && !(distinct && hits && hits->most_wrong_tenth <= promise.most_wrong_percent))
         return false;
     return !set.has_pictures() || least_psnr(set, point) >= promise.least_psnr;
 }
@@ -43,7 +43,7 @@ const WorkPrecision* cheapest(const WorkPrecisionSet& set, Wanted wanted) {
 
 std::string promise_of(const WorkPrecisionSet& set) {
     const Promise& promise = set.study.promise;
-    return (set.has_hits() ? fmt::format("wrong <= {:g} % and ", promise.most_wrong_percent) : "") +
+    return (set.ranked_by_hits() ? fmt::format("wrong <= {:g} % and ", promise.most_wrong_percent) : "") +
            fmt::format("PSNR >= {:g} dB", promise.least_psnr);
 }
 
@@ -55,10 +55,14 @@ std::string cost_of(const WorkPrecision& point) {
                        figure(time.confidence.high));
 }
 
+std::string wrong_of(const HitErrors& hits) {
+    const std::string most =
+        hits.no_truth > 0 ? fmt::format(" (no more than {} % at 95 %)", figure(hits.most_wrong_tenth)) : "";
+    return fmt::format("{} % wrong{}, ", figure(hits.wrong_tenth), most);
+}
+
 std::string quality_of(const WorkPrecisionSet& set, const WorkPrecision& point) {
-    return (set.has_hits() && point.all.hits
-                ? fmt::format("{} % wrong, ", figure(point.all.hits->wrong_tenth))
-                : "") +
+    return (point.all.hits ? wrong_of(*point.all.hits) : "") +
            (point.hollow ? fmt::format("hollow: at least {:.1f} dB", least_psnr(set, point))
                          : fmt::format("{:.1f} dB", point.all.picture.samples.psnr));
 }

@@ -22,15 +22,15 @@ bool dominates(const WorkPrecisionSet& set, const WorkPrecision& a, const WorkPr
 } // namespace
 
 double error_of(const WorkPrecisionSet& set, const Outcome& outcome) {
-    return set.has_hits() && outcome.hits ? outcome.hits->rms : outcome.picture.samples.rmse;
+    return set.ranked_by_hits() && outcome.hits ? outcome.hits->rms : outcome.picture.samples.rmse;
 }
 
 std::string error_name(const WorkPrecisionSet& set) {
-    return set.has_hits() ? set.words.distance_error : "RMSE of the picture";
+    return set.ranked_by_hits() ? set.words.distance_error : "RMSE of the picture";
 }
 
 const Standard& standard_of(const WorkPrecisionSet& set) {
-    return set.has_hits() ? set.hit_standard : set.picture_standard;
+    return set.ranked_by_hits() ? set.hit_standard : set.picture_standard;
 }
 
 std::vector<std::string> set_names(const WorkPrecisionSet& set) {

@@ -22,9 +22,7 @@ using PixelMask = std::vector<bool>;
 struct Outcome {
     image::PictureMetrics picture; ///< over the pixels that have a truth
     size_t no_truth = 0;           ///< pixels of the picture that have none
-    std::optional<HitErrors> hits; ///< of scenes with mainHit
-    std::optional<double>
-        normal_degrees; ///< median angle between the true normals at the true and the found hit
+    std::optional<HitErrors> hits; ///< where the scene's and the true ones are known
     std::array<size_t, k_causes> causes{};
     TimeSummary wall; ///< wall clock, milliseconds a frame
     TimeSummary cpu;  ///< CPU time of the process
@@ -37,7 +35,7 @@ struct Outcome {
 /// What taking one source of error away changed.
 struct Share {
     std::string source;
-    double rms = 0;  ///< of t, world units; 0 without mainHit
+    double rms = 0;  ///< of t, world units; 0 where hits are not known
     double rmse = 0; ///< of the picture
 };
 
@@ -71,7 +69,6 @@ struct Standard {
     std::string check;                 ///< how the uncertainty was found, or why it is unknown
     std::string none{};                ///< why there is no truth after all; no error is told then
     size_t blind = 0;                  ///< pixels of all views that have no truth
-    std::string field_hash{};          ///< of a reference written for a text
 };
 
 /// A knob that changes nothing: all pictures of a curve, and where its rays end, are the same to the bit.
@@ -121,6 +118,7 @@ struct WorkPrecisionSet {
     Circumstances circumstances;
     Standard hit_standard;
     Standard picture_standard;
+    bool hits_recorded = false;        ///< by us, from mainImage: no author asked for them
     std::vector<WorkPrecision> points; ///< points_of(study), in that order
     std::vector<Setting> scene_values; ///< of every knob that a point sets: what the scene itself has
     std::vector<Setting> held;         ///< numbers of the scene that no point sets: the truth has them, too
@@ -129,9 +127,11 @@ struct WorkPrecisionSet {
 
     bool has_hits() const { return !hit_standard.method.empty(); }
     bool has_pictures() const { return !picture_standard.method.empty(); }
+    /// Where an author says what rays meet; else hits are told beside the picture.
+    bool ranked_by_hits() const { return has_hits() && !hits_recorded; }
 };
 
-/// The error that diagrams and verdicts are about: RMS of t where there are hits, else RMSE of the picture.
+/// The error that diagrams and verdicts are about: RMS of t where hits rank, else RMSE of the picture.
 double error_of(const WorkPrecisionSet& set, const Outcome& outcome);
 std::string error_name(const WorkPrecisionSet& set);
 const Standard& standard_of(const WorkPrecisionSet& set);

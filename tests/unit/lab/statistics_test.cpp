@@ -36,6 +36,13 @@ TEST(Statistics, the_interval_holds_the_true_median_in_95_of_100_cases) {
     EXPECT_NEAR(width, 2 * 1.96 * 1.2533 * 2.0 / std::sqrt(40.0), 0.3);
 }
 
+TEST(Statistics, a_share_of_a_sample_has_wilsons_bound) {
+    EXPECT_NEAR(most_of_share(0, 2576), 2.7055434 / (2576 + 2.7055434), 1e-9);
+    EXPECT_NEAR(most_of_share(5, 100), 0.09916, 5e-6); // by hand
+    EXPECT_NEAR(most_of_share(100, 100), 1, 1e-12);
+    EXPECT_EQ(most_of_share(0, 0), 1);
+}
+
 TEST(Statistics, of_few_values_there_is_no_interval) {
     const Interval interval = bootstrap_median({1, 2, 3, 4});
     EXPECT_TRUE(std::isnan(interval.low));

@@ -1,9 +1,9 @@
 // The reference of shaders/gerstner_waves.glsl: height over four Gerstner waves.
 #pragma once
 
-#include "lab/fields/reference.hpp"
+#include "fields/reference.hpp"
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 /// g(p) = p.y - height of the water that the waves have carried to (p.x, p.z), found by Newton's method to
 /// the last bits. With S the sum of the waves' steepness, S < 1,
@@ -13,4 +13,4 @@ namespace tidemark::lab {
 /// |w| <= S sqrt(1 + |w|^2)).
 Result<Reference> gerstner_waves_reference(const ReferenceInputs& inputs);
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -1,8 +1,8 @@
-#include "lab/fields/procedural_ocean_field.hpp"
+#include "fields/procedural_ocean_field.hpp"
 
-#include "lab/fields/knob_reader.hpp"
-#include "lab/fields/mouse_camera.hpp"
-#include "lab/fields/value_noise.hpp"
+#include "fields/knob_reader.hpp"
+#include "fields/mouse_camera.hpp"
+#include "fields/value_noise.hpp"
 
 #include <glm/mat2x2.hpp>
 
@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 struct Octave {
@@ -117,4 +117,4 @@ Result<Reference> procedural_ocean_reference(const ReferenceInputs& inputs) {
     return Reference{field_of(octaves), std::move(ray), range};
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

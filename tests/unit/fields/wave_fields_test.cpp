@@ -1,9 +1,8 @@
 // The fields of gerstner_waves and procedural_ocean against their own bounds and against geometry.
 #include "dense_march.hpp"
+#include "fields/gerstner_waves_field.hpp"
+#include "fields/procedural_ocean_field.hpp"
 #include "glsl/overrides.hpp"
-#include "lab/fields/field_text.hpp"
-#include "lab/fields/gerstner_waves_field.hpp"
-#include "lab/fields/procedural_ocean_field.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/overrides.hpp"
 #include "scene/scene.hpp"
@@ -14,7 +13,7 @@
 #include <cmath>
 #include <random>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 struct Waves {
@@ -132,4 +131,4 @@ TEST(GerstnerWavesField, HasTheBoundsThatAreProvedByHand) {
 }
 
 } // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::fields

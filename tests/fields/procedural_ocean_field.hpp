@@ -1,9 +1,9 @@
 // The reference of shaders/procedural_ocean.glsl: height over ridged octaves that run against each other.
 #pragma once
 
-#include "lab/fields/reference.hpp"
+#include "fields/reference.hpp"
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 /// g(p) = p.y - the sum of the coarse octaves at (p.x, p.z). Octave k, run both ways, has
 ///     0 <= height <= 2 a_k
@@ -13,4 +13,4 @@ namespace tidemark::lab {
 /// bounds. `inputs.octaves` are those of the shape (MARCH_OCTAVES); the sine lattice is not for this scene.
 Result<Reference> procedural_ocean_reference(const ReferenceInputs& inputs);
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

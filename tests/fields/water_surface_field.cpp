@@ -1,15 +1,15 @@
-#include "lab/fields/water_surface_field.hpp"
+#include "fields/water_surface_field.hpp"
 
-#include "lab/fields/knob_reader.hpp"
-#include "lab/fields/mouse_camera.hpp"
-#include "lab/fields/value_noise.hpp"
+#include "fields/knob_reader.hpp"
+#include "fields/mouse_camera.hpp"
+#include "fields/value_noise.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 constexpr int k_most_octaves = 12;
@@ -143,4 +143,4 @@ Result<Reference> water_surface_reference(const ReferenceInputs& inputs) {
     return Reference{field_of(std::move(sea)), std::move(ray), range};
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 struct Ray {
     glm::dvec3 origin;
@@ -38,4 +38,4 @@ struct RayRange {
     double far;
 };
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -1,11 +1,11 @@
-#include "lab/fields/certified_march.hpp"
+#include "fields/certified_march.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 /// A ball of radius 1 under a lid at y = 1: distance is exact, so is the clearance.
@@ -75,4 +75,4 @@ TEST(ClipToSlab, KeepsOnlyWhereAZeroCanBe) {
 }
 
 } // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::fields

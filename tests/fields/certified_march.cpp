@@ -1,9 +1,9 @@
-#include "lab/fields/certified_march.hpp"
+#include "fields/certified_march.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 /// Where the field changes its sign between `outside` (>= 0) and `inside` (< 0), to the last bits.
@@ -62,4 +62,4 @@ CertifiedHit certified_march(const Field& field, const Ray& ray, RayRange range,
     return hit;
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

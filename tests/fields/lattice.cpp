@@ -1,8 +1,8 @@
-#include "lab/fields/lattice.hpp"
+#include "fields/lattice.hpp"
 
 #include <limits>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 double IntegerLattice::operator()(int64_t x, int64_t y, int64_t z) const {
     uint32_t point = uint32_t(x) * 3518319155U + uint32_t(y) * 2882110345U + uint32_t(z) * 2360945575U;
@@ -17,4 +17,4 @@ double SineLattice::operator()(int64_t x, int64_t y, int64_t z) const {
     return double(values[std::size_t(index)]);
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

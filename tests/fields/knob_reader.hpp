@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 /// Reads knobs one by one and remembers the first that is not there or not to be had; ask `error()` once at
 /// the end.
@@ -36,4 +36,4 @@ private:
     std::optional<Error> error_;
 };
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -1,10 +1,10 @@
-#include "lab/fields/knob_reader.hpp"
+#include "fields/knob_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 scene::KnobValue KnobReader::value(std::string_view name) {
     const auto knob = std::ranges::find(knobs_, name, &scene::Knob::name);
@@ -45,4 +45,4 @@ glm::dvec4 KnobReader::quadruple(std::string_view name) {
     return {float(v[0]), float(v[1]), float(v[2]), float(v[3])};
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -1,11 +1,11 @@
 // The march with a proof against one in small steps, for the tests of the fields.
 #pragma once
 
-#include "lab/fields/certified_march.hpp"
+#include "fields/certified_march.hpp"
 
 #include <gtest/gtest.h>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 /// Expects the two to agree on one ray; whether they meet something. A dense march may step over a crest,
 /// never the other way round.
@@ -24,4 +24,4 @@ inline bool expect_as_dense(const Field& field, const Ray& ray, RayRange range, 
     return true;
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

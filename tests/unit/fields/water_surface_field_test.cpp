@@ -1,5 +1,5 @@
 #include "dense_march.hpp"
-#include "lab/fields/water_surface_field.hpp"
+#include "fields/water_surface_field.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/overrides.hpp"
 #include "scene/scene.hpp"
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 class WaterSurfaceField : public testing::Test {
@@ -125,4 +125,4 @@ TEST_F(WaterSurfaceField, SaysWhichKnobIsMissing) {
 }
 
 } // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -1,7 +1,7 @@
-#include "lab/fields/gerstner_waves_field.hpp"
+#include "fields/gerstner_waves_field.hpp"
 
-#include "lab/fields/knob_reader.hpp"
-#include "lab/fields/mouse_camera.hpp"
+#include "fields/knob_reader.hpp"
+#include "fields/mouse_camera.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 struct Train {
@@ -108,4 +108,4 @@ Result<Reference> gerstner_waves_reference(const ReferenceInputs& inputs) {
     return Reference{field_of(trains), std::move(ray), range};
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

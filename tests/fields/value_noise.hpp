@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 /// |gradient| of value noise over lattice values 0..1: 3/2, reached in the middle of a face of the lattice
 /// whose sides are 0 and 1 (the norm is convex in the corners' values, so its largest value has corners of 0
@@ -43,4 +43,4 @@ double value_noise(const Lattice& lattice, const glm::dvec2& position) {
     return glm::mix(edge(0), edge(1), part.y);
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

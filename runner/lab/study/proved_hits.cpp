@@ -1,5 +1,6 @@
 #include "base/try.hpp"
 #include "lab/march/true_hits.hpp"
+#include "lab/study/stricter.hpp"
 #include "lab/study/truth.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +12,10 @@ namespace tidemark::lab {
 namespace {
 
 /// Of each core, for all views.
-constexpr double k_seconds = 10;
+constexpr double k_seconds = 20;
 
-CertifiedHits none(std::string why) {
-    return {{}, std::move(why)};
+ProvedHits none(std::string why) {
+    return {.why_not = std::move(why)};
 }
 
 Standard standard_of(const PassFunction& function, const std::vector<Setting>& settings,
@@ -22,8 +23,9 @@ Standard standard_of(const PassFunction& function, const std::vector<Setting>& s
     const SourceLocation where = function.locate(function.loops().front().line);
     Standard standard;
     standard.method = fmt::format(
-        "first zeros of the distance that {}:{} tests{}, proved from the text by interval "
+        "{} the distance that {}:{} tests{}, proved from the text by interval "
         "arithmetic on every piece of a ray, in real arithmetic on rays set up in double",
+        views.front().surface == ir::Surface::zero ? "first zeros of" : "first places below the threshold of",
         where.file, where.line, settings.empty() ? "" : fmt::format(" with {}", to_string(settings)));
     double squares = 0;
     size_t looked_at = 0, unknown = 0;
@@ -42,15 +44,15 @@ Standard standard_of(const PassFunction& function, const std::vector<Setting>& s
 
 } // namespace
 
-Result<CertifiedHits> hits_proved_from_text(const scene::Scene& set, const Study& study,
-                                            const std::vector<Setting>& settings,
-                                            const KeepGoing& keep_going) {
+Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going) {
+    const std::vector<Setting> settings = strictest(study, 0);
+    const scene::Scene set = TRY(with(scene, settings));
     const size_t image = set.image_index();
     const auto function = PassFunction::create(set, set.passes[image]);
     if (!function)
         return none("the text cannot be followed: " + function.error().message);
     if (function->loops().empty())
-        return none("no loop of Image is found to march along a ray");
+        return ProvedHits{{}, "no loop of Image is found to march along a ray", false};
     auto renderer =
         TRY(render::Renderer::create(set, {.extent = study.extent, .samples = image::SampleType::f32}));
     std::vector<TrueHits> views;
@@ -70,7 +72,7 @@ Result<CertifiedHits> hits_proved_from_text(const scene::Scene& set, const Study
         views.push_back(*std::move(hits));
     }
     truth.standard = standard_of(*function, settings, views);
-    return CertifiedHits{std::move(truth), {}};
+    return ProvedHits{.truth = std::move(truth)};
 }
 
 } // namespace tidemark::lab

@@ -2,9 +2,9 @@
 // slope derived from the knobs.
 #pragma once
 
-#include "lab/fields/reference.hpp"
+#include "fields/reference.hpp"
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 /// g(p) = y + crests(p) + bob(x), positive above the water: the scene's field before its step_scale.
 ///
@@ -15,4 +15,4 @@ namespace tidemark::lab {
 /// and every partial sum of octaves is a lower bound of g: the clearance is the best of them all.
 Result<Reference> water_surface_reference(const ReferenceInputs& inputs);
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 /// `integer_hash` of shaders/lib/hash.glsl, 0 <= value < 1, of points taken modulo 2^32.
 struct IntegerLattice {
@@ -27,4 +27,4 @@ struct SineLattice {
 
 using Lattice3 = std::variant<IntegerLattice, SineLattice>;
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -1,8 +1,8 @@
 // The document's own march of the water surface, in double, on the lattice that libm's sine makes. An
 // independent program computed the same picture (its own field, its own march with a proof, 320x180, iTime
 // 10, mouse at (.75, .4)): these are its figures. What a device shows differs from them by its lattice alone.
-#include "lab/fields/certified_march.hpp"
-#include "lab/fields/water_surface_field.hpp"
+#include "fields/certified_march.hpp"
+#include "fields/water_surface_field.hpp"
 #include "lab/hits.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 namespace {
 
 constexpr Extent k_extent{320, 180};
@@ -62,8 +62,8 @@ Found sphere_trace(const Reference& reference, const Ray& ray, int most_steps, d
 
 /// The same for every pixel of the view.
 template <class March>
-Hits hits_of_view(const Reference& reference, March march) {
-    Hits hits;
+lab::Hits hits_of_view(const Reference& reference, March march) {
+    lab::Hits hits;
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
             const auto [distance, samples] = march(reference.ray({x + 0.5, y + 0.5}));
@@ -76,24 +76,24 @@ Hits hits_of_view(const Reference& reference, March march) {
 
 TEST(DocumentMarch, HasTheErrorsOfAnIndependentProgram) {
     const Reference reference = typical_view();
-    const Hits truth = hits_of_view(reference, [&](const Ray& ray) {
+    const lab::Hits truth = hits_of_view(reference, [&](const Ray& ray) {
         const CertifiedHit hit = certified_march(reference.field, ray, reference.range);
         return Found{hit.distance, hit.samples};
     });
     const std::vector<double> footprint(truth.size(), 1.0 / k_extent.height);
     const auto errors = [&](int most_steps, double touching) {
-        return hit_errors(
+        return lab::hit_errors(
             truth,
             hits_of_view(reference,
                          [&](const Ray& ray) { return sphere_trace(reference, ray, most_steps, touching); }),
             footprint);
     };
-    const HitErrors usual = errors(128, 1e-4);
+    const lab::HitErrors usual = errors(128, 1e-4);
     EXPECT_NEAR(usual.rms, 0.108, 0.0005);
     EXPECT_NEAR(usual.wrong_tenth, 0.196, 0.001);
     EXPECT_NEAR(usual.evaluations, 35.7, 0.2);
 
-    const HitErrors strict = errors(1024, 1e-5);
+    const lab::HitErrors strict = errors(1024, 1e-5);
     EXPECT_NEAR(strict.rms, 0.000311, 0.000001);
     EXPECT_EQ(strict.wrong_tenth, 0);
     EXPECT_EQ(strict.rms_right, strict.rms);
@@ -101,4 +101,4 @@ TEST(DocumentMarch, HasTheErrorsOfAnIndependentProgram) {
 }
 
 } // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::fields

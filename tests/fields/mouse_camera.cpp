@@ -1,4 +1,4 @@
-#include "lab/fields/mouse_camera.hpp"
+#include "fields/mouse_camera.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const ReferenceInputs& inputs) {
     const glm::dvec3 position = knobs.triple("camera_position");
@@ -32,4 +32,4 @@ std::function<Ray(const glm::dvec2&)> mouse_camera(KnobReader& knobs, const Refe
     };
 }
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -3,9 +3,9 @@
 // below zero that is shorter than `shortest_step`, where a ray all but touches the surface.
 #pragma once
 
-#include "lab/fields/field.hpp"
+#include "fields/field.hpp"
 
-namespace tidemark::lab {
+namespace tidemark::fields {
 
 struct CertifiedHit {
     double distance; ///< along the ray; -1: no zero in the range; NaN: the field was not a number on the way
@@ -25,4 +25,4 @@ CertifiedHit certified_march(const Field& field, const Ray& ray, RayRange range,
 /// (near > far) when the ray misses that slab. A ray that begins below the slab keeps its beginning.
 RayRange clip_to_slab(const Field& field, const Ray& ray, RayRange range);
 
-} // namespace tidemark::lab
+} // namespace tidemark::fields

@@ -1,0 +1,111 @@
+#include "ir/step_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace tidemark::ir {
+namespace {
+
+constexpr size_t k_first_pieces = 8;
+/// What is safe and what is not are told apart to that.
+constexpr double k_close_enough = 1.05;
+/// Of the way to the hit: over longer pieces too many ways are open for a close look.
+constexpr double k_looked_at = 1.0 / 64;
+/// The last piece begins so much nearer to the hit each time that it is cut.
+constexpr double k_nearer = 1.0 / 8;
+
+/// A piece of the ray in front of the hit, and the scale that is safe from all of its places.
+struct Piece {
+    double low, high;
+    double safe;
+
+    bool operator<(const Piece& other) const { return safe > other.safe; } // the least is on top
+};
+
+class Search {
+public:
+    Search(MarchSlice& slice, const Interval& hit, uint64_t most)
+        : slice_(slice), hit_(hit), last_(slice.evaluations() + most), way_(hit.low - slice.start()) {}
+
+    StepScale run() {
+        for (size_t i = 0; i < k_first_pieces; ++i)
+            look_at(slice_.start() + way_ * double(i) / k_first_pieces,
+                    i + 1 == k_first_pieces ? hit_.low
+                                            : slice_.start() + way_ * double(i + 1) / k_first_pieces);
+        while (!pieces_.empty() && slice_.evaluations() < last_ && is_open(pieces_.top())) {
+            const Piece worst = pieces_.top();
+            pieces_.pop();
+            const double middle = cut(worst);
+            look_at(worst.low, middle);
+            look_at(middle, worst.high);
+        }
+        found_.safe = pieces_.empty() ? k_longest_scale : std::min(pieces_.top().safe, k_longest_scale);
+        return found_;
+    }
+
+private:
+    bool is_open(const Piece& piece) const {
+        return piece.safe < k_longest_scale && piece.safe * k_close_enough < found_.unsafe &&
+               piece.high - piece.low > 1e-12 * std::abs(piece.high);
+    }
+
+    /// In the middle as the hit sees it: half as many times nearer.
+    double cut(const Piece& piece) const {
+        const double far = hit_.low - piece.low, near = hit_.low - piece.high;
+        return hit_.low - (near > 0 ? std::sqrt(far * near) : far * k_nearer);
+    }
+
+    void look_at(double low, double high) {
+        sample(low);
+        const Interval piece{low, high};
+        const Care care = high - low < way_ * k_looked_at ? Care::close : Care::quick;
+        const auto above = slice_.above_threshold(piece, care);
+        if (above && !(above->partial || above->high > 0))
+            return; // the march stops here
+        if (above)
+            pieces_.push({low, high, std::max(by_bounds(piece, care), by_slope(piece))});
+    }
+
+    double by_bounds(const Interval& piece, Care care) {
+        const auto distance = slice_.distance(piece, care);
+        if (!distance)
+            return k_infinity;
+        return distance->partial || !(distance->high > 0) ? 0 : (hit_.low - piece.high) / distance->high;
+    }
+
+    /// By the mean value theorem: the distance is at most so many times the way to its zero.
+    double by_slope(const Interval& piece) {
+        const auto tangent = slice_.tangent({piece.low, hit_.high});
+        if (!tangent)
+            return 0;
+        return tangent->slope.low < 0 ? -1 / tangent->slope.low : k_infinity;
+    }
+
+    void sample(double at) {
+        const auto distance = slice_.distance({at, std::nextafter(at, k_infinity)}, Care::close);
+        const auto above = slice_.above_threshold({at, std::nextafter(at, k_infinity)}, Care::close);
+        if (!distance || !above || distance->partial || !(above->low > 0) || !(distance->low > 0))
+            return;
+        const double needed = (hit_.high - at) / distance->low;
+        if (needed < found_.unsafe) {
+            found_.unsafe = needed;
+            found_.at = at;
+        }
+    }
+
+    MarchSlice& slice_;
+    Interval hit_;
+    uint64_t last_;
+    double way_;
+    StepScale found_;
+    std::priority_queue<Piece> pieces_;
+};
+
+} // namespace
+
+StepScale step_scale(MarchSlice& slice, const Interval& hit, uint64_t most_evaluations) {
+    return Search(slice, hit, most_evaluations).run();
+}
+
+} // namespace tidemark::ir

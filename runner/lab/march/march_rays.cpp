@@ -1,0 +1,40 @@
+#include "lab/march/march_rays.hpp"
+
+#include "lab/march/pass_textures.hpp"
+
+#include <utility>
+
+namespace tidemark::lab {
+
+MarchRays::MarchRays(DrawnPass drawn, ir::Surface surface)
+    : drawn_(std::move(drawn)), surface_(surface), textures_(textures_of(drawn_.renderer, drawn_.pass)),
+      floats_(drawn_.function.frame<float>(drawn_.renderer, drawn_.pass, drawn_.inputs)),
+      doubles_(drawn_.function.frame<double>(drawn_.renderer, drawn_.pass, drawn_.inputs)) {
+    floats_.textures = ir::textures_in<ir::Point<float>>(textures_);
+    doubles_.textures = ir::textures_in<ir::Point<double>>(textures_);
+}
+
+std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel) const {
+    const PassFunction& function = drawn_.function;
+    ir::FloatEvaluator in_float = floats_;
+    ir::PointEvaluator<double> in_double = doubles_;
+    function.move_to(in_float, pixel);
+    function.move_to(in_double, pixel);
+    const auto index = ir::enter_first(in_float, function.loops());
+    const bool both = index == ir::enter_first(in_double, function.loops());
+    if (!index && both)
+        return std::nullopt;
+    MarchRay ray;
+    if (!index || !both)
+        return ray;
+    ray.loop = *index;
+    const ir::MarchingLoop& loop = function.loops()[*index];
+    const ir::FloatEvaluator entered = in_float;
+    ray.march = ir::follow(in_float, function.function(), loop);
+    if (ir::is_faithful(loop, entered, ray.march))
+        ray.slice.emplace(function.function(), loop, in_double, ir::textures_in<ir::Interval>(textures_),
+                          surface_);
+    return ray;
+}
+
+} // namespace tidemark::lab
