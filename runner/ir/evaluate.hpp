@@ -73,6 +73,9 @@ public:
     std::vector<Number>& memory() { return memory_; }
     const std::vector<Number>& memory() const { return memory_; }
 
+    /// Instructions of the last run.
+    uint64_t steps() const { return steps_; }
+
     void unpin() { pinned_.clear(); }
     /// Whatever the text computes there, it is this number.
     void pin(Value at, const Number& number) {
@@ -92,21 +95,21 @@ public:
     template <class Visit>
     Ended run(Decisions& decisions, Visit visit, uint32_t block = 0, uint32_t from = 0) {
         decisions.begin();
-        uint64_t steps = 0;
+        steps_ = 0;
         while (true) {
             const Block& here = function_->blocks[block];
             enter(block, from);
             for (uint32_t i = here.first; i < here.last; ++i)
                 if (!is_pinned(i))
                     execute(i, decisions);
-            steps += here.last - here.first + 1;
+            steps_ += here.last - here.first + 1;
             if (decisions.exhausted())
                 return Ended::undecided;
             if (!visit(block))
                 return Ended::stopped;
             if (here.end == Block::End::leave || here.end == Block::End::discard)
                 return here.end == Block::End::leave ? Ended::left : Ended::discarded;
-            if (steps > most_steps)
+            if (steps_ > most_steps)
                 return Ended::too_long;
             from = std::exchange(block, here.successors[way(here, decisions)]);
         }
@@ -222,6 +225,7 @@ private:
     std::vector<Number> values_, memory_;
     std::vector<Number> entering_;
     std::vector<bool> pinned_; ///< empty: none
+    uint64_t steps_ = 0;
 };
 
 } // namespace tidemark::ir

@@ -12,6 +12,8 @@ constexpr size_t k_most_decisions = 14;
 constexpr int k_few_ways = 32;
 constexpr int k_many_ways = 2048;
 constexpr uint64_t k_most_steps = 2'000'000;
+/// Instructions that count as one run: a field of seven octaves has a thousand.
+constexpr uint64_t k_long_run = 20'000;
 
 /// From the loop's entry to the test that looks at the distance of the first turn, which is at those
 /// `places`: stopped where it has come to that. The next turn, if it is that one's, goes on as the text does.
@@ -102,9 +104,9 @@ template <class System>
 std::optional<typename System::Value> MarchSlice::run(Over<System>& over,
                                                       const std::vector<typename System::Value>& places,
                                                       Decisions& decisions, Surface surface) {
-    ++evaluations_;
     over.evaluator.memory() = over.memory;
     const Ended ended = run_to_test(over.evaluator, *loop_, places, decisions);
+    evaluations_ += 1 + over.evaluator.steps() / k_long_run;
     if (ended == Ended::left || ended == Ended::discarded)
         return std::nullopt;
     if (ended != Ended::stopped)

@@ -70,7 +70,7 @@ public:
     /// Of what `distance` gives: no place of the piece is a hit; every one is.
     bool excludes_hit(const std::optional<Interval>& distance) const;
     bool is_hit(const std::optional<Interval>& distance) const;
-    /// Runs of the loop's turn so far.
+    /// Runs of the loop's turn so far; a very long one counts as several.
     uint64_t evaluations() const { return evaluations_; }
 
 private:
