@@ -99,6 +99,17 @@ class Check(ProgramTest):
                 self.assertGreater(float(said[1]), 0.85 * scale)
                 self.assertAlmostEqual(float(said[2]), scale, delta=0.06 * scale)
 
+    def test_that_no_nan_can_arise_is_proved(self):
+        bump = "#iUniform float bump = 0.5 in { 0.0, 1.0 }\n"
+        for text, verdict, found in (
+                (bump + SOUND.replace("0.5 + 0.5 * sin(iTime)", "sqrt(bump + sin(iTime) + 1.001)"), "pass", "^no operation can leave its domain"),
+                (bump + SOUND.replace("0.5 + 0.5 * sin(iTime)", "sqrt(bump + sin(iTime))"), "n/a",
+                 r"^not excluded: \S*proof.glsl:2: sqrt of \[-1, 2\]$"),
+                (SOUND.replace("p / iResolution.xy", "texture(iChannel0, p).xy / length(p - 32.0)"), "n/a", "a division by")):
+            entry = self.verdicts(self.write("proof.glsl", text), "--probe", "no_nan")["no_nan"]
+            self.assertEqual(entry["verdict"], verdict, entry["found"])
+            self.assertRegex(entry["found"], found)
+
     def test_rays_are_recorded_where_no_main_hit_says_what_they_meet(self):
         """The march's own faults, and the probes that answer of a sound one."""
         for step, turns, probe, found in (

@@ -1,9 +1,10 @@
-// Any text as a function in SSA form: compiled, evaluated in float, in intervals and with slopes. It ends, and
-// what intervals say of a ray holds for the floats on it.
+// Any text as a function in SSA form: compiled, evaluated in float, in intervals and with slopes. It ends,
+// and what intervals say of a ray holds for the floats on it.
 #include "fuzz.hpp"
 #include "ir/first_hit.hpp"
 #include "ir/spirv.hpp"
 #include "ir/step_scale.hpp"
+#include "ir/value_ranges.hpp"
 
 #include <cmath>
 #include <string>
@@ -36,6 +37,39 @@ void look_along(const ir::Function& function, const std::vector<ir::MarchingLoop
         REQUIRE(ir::step_scale(slice, hit.where, k_most_evaluations).safe >= 0);
 }
 
+void set_x(const ir::Function& function, auto& memory, auto x) {
+    if (const ir::Variable* place = function.find("gl_FragCoord"))
+        memory[place->first] = x;
+}
+
+/// What a pixel has in float lies within the ranges of all pixels.
+void look_at_ranges(const ir::Function& function) {
+    std::vector<ir::Interval> memory(function.cells.size());
+    set_x(function, memory, ir::Interval{0.5, 80.5});
+    const auto black = [](const ir::Lookup&, std::span<const ir::Interval>) { return ir::Interval{0, 0}; };
+    const ir::ValueRanges ranges = ir::value_ranges(function, memory, black);
+    const ir::Variable* color = function.find("color");
+    if (!ranges.settled || !color)
+        return;
+    for (const float x : {0.5f, 1.5f, 33.5f, 80.5f}) {
+        ir::FloatEvaluator pixel(function);
+        pixel.most_steps = k_most_steps;
+        pixel.textures = [](const ir::Lookup&, std::span<const ir::Point<float>>) {
+            return ir::Point<float>{};
+        };
+        pixel.derivative = [](ir::Op, ir::Value) { return ir::Point<float>{}; };
+        set_x(function, pixel.memory(), ir::Point<float>{x, 0});
+        ir::Decisions none(0);
+        if (pixel.run(none, [](uint32_t) { return true; }) != ir::Ended::left)
+            continue;
+        for (uint32_t cell = color->first; cell < color->first + color->size; ++cell) {
+            const float found = pixel.memory()[cell].real;
+            REQUIRE(ranges.partial[cell] || std::isinf(found) || ranges.memory[cell].contains(found) ||
+                    ranges.memory[cell].high > 1e37 || ranges.memory[cell].low < -1e37);
+        }
+    }
+}
+
 } // namespace
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -49,6 +83,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         REQUIRE(!function.error().message.empty());
         return 0;
     }
+    look_at_ranges(*function);
     const auto loops = ir::find_marching_loops(*function);
     for (const float x : {0.5f, 80.5f}) {
         ir::FloatEvaluator pixel(*function);

@@ -26,6 +26,11 @@ std::span<const Probe> all_probes() {
          "NaN or infinity in any pass in the first 600 frames, drawn one after the other (a pass that reads "
          "what it drew)",
          ask_frames},
+        {"no_nan",
+         "whether any operation can leave its domain, in all pixels, over a span of time and the knobs' "
+         "ranges "
+         "at once: value ranges from the text",
+         ask_no_nan},
         {"mouse", "NaN or infinity with the mouse in corners, at edges, outside, pressed, dragged, released",
          ask_mouse},
         {"sizes", "NaN or infinity at 1x1, 1x64, 64x1, odd sizes and the widest the driver has", ask_sizes},

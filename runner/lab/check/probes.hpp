@@ -13,6 +13,9 @@ Result<Answer> ask_sizes(ProbeBench& bench);
 Result<Answer> ask_knobs(ProbeBench& bench);
 Result<Answer> ask_search(ProbeBench& bench);
 
+// probes_no_nan.cpp
+Result<Answer> ask_no_nan(ProbeBench& bench);
+
 // probes_inputs.cpp
 Result<Answer> ask_inputs(ProbeBench& bench);
 
