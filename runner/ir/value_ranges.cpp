@@ -118,6 +118,7 @@ public:
         }
         phase_ = Phase::doubting;
         forget_doubts();
+        sweep(); // phis look at what the sweep before has left
         return settles() ? result() : ValueRanges{};
     }
 

@@ -42,10 +42,10 @@ struct HitErrors {
     // Parts of these pixels, percent
     double false_miss = 0;
     double false_hit = 0;
-    double wrong_hundredth = 0; ///< false miss or hit, no answer, or off by more than 0.01
-    double wrong_tenth = 0;     ///< by more than 0.1
+    double wrong_hundredth = 0;  ///< false miss or hit, no answer, or off by more than 0.01
+    double wrong_tenth = 0;      ///< by more than 0.1
     double most_wrong_tenth = 0; ///< in 95 of 100 cases, where the others are not known
-    double wrong_footprint = 0; ///< by more than the width of a pixel there
+    double wrong_footprint = 0;  ///< by more than the width of a pixel there
     double no_answer = 0;
     // Of all pixels
     double exhausted = 0;

@@ -99,6 +99,14 @@ class Check(ProgramTest):
                 self.assertGreater(float(said[1]), 0.85 * scale)
                 self.assertAlmostEqual(float(said[2]), scale, delta=0.06 * scale)
 
+    def test_the_far_plane_is_the_definition_that_limits_the_march(self):
+        text = "#define REACH 9.0\n" + MARCH.replace("t > 9.0", "t > REACH").replace("max(d, 0.4)", "d")
+        entry = self.verdicts(self.write("march.glsl", text), "--probe", "far")["far"]
+        self.assertEqual(entry["verdict"], "pass", entry["found"])
+        self.assertRegex(entry["found"], "^0 % of the rays hit something else before the far plane")
+        entry = self.verdicts(self.write("march.glsl", "#define OTHER 9.0\n" + text), "--probe", "far")["far"]
+        self.assertEqual(entry["verdict"], "n/a")
+
     def test_that_no_nan_can_arise_is_proved(self):
         bump = "#iUniform float bump = 0.5 in { 0.0, 1.0 }\n"
         for text, verdict, found in (

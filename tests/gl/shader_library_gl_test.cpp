@@ -78,7 +78,8 @@ TEST_F(ShaderLibrary, NoiseGradientIsThatOfDifferencesAndWithinItsBound) {
                 step[axis] = e;
                 const glm::dvec3 at = position(x, y);
                 const double slope =
-                    (fields::value_noise(lattice, at + step) - fields::value_noise(lattice, at - step)) / (2 * e);
+                    (fields::value_noise(lattice, at + step) - fields::value_noise(lattice, at - step)) /
+                    (2 * e);
                 EXPECT_NEAR(gradient[size_t(axis)], slope, 2e-6) << x << ' ' << y << ' ' << axis;
                 square += slope * slope;
             }

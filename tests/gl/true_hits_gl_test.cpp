@@ -32,7 +32,8 @@ TEST_F(Waters, FirstHitsFromTheTextAreThoseOfTheReferences) {
         size_t hits = 0, others = 0;
         for (size_t i = 0; i < k_few.pixels(); ++i) {
             const glm::dvec2 place(double(i % k_few.width) + 0.5, double(i / k_few.width) + 0.5);
-            const double written = fields::certified_march(truth.field, truth.ray(place), truth.range).distance;
+            const double written =
+                fields::certified_march(truth.field, truth.ray(place), truth.range).distance;
             const double found = proved->hits.distance[i];
             hits += written >= 0;
             others += std::abs(written - found) > 1e-5 * std::max(1.0, std::abs(written));

@@ -54,8 +54,9 @@ protected:
         for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
             text.replace(at, from.size(), to);
     }
-    static fields::Reference reference(const scene::Scene& scene, const Water& water, const FrameInputs& inputs,
-                                    Extent extent, fields::Lattice3 lattice = fields::IntegerLattice{}) {
+    static fields::Reference reference(const scene::Scene& scene, const Water& water,
+                                       const FrameInputs& inputs, Extent extent,
+                                       fields::Lattice3 lattice = fields::IntegerLattice{}) {
         const auto made = water.reference({.knobs = scene.knobs,
                                            .time = inputs.time,
                                            .resolution = {extent.width, extent.height},

@@ -9,18 +9,22 @@
 
 namespace tidemark::lab {
 
-std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene,
-                                           std::initializer_list<std::string_view> words) {
+std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene) {
     std::vector<DefinedNumber> numbers;
     for (const std::string& name : glsl::definition_names(scene)) {
-        if (!speaks_of(name, words))
-            continue;
         const std::string text = glsl::definition_of(scene, name).value_or("");
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error == std::errc{} && end == text.data() + text.size())
             numbers.push_back({name, value, text.find_first_of(".eE") == text.npos});
     }
+    return numbers;
+}
+
+std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene,
+                                           std::initializer_list<std::string_view> words) {
+    std::vector<DefinedNumber> numbers = defined_numbers(scene);
+    std::erase_if(numbers, [&](const DefinedNumber& each) { return !speaks_of(each.name, words); });
     return numbers;
 }
 

@@ -17,7 +17,9 @@ struct DefinedNumber {
     bool whole; ///< written without a point
 };
 
-/// Those whose name holds one of `words`, in the text's order.
+/// In the text's order.
+std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene);
+/// Those whose name holds one of `words`.
 std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene,
                                            std::initializer_list<std::string_view> words);
 

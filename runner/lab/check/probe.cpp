@@ -79,7 +79,10 @@ std::span<const Probe> all_probes() {
          "rays that run out of steps along the horizon, at all mouse heights that show it, and in exactly "
          "level rays (hits)",
          ask_grazing},
-        {"far", "flicker before a far plane that moves by a thousandth (hits, knob far_distance)", ask_far},
+        {"far",
+         "flicker before a far plane that moves by a thousandth (hits; knob far_distance, or the definition "
+         "that limits the march)",
+         ask_far},
         {"self_intersection",
          "waves whose steepness adds up to 0.75, 0.99, 1 and 1.5: from 1 on crests intersect themselves "
          "(hits, knob "

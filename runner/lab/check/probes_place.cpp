@@ -3,12 +3,14 @@
 // camera_position.
 #include "base/try.hpp"
 #include "image/census.hpp"
+#include "lab/check/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -199,30 +201,72 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
     return answer;
 }
 
+namespace {
+
+struct FarPlane {
+    double distance;
+    std::string name;
+    const scene::Knob* knob; ///< none: it is a definition
+
+    void move(FrameState& state, double to) const {
+        if (knob)
+            state.knobs = {{name, scene::to_string(*knob, {to, 0, 0, 0})}};
+        else
+            state.definitions = {{name, fmt::format("{:.9g}", to)}};
+    }
+};
+
+/// Whether a march gives up at that number.
+bool is_limit(const PassFunction& function, double number) {
+    return std::ranges::any_of(function.loops(), [&](const ir::MarchingLoop& loop) {
+        if (!loop.limited())
+            return false;
+        const ir::Instruction& far = function.function().instructions[loop.far];
+        return far.op == ir::Op::constant && std::bit_cast<float>(far.immediate) == float(number);
+    });
+}
+
+/// The knob of that name, or the one definition that has the number at which the march gives up.
+std::optional<FarPlane> far_plane(ProbeBench& bench) {
+    if (const scene::Knob* knob = knob_of(bench.scene(), "far_distance"))
+        return FarPlane{knob->value[0], knob->name, knob};
+    const auto& function = bench.image_function();
+    std::vector<DefinedNumber> found;
+    if (function)
+        for (DefinedNumber& each : defined_numbers(bench.scene()))
+            if (is_limit(*function, each.value))
+                found.push_back(std::move(each));
+    if (found.size() != 1)
+        return std::nullopt;
+    return FarPlane{found[0].value, found[0].name, nullptr};
+}
+
+} // namespace
+
 /// A far plane that moves by a thousandth may take or give what lies beyond it, and nothing before it.
 Result<Answer> ask_far(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
-    const scene::Knob* far = knob_of(bench.scene(), "far_distance");
+    const auto far = far_plane(bench);
     if (!far)
-        return Answer{Verdict::not_applicable, "no knob far_distance to move"};
+        return Answer{Verdict::not_applicable,
+                      "no knob far_distance to move, and no definition that is the limit of the march"};
     double most = -1, beyond = 0;
     Answer answer;
     for (FrameState view : usual_views()) {
         const auto before = bench.hits(view);
-        const double moved_to = 1.001 * far->value[0];
-        view.knobs = {{far->name, scene::to_string(*far, {moved_to, 0, 0, 0})}};
+        far->move(view, 1.001 * far->distance);
         const auto after = bench.hits(view);
         if (!before || !after)
             return fail(!before ? before.error() : after.error());
-        const double last = far->value[0] * (1 - 1e-6);
+        const double last = far->distance * (1 - 1e-6);
         const double flickers = percent(*before, [&](size_t i) {
             const double one = before->distance[i], other = after->distance[i];
             const bool near = (one >= 0 && one < last) || (other >= 0 && other < last);
             return near && !(std::abs(one - other) <= std::max(one, other) / view.extent.height);
         });
         beyond +=
-            percent(*before, [&](size_t i) { return before->distance[i] > far->value[0] * (1 + 1e-6); });
+            percent(*before, [&](size_t i) { return before->distance[i] > far->distance * (1 + 1e-6); });
         if (flickers <= most)
             continue;
         most = flickers;

@@ -80,6 +80,12 @@ TEST(ValueRanges, come_to_an_end_in_loops) {
     EXPECT_FALSE(march.doubt);
     EXPECT_LE(march.range.high, 5);
     EXPECT_FALSE(red_of("float x = 1.0; for (int i = 0; i < 9; ++i) x *= 1.5; color.x = 1.0 / x;").doubt);
+    // A doubt that goes round in the loop: the first turn has none.
+    EXPECT_TRUE(
+        red_of(
+            "float t = 0.0; for (int i = 0; i < 9; ++i) { if (t > 20.0) break; t += 1.0 / (iTime - 50.0); }\n"
+            "color.x = exp(-t);")
+            .doubt);
     // What it is about to be divided by is only known when the loop is.
     EXPECT_FALSE(
         red_of(
