@@ -131,16 +131,7 @@ bool is_abandoned(const fs::path& path, pid_t process) {
            (::flock(file.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK);
 }
 
-/// Once for each output of a process: a sequence writes to its folder a thousand times.
-void remove_abandoned(const fs::path& folder, const std::string& stem) {
-    static std::mutex mutex;
-    static std::set<std::pair<fs::path, std::string>> seen;
-    const std::string output = without_digits(stem);
-    {
-        const std::lock_guard lock(mutex);
-        if (!seen.emplace(folder, output).second)
-            return;
-    }
+void remove_abandoned_in(const fs::path& folder, const std::string& output) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         const PartOf part = part_of(entry->path().filename().string());
@@ -150,7 +141,29 @@ void remove_abandoned(const fs::path& folder, const std::string& stem) {
     }
 }
 
+/// Once for each output of a process: a sequence writes to its folder a thousand times.
+void remove_abandoned_once(const fs::path& folder, const std::string& stem) {
+    static std::mutex mutex;
+    static std::set<std::pair<fs::path, std::string>> seen;
+    const std::string output = without_digits(stem);
+    {
+        const std::lock_guard lock(mutex);
+        if (!seen.emplace(folder, output).second)
+            return;
+    }
+    remove_abandoned_in(folder, output);
+}
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
 } // namespace
+
+void StagedFile::remove_abandoned(const OutputPath& output) {
+    if (const auto place = output.place(); place && !place->stream)
+        remove_abandoned_in(folder_of(place->path), without_digits(output.path().stem().string()));
+}
 
 Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view extension) {
     auto place = TRY(output.place());
@@ -163,10 +176,8 @@ Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view
         ending.clear();
     const std::string stem =
         name.stem().string().substr(0, k_longest_name - 1 - k_part.size() - k_number_room - ending.size());
-    fs::path folder = place.stream ? fs::temp_directory_path(ignored) : place.path.parent_path();
-    if (folder.empty())
-        folder = ".";
-    remove_abandoned(folder, stem);
+    const fs::path folder = place.stream ? fs::temp_directory_path(ignored) : folder_of(place.path);
+    remove_abandoned_once(folder, stem);
     StagedFile staged(output, std::move(place));
     TRY(staged.open(folder, stem, ending));
     return staged;

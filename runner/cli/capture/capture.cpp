@@ -2,6 +2,8 @@
 #include "cli/capture/capture_plan.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
+#include "cli/capture/fingerprint.hpp"
+#include "cli/capture/kept_frames.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
@@ -21,6 +23,7 @@
 #include <algorithm>
 #include <memory>
 #include <thread>
+#include <unordered_set>
 
 namespace tidemark::cli {
 namespace {
@@ -117,16 +120,34 @@ std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Int
     return std::nullopt;
 }
 
-Result<int> capture_frames(const CapturePlan& plan) {
+/// The plan without the frames that are there already; says how many those are.
+void leave_out_kept(CapturePlan& plan, const Fingerprint& fingerprint) {
+    const KeptFrames kept = find_kept_frames(plan, fingerprint);
+    for (const std::string& line : kept.said)
+        say(line);
+    say(fmt::format("kept {} of {} frames", kept.frames.size(), plan.frames.frames.size()));
+    const std::unordered_set<int> known(kept.frames.begin(), kept.frames.end());
+    std::erase_if(plan.frames.frames, [&](int frame) { return known.contains(frame); });
+    plan.kept = kept.frames;
+}
+
+Result<int> capture_frames(CapturePlan plan) {
     Interrupt interrupt;
     std::jthread codec; // is loaded beside the driver, which takes as long
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto fingerprint = Fingerprint::of_run(plan, gl::query_capabilities());
+    if (plan.resume)
+        leave_out_kept(plan, fingerprint);
+    if (plan.frames.frames.empty() && !plan.json)
+        return 0;
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     auto renderer = TRY(compile(plan, interrupt));
-    Capture run(plan, renderer, sound ? sound->path() : std::filesystem::path());
+    Capture run(plan, fingerprint, renderer, sound ? sound->path() : std::filesystem::path());
     const auto complete = TRY(run.run(interrupt));
+    if (plan.resume) // the run before may have ended after this one began
+        StagedFile::remove_abandoned(plan.output.of_frame(plan.frames.frames.front()));
     if (plan.json)
         TRY(put(dump(run.report(), 2) + "\n"));
     say_what_is_not_finite(run.records(), plan);
@@ -191,6 +212,8 @@ void add_capture(CLI::App& app, Action& chosen) {
                      "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
         ->type_name("N")
         ->check(number<int>("a whole number"));
+    command->add_flag("--resume", options->resume,
+                      "Goes on where a capture was cut short: frames that are there already are kept");
     command->add_flag("--json", options->json, "One JSON object about the frames on standard output");
     command->callback([options, &chosen] { chosen = [options] { return capture(*options); }; });
 }

@@ -50,6 +50,19 @@ void drop_repeats(std::vector<int>& frames) {
 /// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
 constexpr double k_longest_sound = 3600;
 
+/// Whether what is there already can be told from what is missing.
+Result<void> check_resume(const OutputName& output) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--resume: {}", why));
+    };
+    if (output.standard_output())
+        return refuse("frames on standard output are not kept");
+    if (!output.video() && !image::holds_metadata(output.pattern()))
+        return refuse(fmt::format("a {} does not hold how it was drawn; .exr and .tif do",
+                                  output.pattern().extension().string()));
+    return {};
+}
+
 /// What the output can hold.
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
@@ -63,6 +76,8 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
         if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
             return fits;
     }
+    if (options.resume)
+        TRY(check_resume(output));
     if (options.tile && output.video())
         return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))
@@ -105,6 +120,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.timeout = options.timeout;
     plan.defines = options.scene.defines;
     plan.json = options.json;
+    plan.resume = options.resume;
     plan.trace_command = [scene = options.scene, frames = plan.frames](const render::FrameState& state) {
         return trace_command(scene, frames, state);
     };
@@ -175,6 +191,8 @@ bool wants_sound(const CaptureOptions& options) {
 }
 
 Result<SoundPlan> plan_sound(const CaptureOptions& options) {
+    if (options.resume)
+        return fail(ErrorCode::usage, "--resume: a sound is made at once, and whole or not at all");
     if (!(options.duration > 0) || options.duration > k_longest_sound)
         return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
                                                   options.duration, k_longest_sound));

@@ -29,6 +29,7 @@ struct CaptureOptions {
     std::optional<double> allowed_difference;
     std::optional<int> tile;
     bool json = false;
+    bool resume = false;
 };
 
 /// A trial of a program that is specialised further than `CapturePlan::drawing` says.
@@ -50,6 +51,8 @@ struct CapturePlan {
     std::optional<double> timeout;    ///< seconds for a frame
     std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
     bool json = false;                ///< reports the frames, with the SHA-256 of their pixels
+    bool resume = false;              ///< goes on where a capture was cut short
+    std::vector<int> kept{};          ///< frames that are there already, and no more among `frames`
     /// The command that finds where a pixel of that frame stops being a number.
     std::function<std::string(const render::FrameState&)> trace_command;
 

@@ -1,6 +1,7 @@
 #include "cli/capture/capture_run.hpp"
 
 #include "base/try.hpp"
+#include "cli/capture/kept_frames.hpp"
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/omissions.hpp"
@@ -31,11 +32,15 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-Capture::Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound)
-    : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()), states_(states_of(plan.frames)),
-      stepper_(renderer, states_), sound_(std::move(sound)), watchdog_([this] { rescue_output(); }) {}
+Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, render::Renderer& renderer,
+                 std::filesystem::path sound)
+    : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(renderer),
+      driver_(gl::query_capabilities()), states_(states_of(plan.frames)), stepper_(renderer, states_),
+      sound_(std::move(sound)), watchdog_([this] { rescue_output(); }) {}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
+    if (plan_.frames.frames.empty())
+        return true;
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
@@ -203,7 +208,11 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
 }
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
-    image::PictureFormat format{plan_.depth, metadata_of(renderer_.scene(), states_(record.frame))};
+    const render::FrameState state = states_(record.frame);
+    // First: a JPEG that has no room for all of it keeps what stands in front.
+    image::PictureFormat format{plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}};
+    for (auto& fact : metadata_of(renderer_.scene(), state))
+        format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();
     format.metadata.insert(format.metadata.end(),
                            {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
@@ -232,6 +241,8 @@ nlohmann::ordered_json Capture::report() const {
     report["defines"] = plan_.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
+    if (plan_.resume)
+        report["kept"] = plan_.kept;
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records_) {
         const render::FrameState state = states_(record.frame);

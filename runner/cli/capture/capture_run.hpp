@@ -3,6 +3,7 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
+#include "cli/capture/fingerprint.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
@@ -36,7 +37,8 @@ struct FrameRecord {
 class Capture {
 public:
     /// `plan` and `renderer` must outlive it. `sound` is a WAV file for a video; empty: silent.
-    Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound = {});
+    Capture(const CapturePlan& plan, Fingerprint fingerprint, render::Renderer& renderer,
+            std::filesystem::path sound = {});
 
     /// Draws and hands over every frame; true when all were made before an interrupt.
     Result<bool> run(Interrupt& interrupt);
@@ -67,6 +69,7 @@ private:
     void rescue_output();
 
     const CapturePlan& plan_;
+    Fingerprint fingerprint_; ///< of the run
     render::Renderer& renderer_;
     gl::Capabilities driver_;
     render::FrameStates states_;

@@ -1,0 +1,28 @@
+// The frames of a capture that are on disk already, from a run that was cut short: `--resume` is the plan
+// without them. A frame is kept where its file is whole and its fingerprint is the one it would be drawn
+// with.
+#pragma once
+
+#include "cli/capture/capture_plan.hpp"
+#include "cli/capture/fingerprint.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+struct KeptFrames {
+    std::vector<int> frames;       ///< in the order of the plan
+    std::vector<std::string> said; ///< for people: what is drawn again, and why
+};
+
+/// Looks at the files of pictures; changes nothing.
+KeptFrames find_kept_frames(const CapturePlan& plan, const Fingerprint& run);
+
+/// Why the picture in that file is not the one with this fingerprint; empty: it is.
+std::string why_not_kept(const std::filesystem::path& file, const Fingerprint& wanted);
+
+/// The name under which a picture's metadata has it.
+inline constexpr const char* k_fingerprint = "Fingerprint";
+
+} // namespace tidemark::cli

@@ -1,0 +1,165 @@
+"""`capture --resume`: what is there already is kept, the rest is drawn, and nobody can tell the result from one of
+a capture that was never cut short. TIDEMARK_KILLS says how many captures are killed."""
+import os
+import random
+import signal
+import subprocess
+import time
+
+from support.program import PROGRAM, ProgramTest, environment, main
+
+KILLS = int(os.environ.get("TIDEMARK_KILLS", "4"))
+
+SCENE = """#iUniform float speed = 0.5
+void mainImage(out vec4 c, in vec2 p) {
+    float x = 0.0;
+    for (int i = 0; i < 400; ++i) x += sin(p.x * float(i) + iTime * speed);
+    c = vec4(p / iResolution.xy, fract(x), 1.0);
+}
+"""
+SEQUENCE = ("capture", "a.glsl", "--size", "64x36", "--frames", "0-19", "-o", "out/f_%04d.png")
+
+
+class Resume(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.glsl", SCENE)
+        (self.folder / "out").mkdir()
+
+    def contents(self, folder: str = "out") -> dict[str, bytes]:
+        """Hidden files too."""
+        return {path.name: path.read_bytes() for path in (self.folder / folder).iterdir()}
+
+    def whole(self, *arguments: str) -> dict[str, bytes]:
+        """What a capture makes that nobody cuts short; the folder is empty again."""
+        self.succeed(*arguments)
+        files = self.contents()
+        for name in files:
+            (self.folder / "out" / name).unlink()
+        return files
+
+    def resume(self, *arguments: str, **options) -> list[str]:
+        return self.succeed(*arguments, "--resume", **options).stderr.splitlines()
+
+
+class Sequences(Resume):
+    def test_keeps_what_is_there(self):
+        for extension in ("png", "jpg", "tif", "exr"):
+            sequence = (*SEQUENCE[:-1], f"out/f_%04d.{extension}")
+            whole = self.whole(*sequence)
+            self.succeed(*sequence)
+            before = os.stat(self.folder / f"out/f_0002.{extension}").st_mtime_ns
+            for number in (3, 12):
+                (self.folder / f"out/f_{number:04}.{extension}").unlink()
+            self.assertEqual(self.resume(*sequence), [
+                "kept 18 of 20 frames", f"wrote 2 frames, out/f_0003.{extension} to out/f_0012.{extension}"])
+            self.assertEqual(self.contents(), whole)
+            self.assertEqual(os.stat(self.folder / f"out/f_0002.{extension}").st_mtime_ns, before)
+            self.assertEqual(self.resume(*sequence), ["kept 20 of 20 frames"])
+            for name in whole:
+                (self.folder / "out" / name).unlink()
+
+    def expect_redrawn(self, reason: str, *changes: str) -> None:
+        lines = self.resume(*SEQUENCE, *changes)
+        self.assertEqual(lines[:2], [f"drawing 20 frames again, out/f_0000.png first: it was drawn with {reason}",
+                                     "kept 0 of 20 frames"])
+        self.assertEqual(self.resume(*SEQUENCE, *changes), ["kept 20 of 20 frames"])
+
+    def test_draws_again_what_was_drawn_otherwise(self):
+        self.succeed(*SEQUENCE)
+        self.expect_redrawn("other knobs", "--set", "speed=0.75")
+        self.expect_redrawn("other knobs, another state of the frame", "--mouse", "3,4")
+        self.expect_redrawn("another state of the frame", "--size", "32x36")
+        self.expect_redrawn("other options of drawing, another state of the frame", "--depth", "16")
+        self.write("a.glsl", SCENE.replace("400", "401"))
+        self.expect_redrawn("another text of the scene, other options of drawing")
+
+    def test_a_changed_input_is_noticed(self):
+        def picture(value: int) -> bytes:
+            return b"P6 1 1 255\n" + bytes([value] * 3)
+
+        self.write("in.ppm", picture(10))
+        self.write("a.glsl", '#iChannel0 "in.ppm"\n'
+                             "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, vec2(0.5)); }\n")
+        self.succeed(*SEQUENCE)
+        self.write("in.ppm", picture(20))
+        self.expect_redrawn("other inputs")
+
+    def test_damaged_and_foreign_files(self):
+        whole = self.whole(*SEQUENCE)
+        self.succeed(*SEQUENCE)
+        self.write("out/f_0001.png", whole["f_0001.png"][:200])
+        damaged = bytearray(whole["f_0005.png"])
+        damaged[-40] ^= 1
+        self.write("out/f_0005.png", bytes(damaged))
+        self.write("out/f_0006.png", b"")
+        self.write("out/f_0007.png", b"hello\n")
+        lines = self.resume(*SEQUENCE)
+        self.assertEqual(lines, [
+            "drawing out/f_0001.png again: the file is damaged or cut short",
+            "drawing out/f_0005.png again: the file is damaged: a checksum in it is wrong",
+            "drawing out/f_0006.png again: the file is empty",
+            "drawing out/f_0007.png again: it is no picture",
+            "kept 16 of 20 frames", "wrote 4 frames, out/f_0001.png to out/f_0007.png"])
+        self.assertEqual(self.contents(), whole)
+
+    def test_says_what_it_cannot_resume(self):
+        for output, why in (("-", "frames on standard output are not kept"),
+                            ("f_%d.hdr", "a .hdr does not hold how it was drawn; .exr and .tif do"),
+                            ("a.wav", "a sound is made at once, and whole or not at all")):
+            self.expect_failure(["capture", "a.glsl", "--frames", "0-1", "-o", output, "--resume"], 2,
+                                f"tidemark: error: --resume: {why}")
+
+    def test_six_faces_are_one_frame(self):
+        self.write("cube/image.glsl", '#iChannel0 "Cube A"\n'
+                                      "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, vec3(1)); }\n")
+        self.write("cube/cube_a.glsl", "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) "
+                                       "{ c = vec4(abs(d), 1); }\n")
+        faces = ("capture", "cube", "--pass", "Cube A", "--frames", "0-1", "-o", "out/f_%d_{}.png")
+        whole = self.whole(*faces)
+        self.assertEqual(len(whole), 12)
+        self.succeed(*faces)
+        (self.folder / "out/f_1_ny.png").unlink()
+        self.assertEqual(self.resume(*faces)[0], "kept 1 of 2 frames")
+        self.assertEqual(self.contents(), whole)
+
+
+class Killed(Resume):
+    """At any instant, with a signal that nobody can answer."""
+
+    def killed(self, arguments: list[str], seconds: float) -> bool:
+        """False: it was ready before."""
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=environment(),
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            process.wait(seconds)
+            return False
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            return True
+
+    def kill_and_resume(self, sequence: list[str], kills: int) -> None:
+        start = time.monotonic()
+        whole = self.whole(*sequence)
+        seconds = time.monotonic() - start
+        chance = random.Random(1)
+        killed = 0
+        while killed < kills:
+            resumed = [*sequence, "--resume"] if self.contents() else list(sequence)
+            if self.killed(resumed, chance.uniform(0, seconds)):
+                killed += 1
+                continue
+            self.assertEqual(self.contents(), whole)
+            for name in whole:
+                (self.folder / "out" / name).unlink()
+        self.resume(*sequence)
+        self.assertEqual(self.contents(), whole)
+
+    def test_pictures(self):
+        self.kill_and_resume(["capture", "a.glsl", "--size", "96x54", "--frames", "0-199", "-o", "out/f_%04d.png"],
+                             KILLS)
+
+
+if __name__ == "__main__":
+    main()
