@@ -1,5 +1,7 @@
 """`capture --resume`: what is there already is kept, the rest is drawn, and nobody can tell the result from one of
 a capture that was never cut short. TIDEMARK_KILLS says how many captures are killed."""
+import hashlib
+import json
 import os
 import random
 import signal
@@ -25,6 +27,14 @@ class Resume(ProgramTest):
         super().setUp()
         self.write("a.glsl", SCENE)
         (self.folder / "out").mkdir()
+
+    def write_feedback(self) -> None:
+        """`fb`: Buffer A adds to itself and keeps pixels that it discards."""
+        self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'
+                                    "void mainImage(out vec4 c, in vec2 p) { c = fract(texelFetch(iChannel0, ivec2(p), 0)); }\n")
+        self.write("fb/buffer_a.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) {\n'
+                                       "  if (iFrame % 3 == 1 && int(p.x) % 5 == 2) discard;\n"
+                                       "  c = texelFetch(iChannel0, ivec2(p), 0) * 1.01 + vec4(p.x, p.y, 1.0, iTime) * 0.001;\n}\n")
 
     def contents(self, folder: str = "out") -> dict[str, bytes]:
         """Hidden files too."""
@@ -124,6 +134,46 @@ class Sequences(Resume):
         self.assertEqual(self.contents(), whole)
 
 
+class Feedback(Resume):
+    RUN = ("capture", "fb", "--size", "32x18", "--frames", "0-49", "--state-every", "10", "-o", "out/f_%04d.png")
+
+    def setUp(self):
+        super().setUp()
+        self.write_feedback()
+
+    def cut(self, *arguments: str) -> None:
+        """A capture whose frame 37 cannot be written: a folder is in its place."""
+        (self.folder / "out/f_0037.png").mkdir()
+        self.assertEqual(self.run_program(*arguments).returncode, 4)
+        (self.folder / "out/f_0037.png").rmdir()
+
+    def test_goes_on_from_the_state(self):
+        whole = self.whole(*self.RUN)
+        self.cut(*self.RUN)
+        states = [name for name in self.contents() if name.endswith(".state")]
+        self.assertEqual(states, ["f_0030.png.state"])
+        for name in self.contents():
+            if "f_003" in name and name > "f_0033.png":
+                (self.folder / "out" / name).unlink()
+        done = self.succeed(*self.RUN, "--resume", "--json")
+        self.assertIn("going on from the state before frame 30", done.stderr)
+        frames = {f["frame"]: f for f in json.loads(done.stdout)["frames"]}
+        self.assertEqual(frames[min(frames)]["passes_drawn"], (min(frames) - 30) * 2 + 2)
+        self.assertEqual(self.contents(), whole)
+
+    def test_a_damaged_state_is_none(self):
+        whole = self.whole(*self.RUN)
+        for damage in (lambda b: b[:100], lambda b: b[:-70] + b"x" + b[-69:], lambda b: b"",
+                       lambda b: b"[]\n" + hashlib.sha256(b"[]\n").hexdigest().encode()):
+            self.cut(*self.RUN)
+            state = self.folder / "out/f_0030.png.state"
+            state.write_bytes(damage(state.read_bytes()))
+            self.assertNotIn("going on", "".join(self.resume(*self.RUN)))
+            self.assertEqual(self.contents(), whole)
+            for name in whole:
+                (self.folder / "out" / name).unlink()
+
+
 class Killed(Resume):
     """At any instant, with a signal that nobody can answer."""
 
@@ -155,6 +205,10 @@ class Killed(Resume):
                 (self.folder / "out" / name).unlink()
         self.resume(*sequence)
         self.assertEqual(self.contents(), whole)
+
+    def test_feedback(self):
+        self.write_feedback()
+        self.kill_and_resume([*Feedback.RUN[:4], "--frames", "0-199", *Feedback.RUN[6:]], KILLS)
 
     def test_pictures(self):
         self.kill_and_resume(["capture", "a.glsl", "--size", "96x54", "--frames", "0-199", "-o", "out/f_%04d.png"],

@@ -4,6 +4,7 @@
 #include "cli/capture/capture_sound.hpp"
 #include "cli/capture/fingerprint.hpp"
 #include "cli/capture/kept_frames.hpp"
+#include "cli/capture/saved_state.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
@@ -38,6 +39,17 @@ Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
     if (plan.output.video())
         return std::nullopt;
     return render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
+}
+
+/// The newest state that the rest of the capture can begin from; of a scene without feedback, any.
+std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint& fingerprint) {
+    const render::FrameStates states = states_of(plan.frames);
+    for (const std::filesystem::path& file : find_states(plan.output)) {
+        auto state = read_state(file, [&](int frame) { return fingerprint.of_frame(states(frame)); });
+        if (state && (state->buffers.empty() || state->frame <= plan.frames.frames.front()))
+            return state;
+    }
+    return std::nullopt;
 }
 
 /// Where it pays, the faster of two programs; in tiles too large a picture is drawn to draw it for a trial.
@@ -142,9 +154,17 @@ Result<int> capture_frames(CapturePlan plan) {
         leave_out_kept(plan, fingerprint);
     if (plan.frames.frames.empty() && !plan.json)
         return 0;
+    const auto state =
+        plan.resume && !plan.frames.frames.empty() ? find_state(plan, fingerprint) : std::nullopt;
+    if (state) {
+        plan.drawing.specialise = state->program;
+        plan.trial.reset();
+    }
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     auto renderer = TRY(compile(plan, interrupt));
     Capture run(plan, fingerprint, renderer, sound ? sound->path() : std::filesystem::path());
+    if (state)
+        run.start_from(*state);
     const auto complete = TRY(run.run(interrupt));
     if (plan.resume) // the run before may have ended after this one began
         StagedFile::remove_abandoned(plan.output.of_frame(plan.frames.frames.front()));
@@ -214,6 +234,11 @@ void add_capture(CLI::App& app, Action& chosen) {
         ->check(number<int>("a whole number"));
     command->add_flag("--resume", options->resume,
                       "Goes on where a capture was cut short: frames that are there already are kept");
+    command
+        ->add_option("--state-every", options->state_every,
+                     "Saves the buffers of a scene that reads its own last frame, for --resume")
+        ->type_name("FRAMES")
+        ->check(CLI::PositiveNumber);
     command->add_flag("--json", options->json, "One JSON object about the frames on standard output");
     command->callback([options, &chosen] { chosen = [options] { return capture(*options); }; });
 }

@@ -2,6 +2,7 @@
 
 #include "base/file.hpp"
 #include "base/try.hpp"
+#include "cli/capture/saved_state.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/sequence.hpp"
 #include "image/files/video_writer.hpp"
@@ -78,6 +79,9 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     }
     if (options.resume)
         TRY(check_resume(output));
+    if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
+        return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to be saved",
+                                                  extent.width, extent.height));
     if (options.tile && output.video())
         return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))
@@ -121,6 +125,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.defines = options.scene.defines;
     plan.json = options.json;
     plan.resume = options.resume;
+    plan.state_every = options.state_every;
     plan.trace_command = [scene = options.scene, frames = plan.frames](const render::FrameState& state) {
         return trace_command(scene, frames, state);
     };

@@ -30,6 +30,7 @@ struct CaptureOptions {
     std::optional<int> tile;
     bool json = false;
     bool resume = false;
+    int state_every = 0;
 };
 
 /// A trial of a program that is specialised further than `CapturePlan::drawing` says.
@@ -52,6 +53,7 @@ struct CapturePlan {
     std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
     bool json = false;                ///< reports the frames, with the SHA-256 of their pixels
     bool resume = false;              ///< goes on where a capture was cut short
+    int state_every = 0;              ///< frames between two saved states of buffers; 0: none is saved
     std::vector<int> kept{};          ///< frames that are there already, and no more among `frames`
     /// The command that finds where a pixel of that frame stops being a number.
     std::function<std::string(const render::FrameState&)> trace_command;

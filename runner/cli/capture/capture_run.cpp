@@ -36,7 +36,8 @@ Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, render::Rende
                  std::filesystem::path sound)
     : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(renderer),
       driver_(gl::query_capabilities()), states_(states_of(plan.frames)), stepper_(renderer, states_),
-      sound_(std::move(sound)), watchdog_([this] { rescue_output(); }) {}
+      saver_(plan, fingerprint_, renderer), sound_(std::move(sound)), watchdog_([this] { rescue_output(); }) {
+}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
     if (plan_.frames.frames.empty())
@@ -46,6 +47,8 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
     TRY(open_output());
     prepare(interrupt);
+    restore();
+    TRY(saver_.save_program());
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
@@ -60,7 +63,9 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         records_.push_back(std::move(record));
         progress.advance();
     }
-    return close_output().map([] { return true; });
+    TRY(close_output());
+    saver_.remove_all();
+    return true;
 }
 
 Result<void> Capture::open_output() {
@@ -91,15 +96,32 @@ void Capture::prepare(Interrupt& interrupt) {
     prepare_milliseconds_ = milliseconds_since(start);
 }
 
+/// Buffers as the run before left them; what is of no use is passed over.
+void Capture::restore() {
+    if (!start_ || !renderer_.plan().feedback || !renderer_.restore(start_->buffers))
+        return;
+    stepper_.start_from(start_->frame);
+    saver_.found(start_->frame);
+    say(fmt::format("going on from the state before frame {}", start_->frame));
+}
+
 /// Leaves `work` watched. False: interrupted.
-bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
+Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
     record.file = plan_.output.of_frame(frame).string();
     record.frame = frame;
     const auto begun = Clock::now(); // the limit is on the frame and on all that lead to it
+    Result<void> saved;
     const auto steps_drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
+        if (saver_.is_due(step)) {
+            if (writer_ && !writer_->drain()) // a state is newer than no frame in front of it
+                return false;
+            saved = saver_.save_buffers(step);
+            if (!saved)
+                return false;
+        }
         if (step < last && !steps)
             steps.emplace("frames stepped", size_t(last - step));
         else if (steps)
@@ -108,13 +130,14 @@ bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout, begun);
         return true;
     });
+    TRY(std::move(saved));
     record.passes_drawn = steps_drawn.passes;
     return steps_drawn.complete;
 }
 
 Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
     std::optional<Work> work(std::in_place);
-    if (!step_to(frame, interrupt, record, *work))
+    if (!TRY(step_to(frame, interrupt, record, *work)))
         return Outcome::interrupted;
     image::Image image = read_back();
     record.milliseconds = milliseconds_since(work->start);
@@ -133,7 +156,7 @@ Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, Fr
 /// The limit is on the frame; what is told to go on for long is a tile.
 Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record) {
     Work work;
-    if (!step_to(frame, interrupt, record, work))
+    if (!TRY(step_to(frame, interrupt, record, work)))
         return Outcome::interrupted;
     work.watch.reset();
     auto output = TRY(open_bands(record));

@@ -4,6 +4,7 @@
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
 #include "cli/capture/fingerprint.hpp"
+#include "cli/capture/state_saver.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
@@ -40,6 +41,9 @@ public:
     Capture(const CapturePlan& plan, Fingerprint fingerprint, render::Renderer& renderer,
             std::filesystem::path sound = {});
 
+    /// Instead of at the beginning. To be called before `run`.
+    void start_from(const SavedState& state) { start_ = &state; }
+
     /// Draws and hands over every frame; true when all were made before an interrupt.
     Result<bool> run(Interrupt& interrupt);
 
@@ -57,7 +61,8 @@ private:
     };
 
     void prepare(Interrupt& interrupt);
-    bool step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
+    void restore();
+    Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
     Result<Outcome> make(int frame, const Interrupt& interrupt, FrameRecord& record);
     Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record);
     Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
@@ -74,6 +79,8 @@ private:
     gl::Capabilities driver_;
     render::FrameStates states_;
     render::FrameStepper stepper_;
+    StateSaver saver_;
+    const SavedState* start_ = nullptr;
     double prepare_milliseconds_ = 0;
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_;     ///< of pictures
