@@ -38,6 +38,11 @@ bool FrameWriter::drain() {
     return errors_.empty();
 }
 
+size_t FrameWriter::written() {
+    const std::lock_guard lock(mutex_);
+    return written_;
+}
+
 Result<void> FrameWriter::finish() {
     {
         const std::lock_guard lock(mutex_);
@@ -79,7 +84,9 @@ void FrameWriter::write(const FrameFile& frame, std::unique_lock<std::mutex>& lo
     }
     lock.lock();
     --writing_;
-    if (!written)
+    if (written)
+        ++written_;
+    else
         errors_.emplace_back(frame.frame, std::move(written.error()));
     changed_.notify_all();
 }

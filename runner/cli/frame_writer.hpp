@@ -36,6 +36,9 @@ public:
     /// Waits until all that was handed over is written; false once a frame could not be.
     bool drain();
 
+    /// Pictures that are on disk by now.
+    size_t written();
+
     /// Waits for all frames; the error of the earliest one that failed.
     Result<void> finish();
 
@@ -48,6 +51,7 @@ private:
     std::condition_variable changed_;
     std::deque<FrameFile> queue_;
     size_t capacity_;
+    size_t written_ = 0;
     size_t writing_ = 0; ///< frames that workers have in hand
     bool closed_ = false;
     std::vector<std::pair<int, Error>> errors_;

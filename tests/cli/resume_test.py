@@ -4,9 +4,13 @@ import hashlib
 import json
 import os
 import random
+import re
+import resource
+import shutil
 import signal
 import subprocess
 import time
+import unittest
 
 from support.program import PROGRAM, ProgramTest, environment, main
 
@@ -174,6 +178,158 @@ class Feedback(Resume):
                 (self.folder / "out" / name).unlink()
 
 
+@unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is not installed")
+class Videos(Resume):
+    def video(self, extension: str, scene: str = "a.glsl") -> list[str]:
+        return ["capture", scene, "--size", "64x36", "--fps", "25", "--frames", "0-49", "--state-every", "10", "-o",
+                f"out/a{extension}"]
+
+    def cut(self, arguments: list[str], segments: int) -> None:
+        """Killed when so many segments are whole."""
+        last = self.folder / "out" / f"{arguments[-1][4:]}.segment-{segments - 1:04}.mp4"
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=environment(),
+                                   stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not last.exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+
+    def decoded(self, name: str) -> bytes:
+        """Each frame's time and checksum."""
+        return subprocess.run(["ffmpeg", "-v", "error", "-i", f"out/{name}", "-f", "framemd5", "-"], cwd=self.folder,
+                              stdout=subprocess.PIPE, check=True).stdout
+
+    def test_goes_on_from_whole_segments(self):
+        self.write_feedback()
+        for extension, scene in ((".mp4", "a.glsl"), (".webm", "a.glsl"), (".gif", "a.glsl"), (".mp4", "fb")):
+            arguments = self.video(extension, scene)
+            whole = self.whole(*arguments)
+            self.assertEqual(set(whole), {f"a{extension}"})
+            self.cut(arguments, 2)
+            self.assertNotIn(f"a{extension}", self.contents())
+            lines = self.resume(*arguments)
+            self.assertRegex(lines[0], r"kept [2345]0 of 50 frames")
+            self.assertEqual(lines[-1], f"wrote out/a{extension}: 50 frames")
+            self.assertEqual(scene == "fb" and lines[0] != "kept 50 of 50 frames",
+                             any(line.startswith("going on from the state before frame") for line in lines))
+            self.assertEqual(self.contents(), whole)
+            (self.folder / f"out/a{extension}").unlink()
+
+    def test_damaged_and_other_segments_are_drawn_again(self):
+        arguments = self.video(".mp4")
+        whole = self.whole(*arguments)
+        self.cut(arguments, 3)
+        damaged = self.folder / "out/a.mp4.segment-0000.mp4"
+        content = bytearray(damaged.read_bytes())
+        content[len(content) // 2] ^= 1
+        damaged.write_bytes(content)
+        self.assertNotIn("kept 50", self.resume(*arguments)[0])
+        self.assertEqual(self.contents(), whole)
+        self.cut(arguments, 2)
+        self.assertIn("drawing frames 0 to 9 again: they were drawn with other knobs",
+                      self.resume(*arguments, "--set", "speed=0.75"))
+
+    def test_segments_change_no_time(self):
+        """Each frame appears when it does in a video of one segment, at a rate that no clock divides."""
+        for extension in (".mp4", ".webm"):
+            times = []
+            for every in ("7", "1000"):
+                self.succeed("capture", "a.glsl", "--size", "64x36", "--fps", "29.97", "--frames", "0-49", "--state-every",
+                             every, "-o", f"out/{every}{extension}")
+                lines = self.decoded(f"{every}{extension}").decode().splitlines()
+                times.append([line.split(",")[:5] for line in lines if not line.startswith("#")])
+            self.assertEqual(len(times[0]), 50)
+            self.assertEqual(times[0], times[1])
+
+    def test_a_dead_encoder_costs_a_segment(self):
+        """One that ends in its third run."""
+        tools = self.folder / "tools"
+        self.write("tools/ffmpeg", "#!/bin/sh\necho run >> count\n"
+                                   f'[ $(wc -l < count) = 3 ] && exec kill -9 $$\nexec {shutil.which("ffmpeg")} "$@"\n')
+        (tools / "ffmpeg").chmod(0o755)
+        arguments = self.video(".mp4")
+        whole = self.whole(*arguments)
+        done = self.run_program(*arguments, env=environment(PATH=f"{tools}:{os.environ['PATH']}"))
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': ffmpeg ended without a word \(in frame 2\d\); "
+                                      r"20 frames are whole, and the same command with --resume goes on\n\Z")
+        self.assertEqual(self.resume(*arguments)[0], "kept 20 of 50 frames")
+        self.assertEqual(self.contents(), whole)
+
+
+class Failures(Resume):
+    """What is on disk is whole, the frame is named, and --resume goes on."""
+
+    WORDS = (r"(\d+) frames? (?:is|are) whole, and the same command with --resume goes on\n\Z")
+
+    def expect_cut(self, done: subprocess.CompletedProcess, code: int, error: str) -> int:
+        """How many frames are whole."""
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertRegex(done.stderr, error)
+        words = re.search(self.WORDS, done.stderr)
+        self.assertIsNotNone(words, done.stderr)
+        return int(words.group(1))
+
+    def test_a_full_disk(self):
+        """A limit on the size of files, which the one noisy frame is beyond."""
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5); if (iFrame == 7) "
+                             "c = vec4(fract(sin(dot(p, vec2(91.7, 3.1))) * 4311.3)); }\n")
+        whole = self.whole(*SEQUENCE)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        done = self.run_program(*SEQUENCE, preexec_fn=limit)
+        kept = self.expect_cut(done, 4, "error: cannot write 'out/f_0007.png': File too large; ")
+        self.assertEqual(self.contents(), {name: whole[name] for name in self.contents()})
+        self.assertEqual(len(self.contents()), kept)
+        self.assertEqual(self.resume(*SEQUENCE)[0], f"kept {kept} of 20 frames")
+        self.assertEqual(self.contents(), whole)
+
+    def start_slow(self) -> subprocess.Popen:
+        """Until its third frame is there."""
+        self.write("a.glsl", SCENE.replace("400", "40000"))
+        process = subprocess.Popen([PROGRAM, *SEQUENCE], cwd=self.folder, env=environment(), text=True,
+                                   stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while not (self.folder / "out/f_0002.png").exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.002)
+        return process
+
+    def finished(self, process: subprocess.Popen) -> subprocess.CompletedProcess:
+        stderr = process.communicate()[1]
+        return subprocess.CompletedProcess(process.args, process.returncode, None, stderr)
+
+    def test_the_folder_goes(self):
+        process = self.start_slow()
+        (self.folder / "out").rename(self.folder / "gone")
+        self.expect_cut(self.finished(process), 4, r"error: cannot write 'out/f_00\d\d.png': No such file or directory; ")
+        (self.folder / "gone").rename(self.folder / "out")
+        self.assertRegex(self.resume(*SEQUENCE)[0], r"kept \d+ of 20 frames")
+        self.assertEqual(len(self.contents()), 20)
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_the_permission_goes(self):
+        process = self.start_slow()
+        (self.folder / "out").chmod(0o555)
+        self.expect_cut(self.finished(process), 4, r"error: cannot write 'out/f_00\d\d.png': Permission denied; ")
+        (self.folder / "out").chmod(0o755)
+        self.resume(*SEQUENCE)
+        self.assertEqual(len(self.contents()), 20)
+
+    def test_a_frame_takes_too_long(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { float x = 0.0; int n = iFrame == 7 ? 60000 : 1; "
+                             "for (int i = 0; i < n; ++i) for (int j = 0; j < n; ++j) x += sin(p.x * float(i * j)); "
+                             "c = vec4(fract(x)); }\n")
+        done = self.run_program(*SEQUENCE, "--timeout", "2")
+        self.assertEqual(self.expect_timeout(done), 7)
+        self.assertEqual(set(self.contents()), {f"f_{i:04}.png" for i in range(7)})
+        self.assertIn("kept 7 of 20 frames", self.run_program(*SEQUENCE, "--resume", "--timeout", "2").stderr)
+
+    def expect_timeout(self, done: subprocess.CompletedProcess) -> int:
+        self.assertEqual(done.returncode, 5)
+        self.assertRegex(done.stderr, r"error: gave up drawing frame 7 after \S+ s \(--timeout\)")
+        return int(re.search(r"(\d+) frames are whole, and", done.stderr).group(1))
+
+
 class Killed(Resume):
     """At any instant, with a signal that nobody can answer."""
 
@@ -209,6 +365,11 @@ class Killed(Resume):
     def test_feedback(self):
         self.write_feedback()
         self.kill_and_resume([*Feedback.RUN[:4], "--frames", "0-199", *Feedback.RUN[6:]], KILLS)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_video(self):
+        self.kill_and_resume(["capture", "a.glsl", "--size", "64x36", "--frames", "0-199", "--state-every", "20", "-o",
+                              "out/a.mp4"], KILLS)
 
     def test_pictures(self):
         self.kill_and_resume(["capture", "a.glsl", "--size", "96x54", "--frames", "0-199", "-o", "out/f_%04d.png"],

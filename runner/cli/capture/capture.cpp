@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <memory>
 #include <thread>
-#include <unordered_set>
 
 namespace tidemark::cli {
 namespace {
@@ -53,37 +52,37 @@ std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint&
 }
 
 /// Where it pays, the faster of two programs; in tiles too large a picture is drawn to draw it for a trial.
-Result<render::Renderer> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
+Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
     if (!plan.trial || drawing.tile)
-        return render::Renderer::create(plan.scene, drawing);
+        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
     drawing.specialise = plan.trial->as_far_as;
     auto trial = TRY(choose_program(plan.scene, drawing, plan.trial->frames));
     if (!trial.said.empty())
         say(trial.said);
-    return std::move(trial.renderer);
+    return trial;
 }
 
-Result<render::Renderer> compile(const CapturePlan& plan, Interrupt& interrupt) {
+Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     Watchdog watchdog;
     const Watchdog::Watch watch(watchdog, "compiling", plan.timeout);
     const auto tile = TRY(choose_tile(plan));
     render::RenderOptions drawing = plan.drawing;
     drawing.tile = tile;
-    auto renderer = choose_renderer(plan, drawing);
-    if (renderer && plan.tile_side && !renderer->tiles())
+    auto compiled = TRY(choose_renderer(plan, drawing));
+    if (plan.tile_side && !compiled.renderer.tiles())
         return fail(
             ErrorCode::usage,
             fmt::format(
                 "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
-                renderer->shown_pass().name));
-    return renderer;
+                compiled.renderer.shown_pass().name));
+    return compiled;
 }
 
 void say_what_was_written(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
     if (plan.output.video())
         say(fmt::format(
-            "wrote {}: {} frames{}", records.front().file, records.size(),
+            "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.size(),
             plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
     else if (records.size() == 1)
         say(fmt::format("wrote {}", records.front().file));
@@ -133,14 +132,21 @@ std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Int
 }
 
 /// The plan without the frames that are there already; says how many those are.
-void leave_out_kept(CapturePlan& plan, const Fingerprint& fingerprint) {
-    const KeptFrames kept = find_kept_frames(plan, fingerprint);
+void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
+    const size_t all = plan.frames.frames.size();
+    const KeptFrames kept = leave_out_kept(plan, fingerprint);
     for (const std::string& line : kept.said)
         say(line);
-    say(fmt::format("kept {} of {} frames", kept.frames.size(), plan.frames.frames.size()));
-    const std::unordered_set<int> known(kept.frames.begin(), kept.frames.end());
-    std::erase_if(plan.frames.frames, [&](int frame) { return known.contains(frame); });
+    say(fmt::format("kept {} of {} frames", kept.frames.size(), all));
     plan.kept = kept.frames;
+}
+
+std::string interruption(const CapturePlan& plan, Capture& run) {
+    const std::string words = words_on_resuming(plan, run.whole_frames());
+    return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().size(),
+                       plan.kept.size() + plan.frames.frames.size(),
+                       plan.output.video() ? ": no video was written" : "",
+                       words.empty() ? "" : "; " + words);
 }
 
 Result<int> capture_frames(CapturePlan plan) {
@@ -150,9 +156,10 @@ Result<int> capture_frames(CapturePlan plan) {
         codec = image::preload_picture_codec(plan.output.pattern());
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
     const auto fingerprint = Fingerprint::of_run(plan, gl::query_capabilities());
+    const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     if (plan.resume)
-        leave_out_kept(plan, fingerprint);
-    if (plan.frames.frames.empty() && !plan.json)
+        keep_what_is_there(plan, fingerprint);
+    if (plan.frames.frames.empty() && plan.to_picture_files() && !plan.json)
         return 0;
     const auto state =
         plan.resume && !plan.frames.frames.empty() ? find_state(plan, fingerprint) : std::nullopt;
@@ -160,23 +167,25 @@ Result<int> capture_frames(CapturePlan plan) {
         plan.drawing.specialise = state->program;
         plan.trial.reset();
     }
-    const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
-    auto renderer = TRY(compile(plan, interrupt));
-    Capture run(plan, fingerprint, renderer, sound ? sound->path() : std::filesystem::path());
+    auto compiled = TRY(compile(plan, interrupt));
+    Capture run(plan, fingerprint, compiled, sound ? sound->path() : std::filesystem::path());
     if (state)
         run.start_from(*state);
-    const auto complete = TRY(run.run(interrupt));
+    const auto complete = TRY(run.run(interrupt).map_error([&](Error error) {
+        if (const std::string words = words_on_resuming(plan, run.whole_frames()); !words.empty())
+            error.message += "; " + words;
+        return error;
+    }));
     if (plan.resume) // the run before may have ended after this one began
-        StagedFile::remove_abandoned(plan.output.of_frame(plan.frames.frames.front()));
+        StagedFile::remove_abandoned(plan.output.of_frame(0));
     if (plan.json)
         TRY(put(dump(run.report(), 2) + "\n"));
     say_what_is_not_finite(run.records(), plan);
-    const bool written = complete || !plan.output.video(); // of a video nothing is kept but the whole
+    const bool written = complete || !plan.output.video();
     if (written && !plan.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
     if (!complete)
-        say(fmt::format("interrupted after {} of {} frames{}", run.records().size(),
-                        plan.frames.frames.size(), written ? "" : ": no video was written"));
+        say(interruption(plan, run));
     return complete ? 0 : Interrupt::k_exit_code;
 }
 

@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "base/try.hpp"
 #include "cli/capture/saved_state.hpp"
+#include "cli/capture/segmented_video.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/sequence.hpp"
 #include "image/files/video_writer.hpp"
@@ -119,6 +120,8 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
         .marks_non_finite = true,
     };
+    if (plan.output.video())
+        plan.segments = segments_of(numbers, options.state_every);
     plan.tile_side = options.tile;
     plan.device = options.device;
     plan.timeout = options.timeout;
@@ -189,6 +192,13 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     TRY(check_faces(*plan));
     plan->trial = plan_trial(options, *plan);
     return plan;
+}
+
+std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames) {
+    if (whole_frames == 0 || !check_resume(plan.output))
+        return {};
+    return fmt::format("{} frame{} whole, and the same command with --resume goes on", whole_frames,
+                       whole_frames == 1 ? " is" : "s are");
 }
 
 bool wants_sound(const CaptureOptions& options) {

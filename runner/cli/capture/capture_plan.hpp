@@ -39,13 +39,20 @@ struct PlannedTrial {
     TrialPlan frames;
 };
 
+/// Frames of a video that are encoded on their own.
+struct VideoSegment {
+    std::vector<int> frames;
+    bool kept = false; ///< it is there already
+};
+
 struct CapturePlan {
     scene::Scene scene;
     FrameSequence frames;
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
-    VideoPace pace;                ///< of a video
-    render::RenderOptions drawing; ///< frames drawn whole
+    VideoPace pace;                       ///< of a video
+    std::vector<VideoSegment> segments{}; ///< of a video: all its frames
+    render::RenderOptions drawing;        ///< frames drawn whole
     std::optional<int> tile_side;
     std::optional<PlannedTrial> trial;
     std::string device;
@@ -60,6 +67,9 @@ struct CapturePlan {
 
     bool to_picture_files() const { return !output.standard_output() && !output.video(); }
 };
+
+/// How to go on where a capture is cut short after so many whole frames; empty: it begins anew.
+std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);
 
 /// Loads the scene, too, and prints its warnings.
 Result<CapturePlan> plan_capture(const CaptureOptions& options);

@@ -32,31 +32,37 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, render::Renderer& renderer,
+Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compiled,
                  std::filesystem::path sound)
-    : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(renderer),
-      driver_(gl::query_capabilities()), states_(states_of(plan.frames)), stepper_(renderer, states_),
-      saver_(plan, fingerprint_, renderer), sound_(std::move(sound)), watchdog_([this] { rescue_output(); }) {
-}
+    : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(compiled.renderer),
+      in_doubt_(compiled.in_doubt), driver_(gl::query_capabilities()), states_(states_of(plan.frames)),
+      stepper_(renderer_, states_), saver_(plan, fingerprint_, renderer_), sound_(std::move(sound)),
+      watchdog_([this] { rescue_output(); }) {}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
-    if (plan_.frames.frames.empty())
-        return true;
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
     TRY(open_output());
-    prepare(interrupt);
-    restore();
-    TRY(saver_.save_program());
+    if (!plan_.frames.frames.empty()) {
+        prepare(interrupt);
+        restore();
+        if (in_doubt_)
+            TRY(saver_.save_program());
+    }
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
         const auto outcome =
             TRY(renderer_.tiles() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record));
         if (outcome == Outcome::interrupted) {
-            video_.reset(); // whole or not at all
-            return close_output().map([] { return false; });
+            if (video_)
+                video_->drop();
+            else
+                TRY(close_output());
+            if (whole_frames() == 0)
+                saver_.remove_all();
+            return false;
         }
         if (outcome == Outcome::unwanted)
             break;
@@ -71,9 +77,8 @@ Result<bool> Capture::run(Interrupt& interrupt) {
 Result<void> Capture::open_output() {
     if (plan_.output.video()) {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
-        video_.emplace(TRY(image::VideoWriter::create(
-            plan_.output.of_frame(0),
-            {cube ? image::k_panorama : renderer_.extent(), plan_.pace.fps, sound_})));
+        video_.emplace(
+            TRY(SegmentedVideo::create(plan_, fingerprint_, cube ? image::k_panorama : renderer_.extent())));
     } else if (!plan_.output.standard_output() && !renderer_.tiles()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
         writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
@@ -83,7 +88,7 @@ Result<void> Capture::open_output() {
 
 Result<void> Capture::close_output() {
     if (video_)
-        return video_->finish();
+        return video_->finish(sound_);
     return writer_ ? writer_->finish() : Result<void>();
 }
 
@@ -205,18 +210,32 @@ image::Image Capture::read_back() const {
     return plan_.output.six_faces() ? image::column_of(faces) : image::equirectangular_of(faces);
 }
 
+size_t Capture::whole_frames() {
+    constexpr size_t k_faces = 6;
+    const size_t made = video_    ? video_->written()
+                        : writer_ ? writer_->written() / (plan_.output.six_faces() ? k_faces : 1)
+                                  : records_.size();
+    return plan_.kept.size() + made;
+}
+
 /// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,
-/// half a video is not.
+/// half a segment of a video is not.
 void Capture::rescue_output() {
-    video_.reset();
+    if (video_)
+        video_->drop();
     if (writer_)
         (void)writer_->finish();
+    if (const std::string words = words_on_resuming(plan_, whole_frames()); !words.empty())
+        say(words);
 }
 
 /// False when the writer has failed and no more frames are wanted.
 Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     if (video_)
-        return video_->push(image).map([] { return true; });
+        return video_->push(image).map([] { return true; }).map_error([&](Error error) {
+            error.message += fmt::format(" (in frame {})", record.frame);
+            return error;
+        });
     if (!writer_)
         return put_raw(image).map([] { return true; });
     if (!plan_.output.six_faces())

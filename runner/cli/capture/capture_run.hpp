@@ -4,13 +4,13 @@
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
 #include "cli/capture/fingerprint.hpp"
+#include "cli/capture/segmented_video.hpp"
 #include "cli/capture/state_saver.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/picture_facts.hpp"
 #include "gl/capabilities.hpp"
-#include "image/files/video_writer.hpp"
 #include "render/frame_stepper.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -37,8 +37,8 @@ struct FrameRecord {
 
 class Capture {
 public:
-    /// `plan` and `renderer` must outlive it. `sound` is a WAV file for a video; empty: silent.
-    Capture(const CapturePlan& plan, Fingerprint fingerprint, render::Renderer& renderer,
+    /// `plan` and `compiled` must outlive it. `sound` is a WAV file for a video; empty: silent.
+    Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compiled,
             std::filesystem::path sound = {});
 
     /// Instead of at the beginning. To be called before `run`.
@@ -46,6 +46,9 @@ public:
 
     /// Draws and hands over every frame; true when all were made before an interrupt.
     Result<bool> run(Interrupt& interrupt);
+
+    /// Frames that are whole on disk, those that were kept included: `--resume` goes on from them.
+    size_t whole_frames();
 
     const std::vector<FrameRecord>& records() const { return records_; }
     /// What `--json` prints.
@@ -76,6 +79,7 @@ private:
     const CapturePlan& plan_;
     Fingerprint fingerprint_; ///< of the run
     render::Renderer& renderer_;
+    bool in_doubt_; ///< whether another run would choose that program
     gl::Capabilities driver_;
     render::FrameStates states_;
     render::FrameStepper stepper_;
@@ -83,9 +87,9 @@ private:
     const SavedState* start_ = nullptr;
     double prepare_milliseconds_ = 0;
     std::filesystem::path sound_;
-    std::unique_ptr<FrameWriter> writer_;     ///< of pictures
-    std::optional<image::VideoWriter> video_; ///< neither: frames go to standard output
-    Watchdog watchdog_;                       ///< last: its thread may use the writer
+    std::unique_ptr<FrameWriter> writer_; ///< of pictures
+    std::optional<SegmentedVideo> video_; ///< neither: frames go to standard output
+    Watchdog watchdog_;                   ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;
 };
 

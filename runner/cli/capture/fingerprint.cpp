@@ -114,6 +114,7 @@ Json drawing_facts(const CapturePlan& plan) {
     const bool differs = plan.trial && plan.trial->frames.allowed;
     return Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
                         plan.output.pattern().extension().string(), plan.output.six_faces(),
+                        plan.output.video() ? Json(plan.pace.fps) : Json(),
                         differs ? Json(*plan.trial->frames.allowed) : Json()});
 }
 
@@ -150,6 +151,15 @@ Fingerprint Fingerprint::of_frame(const render::FrameState& state) const {
     Fingerprint frame = *this;
     frame.parts_.emplace_back("frame", hash_of(to_json(state)));
     return frame;
+}
+
+Fingerprint Fingerprint::of_frames(std::span<const render::FrameState> states) const {
+    Json facts = Json::array();
+    for (const render::FrameState& state : states)
+        facts.push_back(hash_of(to_json(state)));
+    Fingerprint frames = *this;
+    frames.parts_.emplace_back("frame", hash_of(facts));
+    return frames;
 }
 
 std::string Fingerprint::text() const {

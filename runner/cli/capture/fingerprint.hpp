@@ -6,6 +6,7 @@
 #include "cli/capture/capture_plan.hpp"
 #include "gl/capabilities.hpp"
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,8 @@ public:
     static Fingerprint of_run(const CapturePlan& plan, const gl::Capabilities& driver);
     /// That of a frame of the run.
     Fingerprint of_frame(const render::FrameState& state) const;
+    /// That of several, which are one file.
+    Fingerprint of_frames(std::span<const render::FrameState> states) const;
 
     /// As in a picture's metadata: `text=0123456789abcdef inputs=…`.
     std::string text() const;

@@ -1,5 +1,6 @@
 #include "cli/capture/kept_frames.hpp"
 
+#include "cli/capture/segmented_video.hpp"
 #include "image/files/picture_metadata.hpp"
 
 #include <fmt/format.h>
@@ -49,6 +50,46 @@ void note(std::vector<Again>& all, fs::path file, std::string why) {
         all.push_back({std::move(why), std::move(file), 1});
 }
 
+KeptFrames leave_out_pictures(CapturePlan& plan, const Fingerprint& run) {
+    const render::FrameStates states = states_of(plan.frames);
+    KeptFrames kept;
+    std::vector<int> missing;
+    std::vector<Again> again;
+    for (const int frame : plan.frames.frames) {
+        auto objection = objection_to(files_of(plan.output, frame), run.of_frame(states(frame)));
+        (objection ? missing : kept.frames).push_back(frame);
+        if (!objection)
+            continue;
+        if (!objection->second.empty())
+            note(again, std::move(objection->first), std::move(objection->second));
+    }
+    for (const auto& [why, first, count] : again)
+        kept.said.push_back(
+            count == 1 ? fmt::format("drawing {} again: {}", first.string(), why)
+                       : fmt::format("drawing {} frames again, {} first: {}", count, first.string(), why));
+    plan.frames.frames = std::move(missing);
+    return kept;
+}
+
+KeptFrames leave_out_segments(CapturePlan& plan, const Fingerprint& run) {
+    KeptFrames kept;
+    std::vector<int> missing;
+    for (size_t i = 0; i < plan.segments.size(); ++i) {
+        VideoSegment& segment = plan.segments[i];
+        const auto note = image::note_of_segment(segment_file(plan.output, i).path());
+        segment.kept = note && *note == note_of(plan, segment, run);
+        std::vector<int>& into = segment.kept ? kept.frames : missing;
+        into.insert(into.end(), segment.frames.begin(), segment.frames.end());
+        if (note && !segment.kept)
+            kept.said.push_back(fmt::format(
+                "drawing frames {} to {} again: they were drawn with {}", segment.frames.front(),
+                segment.frames.back(),
+                Fingerprint::parse(note_of(plan, segment, run)).differences(Fingerprint::parse(*note))));
+    }
+    plan.frames.frames = std::move(missing);
+    return kept;
+}
+
 } // namespace
 
 std::string why_not_kept(const fs::path& file, const Fingerprint& wanted) {
@@ -62,22 +103,8 @@ std::string why_not_kept(const fs::path& file, const Fingerprint& wanted) {
     return differences.empty() ? "" : "it was drawn with " + differences;
 }
 
-KeptFrames find_kept_frames(const CapturePlan& plan, const Fingerprint& run) {
-    const render::FrameStates states = states_of(plan.frames);
-    KeptFrames kept;
-    std::vector<Again> again;
-    for (const int frame : plan.frames.frames) {
-        auto objection = objection_to(files_of(plan.output, frame), run.of_frame(states(frame)));
-        if (!objection)
-            kept.frames.push_back(frame);
-        else if (!objection->second.empty())
-            note(again, std::move(objection->first), std::move(objection->second));
-    }
-    for (const auto& [why, first, count] : again)
-        kept.said.push_back(
-            count == 1 ? fmt::format("drawing {} again: {}", first.string(), why)
-                       : fmt::format("drawing {} frames again, {} first: {}", count, first.string(), why));
-    return kept;
+KeptFrames leave_out_kept(CapturePlan& plan, const Fingerprint& run) {
+    return plan.output.video() ? leave_out_segments(plan, run) : leave_out_pictures(plan, run);
 }
 
 } // namespace tidemark::cli

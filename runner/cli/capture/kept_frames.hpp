@@ -16,8 +16,8 @@ struct KeptFrames {
     std::vector<std::string> said; ///< for people: what is drawn again, and why
 };
 
-/// Looks at the files of pictures; changes nothing.
-KeptFrames find_kept_frames(const CapturePlan& plan, const Fingerprint& run);
+/// Takes them out of the plan, and marks the segments of a video. Changes no file.
+KeptFrames leave_out_kept(CapturePlan& plan, const Fingerprint& run);
 
 /// Why the picture in that file is not the one with this fingerprint; empty: it is.
 std::string why_not_kept(const std::filesystem::path& file, const Fingerprint& wanted);

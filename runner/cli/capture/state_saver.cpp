@@ -1,19 +1,23 @@
 #include "cli/capture/state_saver.hpp"
 
+#include <algorithm>
 #include <system_error>
 
 namespace tidemark::cli {
 
 Result<void> StateSaver::save_program() {
-    if (!plan_.trial)
-        return {};
     const int first = renderer_.plan().feedback ? 0 : plan_.frames.frames.front();
     return save({first, renderer_.specialised()});
 }
 
 bool StateSaver::is_due(int frame) const {
-    return plan_.state_every > 0 && renderer_.plan().feedback && frame > last_.value_or(0) &&
-           frame % plan_.state_every == 0;
+    if (plan_.state_every == 0 || !renderer_.plan().feedback || frame <= last_.value_or(0))
+        return false;
+    if (!plan_.output.video())
+        return frame % plan_.state_every == 0;
+    return std::ranges::any_of(plan_.segments, [&](const VideoSegment& segment) {
+        return !segment.kept && segment.frames.front() == frame;
+    });
 }
 
 Result<void> StateSaver::save_buffers(int frame) {
