@@ -4,6 +4,7 @@
 #include "base/try.hpp"
 #include "cli/capture/saved_state.hpp"
 #include "cli/capture/segmented_video.hpp"
+#include "cli/capture/shard_note.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/sequence.hpp"
 #include "image/files/video_writer.hpp"
@@ -65,6 +66,20 @@ Result<void> check_resume(const OutputName& output) {
     return {};
 }
 
+/// Several processes write to one folder, and `gather` has to find out what is there.
+Result<void> check_shard(const CaptureOptions& options, const OutputName& output) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
+    };
+    if (output.standard_output() || output.video())
+        return refuse("give a sequence of pictures, which `tidemark gather -o` joins to a video");
+    if (!image::holds_metadata(output.pattern()))
+        return check_resume(output);
+    if (options.allowed_difference)
+        return refuse("--allow-difference may choose another program on each machine");
+    return {};
+}
+
 /// What the output can hold.
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
@@ -83,6 +98,8 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
         return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to be saved",
                                                   extent.width, extent.height));
+    if (!options.shard.empty())
+        TRY(check_shard(options, output));
     if (options.tile && output.video())
         return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))
@@ -180,6 +197,16 @@ std::optional<PlannedTrial> plan_trial(const CaptureOptions& options, const Capt
                          options.allowed_difference}};
 }
 
+/// All shards draw the same program: there is no trial.
+Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
+    plan.shard = TRY(parse_shard(options.shard));
+    const std::filesystem::path folder = plan.output.of_frame(0).path().parent_path();
+    TRY(leave_note(OutputPath::typed(folder.empty() ? "." : folder) / k_shard_note,
+                   {options.words, plan.shard->count}));
+    plan.frames.frames = frames_of(*plan.shard, plan.frames.frames, plan.scene);
+    return {};
+}
+
 } // namespace
 
 Result<CapturePlan> plan_capture(const CaptureOptions& options) {
@@ -190,7 +217,10 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     plan->scene = std::move(scene);
     TRY(spare_what_is_read(options, *plan));
     TRY(check_faces(*plan));
-    plan->trial = plan_trial(options, *plan);
+    if (!options.shard.empty())
+        TRY(take_shard(options, *plan));
+    else
+        plan->trial = plan_trial(options, *plan);
     return plan;
 }
 

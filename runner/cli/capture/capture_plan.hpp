@@ -3,6 +3,7 @@
 // compiled scene knows; behind the plan nobody reads the options.
 #pragma once
 
+#include "cli/capture/shard.hpp"
 #include "cli/capture/video_pace.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
@@ -31,6 +32,8 @@ struct CaptureOptions {
     bool json = false;
     bool resume = false;
     int state_every = 0;
+    std::string shard;
+    std::vector<std::string> words{}; ///< as they were typed, without --shard and --resume
 };
 
 /// A trial of a program that is specialised further than `CapturePlan::drawing` says.
@@ -61,6 +64,7 @@ struct CapturePlan {
     bool json = false;                ///< reports the frames, with the SHA-256 of their pixels
     bool resume = false;              ///< goes on where a capture was cut short
     int state_every = 0;              ///< frames between two saved states of buffers; 0: none is saved
+    std::optional<Shard> shard{};     ///< whose `frames` these are
     std::vector<int> kept{};          ///< frames that are there already, and no more among `frames`
     /// The command that finds where a pixel of that frame stops being a number.
     std::function<std::string(const render::FrameState&)> trace_command;

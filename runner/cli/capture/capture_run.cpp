@@ -61,7 +61,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
             else
                 TRY(close_output());
             if (whole_frames() == 0)
-                saver_.remove_all();
+                remove_states(plan_.output);
             return false;
         }
         if (outcome == Outcome::unwanted)
@@ -70,7 +70,8 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         progress.advance();
     }
     TRY(close_output());
-    saver_.remove_all();
+    if (plan_.shard && plan_.state_every > 0 && !plan_.frames.frames.empty() && renderer_.plan().feedback)
+        TRY(saver_.save_buffers(plan_.frames.frames.back() + 1)); // the next shard may begin there
     return true;
 }
 

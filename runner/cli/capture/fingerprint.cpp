@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/overloaded.hpp"
+#include "cli/capture/shard.hpp"
 #include "cli/state_json.hpp"
 #include "cli/version.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 
 /// 64 bits: among 1e8 frames that differ, two are alike with a probability of 3e-4.
 constexpr size_t k_digits = 16;
+
+constexpr std::string_view k_device = "device";
 
 std::string hash_of(const std::string& bytes) {
     return sha256(std::as_bytes(std::span(bytes))).substr(0, k_digits);
@@ -89,9 +92,7 @@ Json knob_facts(const scene::Scene& scene) {
 
 /// What buffers hold is of all the frames before, and those see what was recorded for them.
 bool has_history(const CapturePlan& plan) {
-    return plan.frames.input && std::ranges::any_of(plan.scene.passes, [](const scene::Pass& pass) {
-               return pass.kind == scene::PassKind::buffer || pass.kind == scene::PassKind::cubemap;
-           });
+    return plan.frames.input && may_feed_back(plan.scene);
 }
 
 Json input_facts(const CapturePlan& plan) {
@@ -122,7 +123,7 @@ Json drawing_facts(const CapturePlan& plan) {
 std::string_view words_of(std::string_view part) {
     constexpr std::pair<std::string_view, std::string_view> k_words[] = {
         {"version", "another version of Tidemark"},
-        {"device", "another device or driver"},
+        {k_device, "another device or driver"},
         {"text", "another text of the scene"},
         {"inputs", "other inputs"},
         {"knobs", "other knobs"},
@@ -139,7 +140,7 @@ std::string_view words_of(std::string_view part) {
 Fingerprint Fingerprint::of_run(const CapturePlan& plan, const gl::Capabilities& driver) {
     Fingerprint run;
     run.parts_ = {{"version", hash_of(std::string(k_version))},
-                  {"device", hash_of(Json::array({driver.renderer, driver.version}))},
+                  {std::string(k_device), hash_of(Json::array({driver.renderer, driver.version}))},
                   {"text", hash_of(text_facts(plan))},
                   {"inputs", hash_of(input_facts(plan))},
                   {"knobs", hash_of(knob_facts(plan.scene))},
@@ -184,6 +185,15 @@ Fingerprint Fingerprint::parse(std::string_view text) {
 const std::string* Fingerprint::find(std::string_view part) const {
     const auto found = std::ranges::find(parts_, part, &std::pair<std::string, std::string>::first);
     return found == parts_.end() ? nullptr : &found->second;
+}
+
+Fingerprint Fingerprint::on_device_of(const Fingerprint& other) const {
+    Fingerprint moved = *this;
+    const std::string* device = other.find(k_device);
+    for (auto& [part, hash] : moved.parts_)
+        if (part == k_device && device)
+            hash = *device;
+    return moved;
 }
 
 std::string Fingerprint::differences(const Fingerprint& other) const {

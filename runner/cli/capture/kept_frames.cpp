@@ -11,16 +11,6 @@ namespace tidemark::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of the picture, or of each face of a cube.
-std::vector<fs::path> files_of(const OutputName& output, int frame) {
-    if (!output.six_faces())
-        return {output.of_frame(frame).path()};
-    std::vector<fs::path> files;
-    for (size_t face = 0; face < 6; ++face)
-        files.push_back(output.of_face(frame, face).path());
-    return files;
-}
-
 /// What is wrong with the frame's first file with which something is; none: it is kept. An empty text: it is
 /// not there.
 std::optional<std::pair<fs::path, std::string>> objection_to(const std::vector<fs::path>& files,
@@ -91,6 +81,15 @@ KeptFrames leave_out_segments(CapturePlan& plan, const Fingerprint& run) {
 }
 
 } // namespace
+
+std::vector<fs::path> files_of(const OutputName& output, int frame) {
+    if (!output.six_faces())
+        return {output.of_frame(frame).path()};
+    std::vector<fs::path> files;
+    for (size_t face = 0; face < 6; ++face)
+        files.push_back(output.of_face(frame, face).path());
+    return files;
+}
 
 std::string why_not_kept(const fs::path& file, const Fingerprint& wanted) {
     const auto metadata = image::read_metadata(file);

@@ -19,6 +19,9 @@ struct KeptFrames {
 /// Takes them out of the plan, and marks the segments of a video. Changes no file.
 KeptFrames leave_out_kept(CapturePlan& plan, const Fingerprint& run);
 
+/// The files of a frame: a picture, or the six faces of a cube.
+std::vector<std::filesystem::path> files_of(const OutputName& output, int frame);
+
 /// Why the picture in that file is not the one with this fingerprint; empty: it is.
 std::string why_not_kept(const std::filesystem::path& file, const Fingerprint& wanted);
 

@@ -101,6 +101,12 @@ std::vector<fs::path> find_states(const OutputName& output) {
     return files;
 }
 
+void remove_states(const OutputName& output) {
+    std::error_code ignored;
+    for (const fs::path& file : find_states(output))
+        fs::remove(file, ignored);
+}
+
 Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint) {
     auto staged = TRY(StagedFile::create(file));
     Sha256 hash;

@@ -31,6 +31,9 @@ OutputPath state_file(const OutputName& output, int frame);
 /// The files of states that are there of an output, the latest frame first.
 std::vector<std::filesystem::path> find_states(const OutputName& output);
 
+/// All that `find_states` finds: nobody needs them any more.
+void remove_states(const OutputName& output);
+
 /// On disk, when it comes back (ErrorCode::write).
 Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint);
 

@@ -38,10 +38,4 @@ Result<void> StateSaver::save(const SavedState& state) {
     return {};
 }
 
-void StateSaver::remove_all() const {
-    std::error_code ignored;
-    for (const std::filesystem::path& file : find_states(plan_.output))
-        std::filesystem::remove(file, ignored);
-}
-
 } // namespace tidemark::cli

@@ -22,8 +22,6 @@ public:
     Result<void> save_buffers(int frame);
     /// The one that the capture goes on from: it is there already.
     void found(int frame) { last_ = frame; }
-    /// All states of this output, when nobody needs them any more.
-    void remove_all() const;
 
 private:
     Result<void> save(const SavedState& state);
