@@ -30,15 +30,19 @@
 namespace tidemark::cli {
 namespace {
 
-/// The newest state that the rest of the capture can begin from; of a scene without feedback, any.
+/// The newest state that the rest of the capture can begin from. Where there is none, one that is too new
+/// still says which program was chosen.
 std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint& fingerprint) {
     const render::FrameStates states = states_of(plan.frames);
+    std::optional<SavedState> too_new;
     for (const std::filesystem::path& file : find_states(plan.output)) {
         auto state = read_state(file, [&](int frame) { return fingerprint.of_frame(states(frame)); });
-        if (state && (state->buffers.empty() || state->frame <= plan.frames.frames.front()))
+        if (state && state->frame <= plan.frames.frames.front())
             return state;
+        if (state && !too_new)
+            too_new = SavedState{state->frame, state->program};
     }
-    return std::nullopt;
+    return too_new;
 }
 
 void say_what_was_written(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
@@ -81,7 +85,7 @@ void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
 void tidy_up(const CapturePlan& plan) {
     if (plan.resume)
         StagedFile::remove_abandoned(plan.output.of_frame(0));
-    if (!plan.shard)
+    if (!plan.shard && !plan.output.standard_output())
         remove_states(plan.output);
 }
 
@@ -93,40 +97,31 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
                        words.empty() ? "" : "; " + words);
 }
 
-Result<int> capture_frames(CapturePlan plan) {
-    Interrupt interrupt;
-    std::jthread codec; // is loaded beside the driver, which takes as long
-    if (plan.to_picture_files())
-        codec = image::preload_picture_codec(plan.output.pattern());
-    const auto context = TRY(platform::HeadlessContext::create(plan.device));
-    const auto fingerprint = Fingerprint::of_run(plan, gl::query_capabilities());
-    const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
+/// What was made before: leaves it out of the plan, and gives what the rest begins from.
+std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerprint) {
     if (plan.resume)
         keep_what_is_there(plan, fingerprint);
     else if (plan.frames.frames.empty())
         say("this shard has no frame: there are more shards than frames");
-    if (plan.frames.frames.empty() && plan.to_picture_files() && !plan.json) {
-        tidy_up(plan);
-        return 0;
-    }
-    const auto state = (plan.resume || plan.shard) && !plan.frames.frames.empty()
-                           ? find_state(plan, fingerprint)
-                           : std::nullopt;
+    if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
+        return std::nullopt;
+    auto state = find_state(plan, fingerprint);
     if (state && !plan.shard) { // shards draw one program, whatever another capture chose
         plan.drawing.specialise = state->program;
         plan.trial.reset();
     }
-    auto compiled = TRY(compile(plan, interrupt));
-    Capture run(plan, fingerprint, compiled, sound ? sound->path() : std::filesystem::path());
-    if (state)
-        run.start_from(*state);
-    const auto complete = TRY(run.run(interrupt).map_error([&](Error error) {
+    return state;
+}
+
+Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
+    return run.run(interrupt).map_error([&](Error error) {
         if (const std::string words = words_on_resuming(plan, run.whole_frames()); !words.empty())
             error.message += "; " + words;
         return error;
-    }));
-    if (complete)
-        tidy_up(plan);
+    });
+}
+
+Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     if (plan.json)
         TRY(put(dump(run.report(), 2) + "\n"));
     say_what_is_not_finite(run.records(), plan);
@@ -135,6 +130,30 @@ Result<int> capture_frames(CapturePlan plan) {
         say_what_was_written(run.records(), plan);
     if (!complete)
         say(interruption(plan, run));
+    return {};
+}
+
+Result<int> capture_frames(CapturePlan plan) {
+    Interrupt interrupt;
+    std::jthread codec; // is loaded beside the driver, which takes as long
+    if (plan.to_picture_files())
+        codec = image::preload_picture_codec(plan.output.pattern());
+    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto fingerprint = Fingerprint::of_run(plan, gl::query_capabilities());
+    const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
+    const std::optional<SavedState> state = take_up(plan, fingerprint);
+    if (plan.frames.frames.empty() && plan.to_picture_files() && !plan.json) {
+        tidy_up(plan);
+        return 0;
+    }
+    auto compiled = TRY(compile(plan, interrupt));
+    Capture run(plan, fingerprint, compiled, sound ? sound->path() : std::filesystem::path());
+    if (state)
+        run.start_from(*state);
+    const bool complete = TRY(draw(run, plan, interrupt));
+    if (complete)
+        tidy_up(plan);
+    TRY(report(run, plan, complete));
     return complete ? 0 : Interrupt::k_exit_code;
 }
 

@@ -80,6 +80,20 @@ Result<void> check_shard(const CaptureOptions& options, const OutputName& output
     return {};
 }
 
+/// What a capture leaves for another one.
+Result<void> check_keeping(const CaptureOptions& options, const OutputName& output, Extent extent) {
+    if (options.resume)
+        TRY(check_resume(output));
+    if (options.state_every > 0 && output.standard_output())
+        return fail(ErrorCode::usage, "--state-every: frames on standard output are not kept");
+    if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
+        return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to be saved",
+                                                  extent.width, extent.height));
+    if (!options.shard.empty())
+        TRY(check_shard(options, output));
+    return {};
+}
+
 /// What the output can hold.
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
@@ -93,13 +107,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
         if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
             return fits;
     }
-    if (options.resume)
-        TRY(check_resume(output));
-    if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
-        return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to be saved",
-                                                  extent.width, extent.height));
-    if (!options.shard.empty())
-        TRY(check_shard(options, output));
+    TRY(check_keeping(options, output, extent));
     if (options.tile && output.video())
         return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))

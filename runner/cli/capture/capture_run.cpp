@@ -47,7 +47,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     if (!plan_.frames.frames.empty()) {
         prepare(interrupt);
         restore();
-        if (in_doubt_)
+        if (in_doubt_ && !plan_.output.standard_output())
             TRY(saver_.save_program());
     }
     Progress progress("frames", plan_.frames.frames.size());
@@ -60,7 +60,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
                 video_->drop();
             else
                 TRY(close_output());
-            if (whole_frames() == 0)
+            if (whole_frames() == 0 && !plan_.output.standard_output())
                 remove_states(plan_.output);
             return false;
         }

@@ -30,7 +30,7 @@ public:
     /// The names of the parts that are others, for people: "another text, other knobs"; empty: none is.
     std::string differences(const Fingerprint& other) const;
 
-    /// The same with another's device: whether that is all they differ in.
+    /// The same, with the device of that one.
     Fingerprint on_device_of(const Fingerprint& other) const;
 
     bool operator==(const Fingerprint&) const = default;
