@@ -1,9 +1,11 @@
 #include "base/descriptor.hpp"
 #include "base/file.hpp"
+#include "base/hash.hpp"
 #include "base/try.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <limits.h>
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -29,7 +31,8 @@ namespace {
 constexpr std::string_view k_part = ".part-";
 constexpr size_t k_longest_name = 255;
 constexpr size_t k_longest_extension = 16; ///< of a format that somebody knows by it
-constexpr size_t k_number_room = 24;       ///< the process, a dash and the count
+constexpr size_t k_machine_digits = 8;
+constexpr size_t k_number_room = 33; ///< the machine, the process and the count, dashes between
 constexpr int k_pipe_patience_ms = 10000;
 constexpr int k_pipe_look_ms = 20;
 
@@ -77,13 +80,23 @@ Result<void> write_stream(const OutputPath& output, const OutputPath::Place& pla
     return error ? cannot_write(output, error) : Result<void>();
 }
 
-/// `.NAME.part-PID-COUNT.EXTENSION`; several processes and threads may write to one path.
-std::string temporary_name(const std::string& stem, const std::string& extension) {
-    static std::atomic<unsigned> count = 0;
-    return fmt::format(".{}{}{}-{}{}", stem, k_part, ::getpid(), ++count, extension);
+/// Eight digits that stand for this machine: on a disk that several share a process is known by its own only.
+const std::string& machine() {
+    static const std::string digits = [] {
+        std::array<char, HOST_NAME_MAX + 1> name{};
+        ::gethostname(name.data(), name.size() - 1);
+        return sha256(std::as_bytes(std::span(name))).substr(0, k_machine_digits);
+    }();
+    return digits;
 }
 
-/// The process whose file under construction this is, and of which output; 0: it is none.
+/// `.NAME.part-MACHINE-PID-COUNT.EXTENSION`; several processes and threads may write to one path.
+std::string temporary_name(const std::string& stem, const std::string& extension) {
+    static std::atomic<unsigned> count = 0;
+    return fmt::format(".{}{}{}-{}-{}{}", stem, k_part, machine(), ::getpid(), ++count, extension);
+}
+
+/// The process of this machine whose file under construction this is, and of which output; 0: it is none.
 struct PartOf {
     pid_t process = 0;
     std::string stem{};
@@ -94,8 +107,12 @@ PartOf part_of(const std::string& name) {
     if (name.empty() || name[0] != '.' || part == name.npos)
         return {};
     PartOf found;
+    const size_t numbers = part + k_part.size();
+    if (!std::string_view(name).substr(numbers).starts_with(machine() + "-"))
+        return {};
     const char* const end = name.data() + name.size();
-    const auto [after, wrong] = std::from_chars(name.data() + part + k_part.size(), end, found.process);
+    const auto [after, wrong] =
+        std::from_chars(name.data() + numbers + k_machine_digits + 1, end, found.process);
     unsigned count = 0;
     if (wrong != std::errc() || after == end || *after != '-' ||
         std::from_chars(after + 1, end, count).ec != std::errc())
@@ -131,16 +148,7 @@ bool is_abandoned(const fs::path& path, pid_t process) {
            (::flock(file.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK);
 }
 
-/// Once for each output of a process: a sequence writes to its folder a thousand times.
-void remove_abandoned(const fs::path& folder, const std::string& stem) {
-    static std::mutex mutex;
-    static std::set<std::pair<fs::path, std::string>> seen;
-    const std::string output = without_digits(stem);
-    {
-        const std::lock_guard lock(mutex);
-        if (!seen.emplace(folder, output).second)
-            return;
-    }
+void remove_abandoned_in(const fs::path& folder, const std::string& output) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         const PartOf part = part_of(entry->path().filename().string());
@@ -150,7 +158,29 @@ void remove_abandoned(const fs::path& folder, const std::string& stem) {
     }
 }
 
+/// Once for each output of a process: a sequence writes to its folder a thousand times.
+void remove_abandoned_once(const fs::path& folder, const std::string& stem) {
+    static std::mutex mutex;
+    static std::set<std::pair<fs::path, std::string>> seen;
+    const std::string output = without_digits(stem);
+    {
+        const std::lock_guard lock(mutex);
+        if (!seen.emplace(folder, output).second)
+            return;
+    }
+    remove_abandoned_in(folder, output);
+}
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
 } // namespace
+
+void StagedFile::remove_abandoned(const OutputPath& output) {
+    if (const auto place = output.place(); place && !place->stream)
+        remove_abandoned_in(folder_of(place->path), without_digits(output.path().stem().string()));
+}
 
 Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view extension) {
     auto place = TRY(output.place());
@@ -163,10 +193,8 @@ Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view
         ending.clear();
     const std::string stem =
         name.stem().string().substr(0, k_longest_name - 1 - k_part.size() - k_number_room - ending.size());
-    fs::path folder = place.stream ? fs::temp_directory_path(ignored) : place.path.parent_path();
-    if (folder.empty())
-        folder = ".";
-    remove_abandoned(folder, stem);
+    const fs::path folder = place.stream ? fs::temp_directory_path(ignored) : folder_of(place.path);
+    remove_abandoned_once(folder, stem);
     StagedFile staged(output, std::move(place));
     TRY(staged.open(folder, stem, ending));
     return staged;

@@ -32,6 +32,17 @@ bool FrameWriter::push(FrameFile frame) {
     return true;
 }
 
+bool FrameWriter::drain() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return (queue_.empty() && writing_ == 0) || !errors_.empty(); });
+    return errors_.empty();
+}
+
+size_t FrameWriter::written() {
+    const std::lock_guard lock(mutex_);
+    return written_;
+}
+
 Result<void> FrameWriter::finish() {
     {
         const std::lock_guard lock(mutex_);
@@ -62,6 +73,7 @@ void FrameWriter::work() {
 }
 
 void FrameWriter::write(const FrameFile& frame, std::unique_lock<std::mutex>& lock) {
+    ++writing_;
     lock.unlock();
     Result<void> written;
     try {
@@ -71,10 +83,12 @@ void FrameWriter::write(const FrameFile& frame, std::unique_lock<std::mutex>& lo
             fail(ErrorCode::write, "cannot write '" + frame.output.path().string() + "': out of memory");
     }
     lock.lock();
-    if (!written) {
+    --writing_;
+    if (written)
+        ++written_;
+    else
         errors_.emplace_back(frame.frame, std::move(written.error()));
-        changed_.notify_all();
-    }
+    changed_.notify_all();
 }
 
 } // namespace tidemark::cli

@@ -33,6 +33,12 @@ public:
     /// need not be drawn.
     bool push(FrameFile frame);
 
+    /// Waits until all that was handed over is written; false once a frame could not be.
+    bool drain();
+
+    /// Pictures that are on disk by now.
+    size_t written();
+
     /// Waits for all frames; the error of the earliest one that failed.
     Result<void> finish();
 
@@ -45,6 +51,8 @@ private:
     std::condition_variable changed_;
     std::deque<FrameFile> queue_;
     size_t capacity_;
+    size_t written_ = 0;
+    size_t writing_ = 0; ///< frames that workers have in hand
     bool closed_ = false;
     std::vector<std::pair<int, Error>> errors_;
     std::vector<std::thread> workers_;

@@ -119,7 +119,7 @@ double difference_of(const Pictures& a, const Pictures& b) {
 /// Buffers at zero.
 Trial blank(Renderer renderer) {
     renderer.reset();
-    return {std::move(renderer)};
+    return {.renderer = std::move(renderer), .in_doubt = true};
 }
 
 std::string verdict(double difference, std::optional<double> allowed, bool taken) {

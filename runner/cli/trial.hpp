@@ -28,6 +28,7 @@ struct Trial {
     std::string said{}; ///< for people: a difference that was allowed or that decided against it; else empty
     /// What a frame takes of the plain program's time, where the other one was taken.
     std::optional<double> share{};
+    bool in_doubt = false; ///< there were two programs, and another trial may decide otherwise
 };
 
 /// What a frame takes of another program's time: the median of pairs, as soon as all of its 95 % interval

@@ -87,13 +87,17 @@ private:
         // Whoever stands before the source reads last frame's texture before it is drawn over: only a pass
         // that reads itself needs a second one.
         target.two_textures = target.two_textures || reader == *source;
-        plan_.feedback = plan_.feedback || frame_ref(reader, *source) == FrameRef::previous;
+        if (frame_ref(reader, *source) == FrameRef::previous) {
+            plan_.feedback = true;
+            target.carried = std::max(target.carried, 1);
+        }
     }
 
     void plan_discarding(size_t pass) {
         plan_.feedback = true;
-        if (scene_.passes[pass].kind != scene::PassKind::image)
-            plan_.targets[pass].two_textures = true;
+        TargetPlan& target = plan_.targets[pass];
+        target.two_textures = target.two_textures || scene_.passes[pass].kind != scene::PassKind::image;
+        target.carried = target.two_textures ? 2 : 1;
     }
 
     void add_extras(TargetPlan& target) const {

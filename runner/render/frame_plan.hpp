@@ -33,6 +33,7 @@ struct PlannedPass {
 struct TargetPlan {
     bool two_textures = false; ///< the pass reads its own last frame while it draws, or keeps pixels of it
     bool mipmaps = false;      ///< some reader filters between mipmaps
+    int carried = 0;           ///< of its textures, the latest first, so many does the next frame see
 };
 
 struct FramePlan {

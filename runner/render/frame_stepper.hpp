@@ -34,6 +34,8 @@ public:
     FrameSteps draw(int frame, const MayDraw& may_draw = {});
     /// All that `draw` draws but the frame itself: buffers hold what it would see.
     FrameSteps lead_to(int frame, const MayDraw& may_draw = {});
+    /// The renderer's buffers hold what leads to that frame, by whatever way.
+    void start_from(int frame) { next_ = frame; }
     /// Goes on into the frame. What is asked for next begins anew.
     PassPreview preview(int frame, size_t pass, const MayDraw& may_draw = {});
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace tidemark::render {
 
@@ -51,6 +52,32 @@ void PassTarget::flip() {
 void PassTarget::clear() {
     for (const gl::RenderTarget& surface : surfaces_)
         gl::clear(surface);
+    ++edition_;
+}
+
+std::vector<TextureFloats> PassTarget::carried() const {
+    std::vector<TextureFloats> textures;
+    for (int i = 0; i < plan_.carried; ++i)
+        textures.push_back(gl::read_level((i == 0 ? latest() : next()).texture, 0));
+    return textures;
+}
+
+bool PassTarget::can_restore(const std::vector<TextureFloats>& carried) const {
+    const gl::Texture& texture = latest().texture;
+    const size_t floats = texture.extent.pixels() * size_t(texture.depth) * 4;
+    return carried.size() == size_t(plan_.carried) &&
+           std::ranges::all_of(carried, [&](const TextureFloats& t) { return t.size() == floats; });
+}
+
+void PassTarget::restore(const std::vector<TextureFloats>& carried) {
+    for (size_t i = 0; i < carried.size(); ++i) {
+        const gl::Texture& texture = (i == 0 ? latest() : next()).texture;
+        const auto bytes = std::as_bytes(std::span(carried[i]));
+        const size_t layer = bytes.size() / size_t(texture.depth);
+        for (int face = 0; face < texture.depth; ++face)
+            gl::upload(texture, face, GL_RGBA, GL_FLOAT, bytes.subspan(size_t(face) * layer, layer));
+        gl::make_mipmaps(texture);
+    }
     ++edition_;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/result.hpp"
 #include "gl/render_target.hpp"
+#include "render/buffer_state.hpp"
 #include "render/frame_plan.hpp"
 #include "render/last_drawing.hpp"
 
@@ -33,6 +34,12 @@ public:
     GLenum internal_format() const { return latest().texture.internal_format; }
     /// Of the picture in `latest`.
     Generation generation() const { return edition_; }
+    /// Those of its textures that the next frame sees.
+    std::vector<TextureFloats> carried() const;
+    /// Whether that is of a target like this one.
+    bool can_restore(const std::vector<TextureFloats>& carried) const;
+    /// What `carried` gave is there again.
+    void restore(const std::vector<TextureFloats>& carried);
     /// Shows what `other` shows, as far as it reaches; of the same format.
     void continue_from(const PassTarget& other);
     /// A target of another size with the overlap of the old picture in its bottom left corner.

@@ -120,6 +120,33 @@ void Renderer::reset() {
         passes_[planned.pass].target.clear();
 }
 
+BufferState Renderer::buffer_state() const {
+    BufferState state;
+    for (const PlannedPass& planned : plan().passes)
+        if (plan().targets[planned.pass].carried > 0)
+            state.push_back({scene().passes[planned.pass].name, passes_[planned.pass].target.carried()});
+    return state;
+}
+
+bool Renderer::restore(const BufferState& state) {
+    std::vector<PassTarget*> targets;
+    for (const PlannedPass& planned : plan().passes) {
+        if (plan().targets[planned.pass].carried == 0)
+            continue;
+        PassTarget& target = passes_[planned.pass].target;
+        if (targets.size() >= state.size() ||
+            state[targets.size()].pass != scene().passes[planned.pass].name ||
+            !target.can_restore(state[targets.size()].textures))
+            return false;
+        targets.push_back(&target);
+    }
+    if (targets.size() != state.size())
+        return false;
+    for (size_t i = 0; i < targets.size(); ++i)
+        targets[i]->restore(state[i].textures);
+    return true;
+}
+
 void Renderer::continue_from(const Renderer& before) {
     for (const PlannedPass& planned : plan().passes)
         for (const PlannedPass& known : before.plan().passes) {

@@ -6,6 +6,7 @@
 #include "gl/program.hpp"
 #include "image/image.hpp"
 #include "render/bound_channel.hpp"
+#include "render/buffer_state.hpp"
 #include "render/channel_textures.hpp"
 #include "render/compiled_scene.hpp"
 #include "render/frame_inputs.hpp"
@@ -60,6 +61,12 @@ public:
     /// Buffers back to zero, as before frame 0.
     void reset();
 
+    /// What the next frame reads of this one.
+    BufferState buffer_state() const;
+    /// Buffers as they were when `state` was taken; false, and nothing is changed, where it is of another
+    /// scene or size.
+    bool restore(const BufferState& state);
+
     /// Buffers take over what they hold in another Renderer of the scene as it was before: each from the pass
     /// of its name. The two may live in two contexts that share their textures; the other one is done
     /// drawing.
@@ -95,6 +102,8 @@ public:
     /// The program of a pass in the plan.
     const gl::Program& program(size_t pass) const { return compiled_[pass].linked.program; }
     glsl::Precision precision() const { return compiled_.options().precision; }
+    /// How far its texts are specialised.
+    glsl::Specialise specialised() const { return compiled_.options().specialise; }
     /// What a pass in the plan leaves in floats although the scene is promoted.
     const std::vector<glsl::KeptHash>& kept_hashes(size_t pass) const {
         return compiled_[pass].linked.hashes;

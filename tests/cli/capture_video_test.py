@@ -162,7 +162,8 @@ class Video(ProgramTest):
         return False
 
     def test_interrupted_leaves_nothing(self):
-        program = subprocess.Popen([PROGRAM, "capture", "a.glsl", *SIZE, "--frames", "0-1000000", "-o", "a.mp4"],
+        program = subprocess.Popen([PROGRAM, "capture", "a.glsl", *SIZE, "--frames", "0-1000000",
+                                    "--state-every", "1000000", "-o", "a.mp4"],
                                    cwd=self.folder, stderr=subprocess.PIPE, env=environment())
         # ffmpeg writes: before that, while the driver compiles, Ctrl-C ends without a word.
         while not self.has_written():

@@ -49,7 +49,8 @@ class Interrupted(ProgramTest):
                 self.assertEqual(self.files(), {"wave.glsl", *names})
                 lines = [line for line in stderr.splitlines() if not re.match(r"\d+/\d+ frames, ", line)]
                 self.assertEqual(lines, [f"wrote {count} frames, wave.0000.png to wave.{count - 1:04}.png",
-                                         f"interrupted after {count} of 10000000 frames"])
+                                         f"interrupted after {count} of 10000000 frames; {count} frames are whole, "
+                                         "and the same command with --resume goes on"])
                 for name in self.files():
                     (self.folder / name).unlink()
 

@@ -1,7 +1,12 @@
 #include "base/try.hpp"
+#include "cli/capture/capture_options.hpp"
 #include "cli/capture/capture_plan.hpp"
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
+#include "cli/capture/compile_plan.hpp"
+#include "cli/capture/fingerprint.hpp"
+#include "cli/capture/kept_frames.hpp"
+#include "cli/capture/saved_state.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
@@ -25,50 +30,25 @@
 namespace tidemark::cli {
 namespace {
 
-/// The size of the tiles; nothing where frames are drawn whole.
-Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
-    const int limit = gl::query_capabilities().largest_target;
-    if (plan.tile_side)
-        return render::tile_of_side(*plan.tile_side, limit).map([](Extent tile) {
-            return std::optional(tile);
-        });
-    if (plan.output.video())
-        return std::nullopt;
-    return render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
-}
-
-/// Where it pays, the faster of two programs; in tiles too large a picture is drawn to draw it for a trial.
-Result<render::Renderer> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
-    if (!plan.trial || drawing.tile)
-        return render::Renderer::create(plan.scene, drawing);
-    drawing.specialise = plan.trial->as_far_as;
-    auto trial = TRY(choose_program(plan.scene, drawing, plan.trial->frames));
-    if (!trial.said.empty())
-        say(trial.said);
-    return std::move(trial.renderer);
-}
-
-Result<render::Renderer> compile(const CapturePlan& plan, Interrupt& interrupt) {
-    const Interrupt::Immediate at_once(interrupt);
-    Watchdog watchdog;
-    const Watchdog::Watch watch(watchdog, "compiling", plan.timeout);
-    const auto tile = TRY(choose_tile(plan));
-    render::RenderOptions drawing = plan.drawing;
-    drawing.tile = tile;
-    auto renderer = choose_renderer(plan, drawing);
-    if (renderer && plan.tile_side && !renderer->tiles())
-        return fail(
-            ErrorCode::usage,
-            fmt::format(
-                "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
-                renderer->shown_pass().name));
-    return renderer;
+/// The newest state that the rest of the capture can begin from. Where there is none, one that is too new
+/// still says which program was chosen.
+std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint& fingerprint) {
+    const render::FrameStates states = states_of(plan.frames);
+    std::optional<SavedState> too_new;
+    for (const std::filesystem::path& file : find_states(plan.output)) {
+        auto state = read_state(file, [&](int frame) { return fingerprint.of_frame(states(frame)); });
+        if (state && state->frame <= plan.frames.frames.front())
+            return state;
+        if (state && !too_new)
+            too_new = SavedState{state->frame, state->program};
+    }
+    return too_new;
 }
 
 void say_what_was_written(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
     if (plan.output.video())
         say(fmt::format(
-            "wrote {}: {} frames{}", records.front().file, records.size(),
+            "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.size(),
             plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
     else if (records.size() == 1)
         say(fmt::format("wrote {}", records.front().file));
@@ -91,52 +71,107 @@ void say_what_is_not_finite(const std::vector<FrameRecord>& records, const Captu
                     plan.trace_command(states_of(plan.frames)(first->frame))));
 }
 
-/// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong
-/// is said, and nothing else.
-std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt) {
-    if (!plan.output.video())
-        return std::nullopt;
-    const std::vector<int>& frames = plan.frames.frames;
-    const VideoPace& pace = plan.pace;
-    const bool heard = plan.output.pattern().extension() != ".gif" && plan.scene.find(scene::PassKind::sound);
-    if (!pace.not_in_time.empty())
-        say(fmt::format("the video does not go by the scene's time: {}, {:.4g} a second{}", pace.not_in_time,
-                        pace.fps, heard ? "; it is silent" : ""));
-    if (!heard || !pace.not_in_time.empty())
-        return std::nullopt;
-    const double first = plan.frames.state.at_frame(frames.front()).seconds();
-    auto samples = draw_sound(plan.scene, plan.drawing.precision, std::max(0.0, first),
-                              double(frames.size()) / pace.fps, interrupt);
-    auto file = StagedFile::create(plan.output.of_frame(0), ".wav");
-    Result<void> written = !file      ? fail(std::move(file.error()))
-                           : !samples ? fail(std::move(samples.error()))
-                                      : sound::write_wav(file->path(), int(render::k_sample_rate), *samples);
-    if (written)
-        return *std::move(file);
-    say("the video is silent: " + to_string(written.error()));
-    return std::nullopt;
+/// The plan without the frames that are there already; says how many those are.
+void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
+    const size_t all = plan.frames.frames.size();
+    const KeptFrames kept = leave_out_kept(plan, fingerprint);
+    for (const std::string& line : kept.said)
+        say(line);
+    say(fmt::format("kept {} of {} frames", kept.frames.size(), all));
+    plan.kept = kept.frames;
 }
 
-Result<int> capture_frames(const CapturePlan& plan) {
+/// What a run before left, which may have ended after this one began, and what this one needs no more.
+void tidy_up(const CapturePlan& plan) {
+    if (plan.resume)
+        StagedFile::remove_abandoned(plan.output.of_frame(0));
+    if (!plan.shard && !plan.output.standard_output())
+        remove_states(plan.output);
+}
+
+std::string interruption(const CapturePlan& plan, Capture& run) {
+    const std::string words = words_on_resuming(plan, run.whole_frames());
+    return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().size(),
+                       plan.kept.size() + plan.frames.frames.size(),
+                       plan.output.video() ? ": no video was written" : "",
+                       words.empty() ? "" : "; " + words);
+}
+
+/// What was made before: leaves it out of the plan, and gives what the rest begins from.
+std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerprint) {
+    if (plan.resume)
+        keep_what_is_there(plan, fingerprint);
+    else if (plan.frames.frames.empty())
+        say("this shard has no frame: there are more shards than frames");
+    if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
+        return std::nullopt;
+    auto state = find_state(plan, fingerprint);
+    if (state && !plan.shard) { // shards draw one program, whatever another capture chose
+        plan.drawing.specialise = state->program;
+        plan.trial.reset();
+    }
+    return state;
+}
+
+Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
+    return run.run(interrupt).map_error([&](Error error) {
+        if (const std::string words = words_on_resuming(plan, run.whole_frames()); !words.empty())
+            error.message += "; " + words;
+        return error;
+    });
+}
+
+Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
+    if (plan.json)
+        TRY(put(dump(run.report(), 2) + "\n"));
+    say_what_is_not_finite(run.records(), plan);
+    const bool written = complete || !plan.output.video();
+    if (written && !plan.json && !plan.output.standard_output())
+        say_what_was_written(run.records(), plan);
+    if (!complete)
+        say(interruption(plan, run));
+    return {};
+}
+
+Result<int> capture_frames(CapturePlan plan) {
     Interrupt interrupt;
     std::jthread codec; // is loaded beside the driver, which takes as long
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto fingerprint = Fingerprint::of_run(plan, gl::query_capabilities());
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
-    auto renderer = TRY(compile(plan, interrupt));
-    Capture run(plan, renderer, sound ? sound->path() : std::filesystem::path());
-    const auto complete = TRY(run.run(interrupt));
-    if (plan.json)
-        TRY(put(dump(run.report(), 2) + "\n"));
-    say_what_is_not_finite(run.records(), plan);
-    const bool written = complete || !plan.output.video(); // of a video nothing is kept but the whole
-    if (written && !plan.json && !plan.output.standard_output())
-        say_what_was_written(run.records(), plan);
-    if (!complete)
-        say(fmt::format("interrupted after {} of {} frames{}", run.records().size(),
-                        plan.frames.frames.size(), written ? "" : ": no video was written"));
+    const std::optional<SavedState> state = take_up(plan, fingerprint);
+    if (plan.frames.frames.empty() && plan.to_picture_files() && !plan.json) {
+        tidy_up(plan);
+        return 0;
+    }
+    auto compiled = TRY(compile(plan, interrupt));
+    Capture run(plan, fingerprint, compiled, sound ? sound->path() : std::filesystem::path());
+    if (state)
+        run.start_from(*state);
+    const bool complete = TRY(draw(run, plan, interrupt));
+    if (complete)
+        tidy_up(plan);
+    TRY(report(run, plan, complete));
     return complete ? 0 : Interrupt::k_exit_code;
+}
+
+/// What was typed, but for what another shard is told otherwise.
+std::vector<std::string> words_for_all_shards(const CLI::App& command) {
+    std::vector<std::string> words;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || name == "--shard" || name == "--resume" || name == "--json")
+            continue;
+        for (const std::string& value : option->results()) {
+            if (!option->get_positional())
+                words.push_back(name);
+            if (option->get_items_expected_max() > 0)
+                words.push_back(value);
+        }
+    }
+    return words;
 }
 
 Result<int> capture(const CaptureOptions& options) {
@@ -146,53 +181,71 @@ Result<int> capture(const CaptureOptions& options) {
 
 } // namespace
 
-void add_capture(CLI::App& app, Action& chosen) {
-    auto options = std::make_shared<CaptureOptions>();
-    CLI::App* command =
-        app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene, with no display");
-    add_scene_options(*command, options->scene);
-    add_precision_options(*command, options->scene);
-    add_picture_options(*command, options->frames);
-    add_time_options(*command, options->frames);
+void add_capture_options(CLI::App& command, CaptureOptions& options) {
+    add_scene_options(command, options.scene);
+    add_precision_options(command, options.scene);
+    add_picture_options(command, options.frames);
+    add_time_options(command, options.frames);
     command
-        ->add_option("-o,--output", options->output,
-                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
-                     "a cube; a video: .mp4 .webm .gif; - for "
-                     "raw RGB frames on standard output [SCENE.png]")
+        .add_option("-o,--output", options.output,
+                    "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
+                    "a cube; a video: .mp4 .webm .gif; - for "
+                    "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
-        ->add_option(
-            "--depth", options->depth,
+        .add_option(
+            "--depth", options.depth,
             "Bits of a sample in the file [what the format stores by nature; a --pass in .exr: float]")
         ->type_name("8|16|half|float");
-    command
-        ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")
+    command.add_option("--device", options.device, "Where to draw: a name from `tidemark inspect --devices`")
         ->type_name("NAME")
         ->capture_default_str();
     command
-        ->add_option("--timeout", options->timeout,
-                     "Give up where compiling takes longer, or getting ready to draw, or a frame")
+        .add_option("--timeout", options.timeout,
+                    "Give up where compiling takes longer, or getting ready to draw, or a frame")
         ->type_name("SECONDS")
         ->check(number<double>("a number of seconds"));
-    command->add_option("--duration", options->duration, "Length of a .wav")
+    command.add_option("--duration", options.duration, "Length of a .wav")
         ->type_name("SECONDS")
         ->check(number<double>("a number of seconds"))
         ->capture_default_str();
-    auto* plain = command->add_flag("--plain", options->plain, "Compiles the scene's text whole, as it is");
+    auto* plain = command.add_flag("--plain", options.plain, "Compiles the scene's text whole, as it is");
     command
-        ->add_option("--allow-difference", options->allowed_difference,
-                     "Makes knobs constants where that is faster and moves no sample by more")
+        .add_option("--allow-difference", options.allowed_difference,
+                    "Makes knobs constants where that is faster and moves no sample by more")
         ->type_name("MAX")
         ->check(number<double>("a number"))
         ->excludes(plain)
         ->excludes("--timeout"); // a trial's frames have no limit
     command
-        ->add_option("--tile", options->tile,
-                     "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
+        .add_option("--tile", options.tile,
+                    "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
         ->type_name("N")
         ->check(number<int>("a whole number"));
-    command->add_flag("--json", options->json, "One JSON object about the frames on standard output");
-    command->callback([options, &chosen] { chosen = [options] { return capture(*options); }; });
+    command.add_flag("--resume", options.resume,
+                     "Goes on where a capture was cut short: frames that are there already are kept");
+    command
+        .add_option("--state-every", options.state_every,
+                    "Saves the buffers of a scene that reads its own last frame, for --resume")
+        ->type_name("FRAMES")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option(
+            "--shard", options.shard,
+            "Makes every N-th frame, from the K-th on, for one of N processes; slurm: as a task of an array")
+        ->type_name("K/N|slurm");
+    command.add_flag("--json", options.json, "One JSON object about the frames on standard output");
+}
+
+void add_capture(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<CaptureOptions>();
+    CLI::App* command =
+        app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene, with no display");
+    add_capture_options(*command, *options);
+    command->callback([options, command, &chosen] {
+        options->words = words_for_all_shards(*command);
+        chosen = [options] { return capture(*options); };
+    });
 }
 
 } // namespace tidemark::cli

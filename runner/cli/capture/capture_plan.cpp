@@ -2,6 +2,9 @@
 
 #include "base/file.hpp"
 #include "base/try.hpp"
+#include "cli/capture/saved_state.hpp"
+#include "cli/capture/segmented_video.hpp"
+#include "cli/capture/shard_note.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/sequence.hpp"
 #include "image/files/video_writer.hpp"
@@ -50,6 +53,47 @@ void drop_repeats(std::vector<int>& frames) {
 /// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
 constexpr double k_longest_sound = 3600;
 
+/// Whether what is there already can be told from what is missing.
+Result<void> check_resume(const OutputName& output) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--resume: {}", why));
+    };
+    if (output.standard_output())
+        return refuse("frames on standard output are not kept");
+    if (!output.video() && !image::holds_metadata(output.pattern()))
+        return refuse(fmt::format("a {} does not hold how it was drawn; .exr and .tif do",
+                                  output.pattern().extension().string()));
+    return {};
+}
+
+/// Several processes write to one folder, and `gather` has to find out what is there.
+Result<void> check_shard(const CaptureOptions& options, const OutputName& output) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
+    };
+    if (output.standard_output() || output.video())
+        return refuse("give a sequence of pictures, which `tidemark gather -o` joins to a video");
+    if (!image::holds_metadata(output.pattern()))
+        return check_resume(output);
+    if (options.allowed_difference)
+        return refuse("--allow-difference may choose another program on each machine");
+    return {};
+}
+
+/// What a capture leaves for another one.
+Result<void> check_keeping(const CaptureOptions& options, const OutputName& output, Extent extent) {
+    if (options.resume)
+        TRY(check_resume(output));
+    if (options.state_every > 0 && output.standard_output())
+        return fail(ErrorCode::usage, "--state-every: frames on standard output are not kept");
+    if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
+        return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to be saved",
+                                                  extent.width, extent.height));
+    if (!options.shard.empty())
+        TRY(check_shard(options, output));
+    return {};
+}
+
 /// What the output can hold.
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
@@ -63,6 +107,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
         if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
             return fits;
     }
+    TRY(check_keeping(options, output, extent));
     if (options.tile && output.video())
         return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))
@@ -100,11 +145,15 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
         .marks_non_finite = true,
     };
+    if (plan.output.video())
+        plan.segments = segments_of(numbers, options.state_every);
     plan.tile_side = options.tile;
     plan.device = options.device;
     plan.timeout = options.timeout;
     plan.defines = options.scene.defines;
     plan.json = options.json;
+    plan.resume = options.resume;
+    plan.state_every = options.state_every;
     plan.trace_command = [scene = options.scene, frames = plan.frames](const render::FrameState& state) {
         return trace_command(scene, frames, state);
     };
@@ -156,6 +205,16 @@ std::optional<PlannedTrial> plan_trial(const CaptureOptions& options, const Capt
                          options.allowed_difference}};
 }
 
+/// All shards draw the same program: there is no trial.
+Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
+    plan.shard = TRY(parse_shard(options.shard));
+    const std::filesystem::path folder = plan.output.of_frame(0).path().parent_path();
+    TRY(leave_note(OutputPath::typed(folder.empty() ? "." : folder) / k_shard_note,
+                   {options.words, plan.shard->count}));
+    plan.frames.frames = frames_of(*plan.shard, plan.frames.frames, plan.scene);
+    return {};
+}
+
 } // namespace
 
 Result<CapturePlan> plan_capture(const CaptureOptions& options) {
@@ -166,8 +225,18 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     plan->scene = std::move(scene);
     TRY(spare_what_is_read(options, *plan));
     TRY(check_faces(*plan));
-    plan->trial = plan_trial(options, *plan);
+    if (!options.shard.empty())
+        TRY(take_shard(options, *plan));
+    else
+        plan->trial = plan_trial(options, *plan);
     return plan;
+}
+
+std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames) {
+    if (whole_frames == 0 || !check_resume(plan.output))
+        return {};
+    return fmt::format("{} frame{} whole, and the same command with --resume goes on", whole_frames,
+                       whole_frames == 1 ? " is" : "s are");
 }
 
 bool wants_sound(const CaptureOptions& options) {
@@ -175,6 +244,8 @@ bool wants_sound(const CaptureOptions& options) {
 }
 
 Result<SoundPlan> plan_sound(const CaptureOptions& options) {
+    if (options.resume)
+        return fail(ErrorCode::usage, "--resume: a sound is made at once, and whole or not at all");
     if (!(options.duration > 0) || options.duration > k_longest_sound)
         return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
                                                   options.duration, k_longest_sound));

@@ -3,6 +3,7 @@
 // compiled scene knows; behind the plan nobody reads the options.
 #pragma once
 
+#include "cli/capture/shard.hpp"
 #include "cli/capture/video_pace.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
@@ -29,6 +30,10 @@ struct CaptureOptions {
     std::optional<double> allowed_difference;
     std::optional<int> tile;
     bool json = false;
+    bool resume = false;
+    int state_every = 0;
+    std::string shard;
+    std::vector<std::string> words{}; ///< as they were typed, without --shard and --resume
 };
 
 /// A trial of a program that is specialised further than `CapturePlan::drawing` says.
@@ -37,24 +42,38 @@ struct PlannedTrial {
     TrialPlan frames;
 };
 
+/// Frames of a video that are encoded on their own.
+struct VideoSegment {
+    std::vector<int> frames;
+    bool kept = false; ///< it is there already
+};
+
 struct CapturePlan {
     scene::Scene scene;
     FrameSequence frames;
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
-    VideoPace pace;                ///< of a video
-    render::RenderOptions drawing; ///< frames drawn whole
+    VideoPace pace;                       ///< of a video
+    std::vector<VideoSegment> segments{}; ///< of a video: all its frames
+    render::RenderOptions drawing;        ///< frames drawn whole
     std::optional<int> tile_side;
     std::optional<PlannedTrial> trial;
     std::string device;
     std::optional<double> timeout;    ///< seconds for a frame
     std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
     bool json = false;                ///< reports the frames, with the SHA-256 of their pixels
+    bool resume = false;              ///< goes on where a capture was cut short
+    int state_every = 0;              ///< frames between two saved states of buffers; 0: none is saved
+    std::optional<Shard> shard{};     ///< whose `frames` these are
+    std::vector<int> kept{};          ///< frames that are there already, and no more among `frames`
     /// The command that finds where a pixel of that frame stops being a number.
     std::function<std::string(const render::FrameState&)> trace_command;
 
     bool to_picture_files() const { return !output.standard_output() && !output.video(); }
 };
+
+/// How to go on where a capture is cut short after so many whole frames; empty: it begins anew.
+std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);
 
 /// Loads the scene, too, and prints its warnings.
 Result<CapturePlan> plan_capture(const CaptureOptions& options);

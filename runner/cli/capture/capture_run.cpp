@@ -1,6 +1,7 @@
 #include "cli/capture/capture_run.hpp"
 
 #include "base/try.hpp"
+#include "cli/capture/kept_frames.hpp"
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/omissions.hpp"
@@ -31,39 +32,54 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-Capture::Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound)
-    : plan_(plan), renderer_(renderer), driver_(gl::query_capabilities()), states_(states_of(plan.frames)),
-      stepper_(renderer, states_), sound_(std::move(sound)), watchdog_([this] { rescue_output(); }) {}
+Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compiled,
+                 std::filesystem::path sound)
+    : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(compiled.renderer),
+      in_doubt_(compiled.in_doubt), driver_(gl::query_capabilities()), states_(states_of(plan.frames)),
+      stepper_(renderer_, states_), saver_(plan, fingerprint_, renderer_), sound_(std::move(sound)),
+      watchdog_([this] { rescue_output(); }) {}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
     TRY(open_output());
-    prepare(interrupt);
+    if (!plan_.frames.frames.empty()) {
+        prepare(interrupt);
+        restore();
+        if (in_doubt_ && !plan_.output.standard_output())
+            TRY(saver_.save_program());
+    }
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
         const auto outcome =
             TRY(renderer_.tiles() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record));
         if (outcome == Outcome::interrupted) {
-            video_.reset(); // whole or not at all
-            return close_output().map([] { return false; });
+            if (video_)
+                video_->drop();
+            else
+                TRY(close_output());
+            if (whole_frames() == 0 && !plan_.output.standard_output())
+                remove_states(plan_.output);
+            return false;
         }
         if (outcome == Outcome::unwanted)
             break;
         records_.push_back(std::move(record));
         progress.advance();
     }
-    return close_output().map([] { return true; });
+    TRY(close_output());
+    if (plan_.shard && plan_.state_every > 0 && !plan_.frames.frames.empty() && renderer_.plan().feedback)
+        TRY(saver_.save_buffers(plan_.frames.frames.back() + 1)); // the next shard may begin there
+    return true;
 }
 
 Result<void> Capture::open_output() {
     if (plan_.output.video()) {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
-        video_.emplace(TRY(image::VideoWriter::create(
-            plan_.output.of_frame(0),
-            {cube ? image::k_panorama : renderer_.extent(), plan_.pace.fps, sound_})));
+        video_.emplace(
+            TRY(SegmentedVideo::create(plan_, fingerprint_, cube ? image::k_panorama : renderer_.extent())));
     } else if (!plan_.output.standard_output() && !renderer_.tiles()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
         writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
@@ -73,7 +89,7 @@ Result<void> Capture::open_output() {
 
 Result<void> Capture::close_output() {
     if (video_)
-        return video_->finish();
+        return video_->finish(sound_);
     return writer_ ? writer_->finish() : Result<void>();
 }
 
@@ -86,15 +102,32 @@ void Capture::prepare(Interrupt& interrupt) {
     prepare_milliseconds_ = milliseconds_since(start);
 }
 
+/// Buffers as the run before left them; what is of no use is passed over.
+void Capture::restore() {
+    if (!start_ || !renderer_.plan().feedback || !renderer_.restore(start_->buffers))
+        return;
+    stepper_.start_from(start_->frame);
+    saver_.found(start_->frame);
+    say(fmt::format("going on from the state before frame {}", start_->frame));
+}
+
 /// Leaves `work` watched. False: interrupted.
-bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
+Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
     record.file = plan_.output.of_frame(frame).string();
     record.frame = frame;
     const auto begun = Clock::now(); // the limit is on the frame and on all that lead to it
+    Result<void> saved;
     const auto steps_drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
+        if (saver_.is_due(step)) {
+            if (writer_ && !writer_->drain()) // a state is newer than no frame in front of it
+                return false;
+            saved = saver_.save_buffers(step);
+            if (!saved)
+                return false;
+        }
         if (step < last && !steps)
             steps.emplace("frames stepped", size_t(last - step));
         else if (steps)
@@ -103,13 +136,14 @@ bool Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout, begun);
         return true;
     });
+    TRY(std::move(saved));
     record.passes_drawn = steps_drawn.passes;
     return steps_drawn.complete;
 }
 
 Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
     std::optional<Work> work(std::in_place);
-    if (!step_to(frame, interrupt, record, *work))
+    if (!TRY(step_to(frame, interrupt, record, *work)))
         return Outcome::interrupted;
     image::Image image = read_back();
     record.milliseconds = milliseconds_since(work->start);
@@ -128,7 +162,7 @@ Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, Fr
 /// The limit is on the frame; what is told to go on for long is a tile.
 Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record) {
     Work work;
-    if (!step_to(frame, interrupt, record, work))
+    if (!TRY(step_to(frame, interrupt, record, work)))
         return Outcome::interrupted;
     work.watch.reset();
     auto output = TRY(open_bands(record));
@@ -177,18 +211,32 @@ image::Image Capture::read_back() const {
     return plan_.output.six_faces() ? image::column_of(faces) : image::equirectangular_of(faces);
 }
 
+size_t Capture::whole_frames() {
+    constexpr size_t k_faces = 6;
+    const size_t made = video_    ? video_->written()
+                        : writer_ ? writer_->written() / (plan_.output.six_faces() ? k_faces : 1)
+                                  : records_.size();
+    return plan_.kept.size() + made;
+}
+
 /// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,
-/// half a video is not.
+/// half a segment of a video is not.
 void Capture::rescue_output() {
-    video_.reset();
+    if (video_)
+        video_->drop();
     if (writer_)
         (void)writer_->finish();
+    if (const std::string words = words_on_resuming(plan_, whole_frames()); !words.empty())
+        say(words);
 }
 
 /// False when the writer has failed and no more frames are wanted.
 Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     if (video_)
-        return video_->push(image).map([] { return true; });
+        return video_->push(image).map([] { return true; }).map_error([&](Error error) {
+            error.message += fmt::format(" (in frame {})", record.frame);
+            return error;
+        });
     if (!writer_)
         return put_raw(image).map([] { return true; });
     if (!plan_.output.six_faces())
@@ -203,7 +251,11 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
 }
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
-    image::PictureFormat format{plan_.depth, metadata_of(renderer_.scene(), states_(record.frame))};
+    const render::FrameState state = states_(record.frame);
+    // First: a JPEG that has no room for all of it keeps what stands in front.
+    image::PictureFormat format{plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}};
+    for (auto& fact : metadata_of(renderer_.scene(), state))
+        format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();
     format.metadata.insert(format.metadata.end(),
                            {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
@@ -232,6 +284,8 @@ nlohmann::ordered_json Capture::report() const {
     report["defines"] = plan_.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
+    if (plan_.resume)
+        report["kept"] = plan_.kept;
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records_) {
         const render::FrameState state = states_(record.frame);

@@ -3,12 +3,14 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
+#include "cli/capture/fingerprint.hpp"
+#include "cli/capture/segmented_video.hpp"
+#include "cli/capture/state_saver.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/picture_facts.hpp"
 #include "gl/capabilities.hpp"
-#include "image/files/video_writer.hpp"
 #include "render/frame_stepper.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -35,11 +37,18 @@ struct FrameRecord {
 
 class Capture {
 public:
-    /// `plan` and `renderer` must outlive it. `sound` is a WAV file for a video; empty: silent.
-    Capture(const CapturePlan& plan, render::Renderer& renderer, std::filesystem::path sound = {});
+    /// `plan` and `compiled` must outlive it. `sound` is a WAV file for a video; empty: silent.
+    Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compiled,
+            std::filesystem::path sound = {});
+
+    /// Instead of at the beginning. To be called before `run`.
+    void start_from(const SavedState& state) { start_ = &state; }
 
     /// Draws and hands over every frame; true when all were made before an interrupt.
     Result<bool> run(Interrupt& interrupt);
+
+    /// Frames that are whole on disk, those that were kept included: `--resume` goes on from them.
+    size_t whole_frames();
 
     const std::vector<FrameRecord>& records() const { return records_; }
     /// What `--json` prints.
@@ -55,7 +64,8 @@ private:
     };
 
     void prepare(Interrupt& interrupt);
-    bool step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
+    void restore();
+    Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
     Result<Outcome> make(int frame, const Interrupt& interrupt, FrameRecord& record);
     Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record);
     Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
@@ -67,15 +77,19 @@ private:
     void rescue_output();
 
     const CapturePlan& plan_;
+    Fingerprint fingerprint_; ///< of the run
     render::Renderer& renderer_;
+    bool in_doubt_; ///< whether another run would choose that program
     gl::Capabilities driver_;
     render::FrameStates states_;
     render::FrameStepper stepper_;
+    StateSaver saver_;
+    const SavedState* start_ = nullptr;
     double prepare_milliseconds_ = 0;
     std::filesystem::path sound_;
-    std::unique_ptr<FrameWriter> writer_;     ///< of pictures
-    std::optional<image::VideoWriter> video_; ///< neither: frames go to standard output
-    Watchdog watchdog_;                       ///< last: its thread may use the writer
+    std::unique_ptr<FrameWriter> writer_; ///< of pictures
+    std::optional<SegmentedVideo> video_; ///< neither: frames go to standard output
+    Watchdog watchdog_;                   ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;
 };
 

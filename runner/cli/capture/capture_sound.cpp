@@ -33,6 +33,32 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precisi
     return samples;
 }
 
+/// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong
+/// is said, and nothing else.
+std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt) {
+    if (!plan.output.video())
+        return std::nullopt;
+    const std::vector<int>& frames = plan.frames.frames;
+    const VideoPace& pace = plan.pace;
+    const bool heard = plan.output.pattern().extension() != ".gif" && plan.scene.find(scene::PassKind::sound);
+    if (!pace.not_in_time.empty())
+        say(fmt::format("the video does not go by the scene's time: {}, {:.4g} a second{}", pace.not_in_time,
+                        pace.fps, heard ? "; it is silent" : ""));
+    if (!heard || !pace.not_in_time.empty())
+        return std::nullopt;
+    const double first = plan.frames.state.at_frame(frames.front()).seconds();
+    auto samples = draw_sound(plan.scene, plan.drawing.precision, std::max(0.0, first),
+                              double(frames.size()) / pace.fps, interrupt);
+    auto file = StagedFile::create(plan.output.of_frame(0), ".wav");
+    Result<void> written = !file      ? fail(std::move(file.error()))
+                           : !samples ? fail(std::move(samples.error()))
+                                      : sound::write_wav(file->path(), int(render::k_sample_rate), *samples);
+    if (written)
+        return *std::move(file);
+    say("the video is silent: " + to_string(written.error()));
+    return std::nullopt;
+}
+
 Result<int> capture_sound(const SoundPlan& plan) {
     const Interrupt interrupt;
     const auto context = TRY(platform::HeadlessContext::create(plan.device));

@@ -2,7 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/check/error_json.hpp"
-#include "cli/check/state_json.hpp"
+#include "cli/state_json.hpp"
 #include "cli/supervisor.hpp"
 #include "gl/capabilities.hpp"
 #include "platform/headless_context.hpp"

@@ -1,6 +1,6 @@
 #include "cli/check/probe_result.hpp"
 
-#include "cli/check/state_json.hpp"
+#include "cli/state_json.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "image/files/file_check.hpp"
 
 #include "image/byte_order.hpp"
+#include "image/files/png_chunks.hpp"
 #include "image/files/tiff_check.hpp"
 
 #include <fmt/format.h>
@@ -88,41 +89,35 @@ bool may_be_left_out(std::string_view chunk) {
 }
 
 /// What is wrong with one chunk: its checksum, its place, or that there is one too many.
-Objection chunk_objection(std::string_view chunk, bool is_first, int palettes) {
-    const std::string_view name = chunk.substr(4, 4);
-    if (checksum(chunk.substr(4, chunk.size() - 8)) != big_endian(chunk, chunk.size() - 4, 4))
+Objection chunk_objection(const PngChunk& chunk, bool is_first, int palettes) {
+    if (checksum(chunk.checked()) != chunk.checksum())
         return "the file is damaged: a checksum in it is wrong";
-    if ((name == "IHDR") != is_first)
+    if ((chunk.name() == "IHDR") != is_first)
         return "its PNG header is not valid";
-    if (name == "IHDR")
-        return png_header_objection(chunk.substr(8, chunk.size() - 12));
-    if (name == "PLTE" && palettes > 1)
+    if (is_first)
+        return png_header_objection(chunk.data());
+    if (chunk.name() == "PLTE" && palettes > 1)
         return "it has more than one palette";
-    if (!makes_samples(name) && !may_be_left_out(name))
+    if (!makes_samples(chunk.name()) && !may_be_left_out(chunk.name()))
         return "it has a PNG chunk of a kind that is not known";
     return {};
 }
 
 Checked checked_png(std::string_view file) {
-    constexpr size_t frame = 12; // a chunk's length, name and checksum
-    std::string kept(file.substr(0, 8));
+    std::string kept(file.substr(0, k_png_signature));
+    std::string_view rest = file.substr(kept.size());
     bool has_data = false;
     int palettes = 0;
-    for (size_t at = 8; file.size() - at >= frame;) {
-        const size_t length = big_endian(file, at, 4);
-        if (length > file.size() - at - frame)
-            break;
-        const std::string_view chunk = file.substr(at, length + frame);
-        const std::string_view name = chunk.substr(4, 4);
+    for (bool is_first = true; const auto chunk = take_png_chunk(rest); is_first = false) {
+        const std::string_view name = chunk->name();
         has_data |= name == "IDAT";
         palettes += name == "PLTE";
-        if (Objection objection = chunk_objection(chunk, at == 8, palettes))
+        if (Objection objection = chunk_objection(*chunk, is_first, palettes))
             return refuse(std::move(*objection));
         if (makes_samples(name))
-            kept += chunk;
+            kept += chunk->whole;
         if (name == "IEND")
             return has_data ? Checked(std::move(kept)) : refuse("it has no pixels");
-        at += chunk.size();
     }
     return refuse(std::string(k_cut_short));
 }

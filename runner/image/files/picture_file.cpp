@@ -188,6 +188,11 @@ SampleDepth natural_depth(const fs::path& path) {
     return format ? format->depths.front() : SampleDepth::u8;
 }
 
+bool holds_metadata(const fs::path& path) {
+    const WrittenFormat* format = written_format(path);
+    return format && format->format != FileFormat::hdr;
+}
+
 std::jthread preload_picture_codec(const fs::path& path) {
     const WrittenFormat* format = written_format(path);
     if (!format || format->format == FileFormat::png)

@@ -46,6 +46,9 @@ Result<void> check_picture_format(const std::filesystem::path& path, SampleDepth
 /// The depth a format stores by nature: u8 for .png .jpg .tif, half for .exr, f32 for .hdr.
 SampleDepth natural_depth(const std::filesystem::path& path);
 
+/// Whether a picture of that name keeps PictureFormat::metadata.
+bool holds_metadata(const std::filesystem::path& path);
+
 /// Starts loading what writing `path` will need in the background, if anything; returns at once. Never
 /// needed, only faster. The caller keeps the thread in a scope that ends before `main` returns (its
 /// destructor waits): a process must not exit in the middle of loading libraries.

@@ -1,81 +1,69 @@
 #include "image/files/video_writer.hpp"
 
 #include "base/try.hpp"
+#include "image/files/video_encoding.hpp"
+#include "image/files/video_note.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <array>
 #include <cassert>
+#include <cmath>
 
 namespace tidemark::image {
 namespace fs = std::filesystem;
 namespace {
 
-using Arguments = std::vector<std::string>;
+using Words = std::vector<std::string>;
 
-struct Container {
-    std::string_view extension;
-    Arguments (*encoder)(Extent extent);
-};
+/// A segment is read back whole to be checked: of the largest ones that anybody makes.
+constexpr size_t k_largest_segment = size_t{1} << 34;
 
-/// The filters that make rows go from the top down and, for video, say by which matrix colours were coded.
-constexpr const char* k_upright_bt709 = "vflip,scale=out_color_matrix=bt709:out_range=tv";
-constexpr const char* k_upright_palette =
-    "vflip,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
-
-/// Half the colour resolution, which every player takes, needs even sizes in H.264.
-Arguments h264(Extent extent) {
-    const bool even = extent.width % 2 == 0 && extent.height % 2 == 0;
-    return {"-vf",       k_upright_bt709,
-            "-c:v",      "libx264",
-            "-crf",      "18",
-            "-pix_fmt",  even ? "yuv420p" : "yuv444p",
-            "-c:a",      "aac",
-            "-b:a",      "192k",
-            "-movflags", "+faststart"};
+template <class... More>
+Words joined(Words words, const More&... more) {
+    (words.insert(words.end(), more.begin(), more.end()), ...);
+    return words;
 }
 
-Arguments vp9(Extent) {
-    return {"-vf", k_upright_bt709, "-c:v", "libvpx-vp9", "-crf",    "24",   "-b:v",   "0", "-cpu-used",
-            "4",   "-row-mt",       "1",    "-pix_fmt",   "yuv420p", "-c:a", "libopus"};
+Words words_for_segment(const fs::path& staged, const fs::path& video, const VideoFormat& format) {
+    const Words input{"-f",         "rawvideo",
+                      "-pix_fmt",   "rgb0",
+                      "-s",         fmt::format("{}x{}", format.extent.width, format.extent.height),
+                      "-framerate", fmt::format("{}", format.fps),
+                      "-i",         "pipe:0"};
+    return joined(ffmpeg_words(), input, encoding_of(video)->segment(format.extent), reproducible_words(),
+                  Words{"-f", "mp4", "file:" + staged.string()});
 }
 
-Arguments gif(Extent) {
-    return {"-filter_complex", k_upright_palette, "-loop", "0"};
+Words words_for_joining(const fs::path& staged, const fs::path& sound) {
+    Words input{"-f", "concat", "-safe", "0", "-protocol_whitelist", "file,pipe", "-i", "pipe:0"};
+    if (!sound.empty())
+        input =
+            joined(input, Words{"-protocol_whitelist", "file", "-f", "wav", "-i", "file:" + sound.string()});
+    return joined(ffmpeg_words(), input, encoding_of(staged)->whole, reproducible_words(),
+                  Words{"file:" + staged.string()});
 }
 
-constexpr std::array<Container, 3> k_containers{{{".mp4", h264}, {".webm", vp9}, {".gif", gif}}};
-
-const Container* container_of(const fs::path& path) {
-    for (const Container& container : k_containers)
-        if (path.extension() == container.extension)
-            return &container;
-    return nullptr;
+/// As ffmpeg's lists of files want it.
+std::string quoted(const fs::path& path) {
+    std::string text = "'file:";
+    for (const char c : fs::absolute(path).string())
+        text += c == '\'' ? "'\\''" : std::string(1, c);
+    return text + "'";
 }
 
-Arguments arguments_for(const fs::path& staged, const VideoFormat& format) {
-    const Container& container = *container_of(staged);
-    // Without -xerror ffmpeg ends well where a full disk kept the last blocks of the file from it.
-    Arguments arguments{"ffmpeg",     "-xerror",
-                        "-nostats",   "-loglevel",
-                        "error",      "-y",
-                        "-f",         "rawvideo",
-                        "-pix_fmt",   "rgb0",
-                        "-s",         fmt::format("{}x{}", format.extent.width, format.extent.height),
-                        "-framerate", fmt::format("{}", format.fps),
-                        "-i",         "pipe:0"};
-    const auto add = [&](const Arguments& more) {
-        arguments.insert(arguments.end(), more.begin(), more.end());
-    };
-    if (!format.sound.empty())
-        add({"-protocol_whitelist", "file", "-f", "wav", "-i", "file:" + format.sound.string()});
-    add(container.encoder(format.extent));
-    if (container.encoder != gif)
-        add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1"});
-    // The same frames make the same file: no date, no version.
-    add({"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-flags:a", "+bitexact",
-         "file:" + staged.string()});
-    return arguments;
+/// The times at which segments begin are rounded one by one to microseconds, not added up from rounded
+/// lengths: so that each frame appears in the very tick of the video's clock in which it would without joins.
+std::string list_of(std::span<const SegmentFile> segments, double fps) {
+    std::string list = "ffconcat version 1.0\n";
+    size_t frames = 0;
+    const auto microseconds = [&] { return std::llround(1e6 * double(frames) / fps); };
+    for (const SegmentFile& segment : segments) {
+        const auto start = microseconds();
+        frames += segment.frames;
+        list += fmt::format("file {}\nduration {}us\n", quoted(segment.path), microseconds() - start);
+    }
+    return list;
 }
 
 std::string last_line(std::string text) {
@@ -84,45 +72,74 @@ std::string last_line(std::string text) {
     return text.substr(text.rfind('\n') + 1);
 }
 
+tl::unexpected<Error> failure(const fs::path& video, const std::string& words) {
+    const std::string why = last_line(words);
+    return fail(ErrorCode::write, fmt::format("cannot write '{}': ffmpeg {}", video.string(),
+                                              why.empty() ? "ended without a word" : "says: " + why));
+}
+
+Result<ChildProcess> start(const Words& words, const fs::path& video) {
+    auto encoder = ChildProcess::start(words, ChildProcess::Input::written);
+    if (!encoder)
+        return fail(ErrorCode::write,
+                    fmt::format("cannot write '{}': {}", video.string(), encoder.error().message));
+    return encoder;
+}
+
+/// Waits for the end: it prints nothing, and a long film may take it more than a minute.
+bool ended_well(ChildProcess& encoder, std::string& words) {
+    encoder.close_input();
+    std::byte none{};
+    while (!encoder.read({&none, 1}, words)) {
+    }
+    return encoder.succeeded();
+}
+
 } // namespace
 
 bool is_video_name(const fs::path& path) {
-    return container_of(path) != nullptr;
+    return encoding_of(path) != nullptr;
 }
 
-Result<VideoWriter> VideoWriter::create(const OutputPath& output, const VideoFormat& format) {
-    const fs::path& path = output.path();
-    assert(is_video_name(path));
-    auto staged = TRY(StagedFile::create(output));
-    auto encoder = ChildProcess::start(arguments_for(staged.path(), format), ChildProcess::Input::written);
-    if (!encoder)
-        return fail(ErrorCode::write,
-                    fmt::format("cannot write '{}': {}", path.string(), encoder.error().message));
-    return VideoWriter(path, std::move(staged), *std::move(encoder));
+Result<SegmentWriter> SegmentWriter::create(const OutputPath& segment, const fs::path& video,
+                                            const VideoFormat& format) {
+    assert(is_video_name(video));
+    auto staged = TRY(StagedFile::create(segment));
+    auto encoder = TRY(start(words_for_segment(staged.path(), video, format), video));
+    return SegmentWriter(video, std::move(staged), std::move(encoder));
 }
 
-Result<void> VideoWriter::push(const Image& image) {
+Result<void> SegmentWriter::push(const Image& image) {
     assert(image.type == SampleType::u8 && image.channels == 4);
     if (encoder_.write(image.bytes, words_))
         return {};
-    return failure();
+    return failure(video_, words_);
 }
 
-Result<void> VideoWriter::finish() {
-    encoder_.close_input();
-    std::byte none{};
-    while (!encoder_.read({&none, 1}, words_)) {
-        // It prints nothing and closes its output in the end; a long film may take it more than a minute.
-    }
-    if (!encoder_.succeeded())
-        return failure();
+Result<void> SegmentWriter::finish(std::string_view note) {
+    if (!ended_well(encoder_, words_))
+        return failure(video_, words_);
+    const std::string file = TRY(read_file(staged_.path(), k_largest_segment));
+    ::lseek(staged_.descriptor(), 0, SEEK_END);
+    const std::string box = note_box(file, note);
+    TRY(staged_.write(std::as_bytes(std::span(box))));
     return staged_.commit();
 }
 
-tl::unexpected<Error> VideoWriter::failure() const {
-    const std::string why = last_line(words_);
-    return fail(ErrorCode::write, fmt::format("cannot write '{}': ffmpeg {}", path_.string(),
-                                              why.empty() ? "ended without a word" : "says: " + why));
+std::optional<std::string> note_of_segment(const fs::path& segment) {
+    const auto file = read_file(segment, k_largest_segment);
+    return file ? note_at_end(*file) : std::nullopt;
+}
+
+Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile> segments, double fps,
+                           const fs::path& sound) {
+    auto staged = TRY(StagedFile::create(video));
+    auto joiner = TRY(start(words_for_joining(staged.path(), sound), video.path()));
+    std::string words;
+    const std::string list = list_of(segments, fps);
+    if (!joiner.write(std::as_bytes(std::span(list)), words) || !ended_well(joiner, words))
+        return failure(video.path(), words);
+    return staged.commit();
 }
 
 } // namespace tidemark::image

@@ -33,6 +33,7 @@ struct EncodeJob {
 /// The error is the reason alone, in one line.
 using EncodeResult = tl::expected<std::vector<unsigned char>, std::string>;
 using DecodeResult = tl::expected<Image, std::string>;
+using TextsResult = tl::expected<std::vector<std::pair<std::string, std::string>>, std::string>;
 
 /// A picture on its way into a file, from the top down.
 class RowEncoder {
@@ -51,11 +52,13 @@ struct PictureCodec {
     unsigned version;
     EncodeResult (*encode)(const EncodeJob&) noexcept;
     DecodeResult (*decode)(FileFormat, std::span<const std::byte>) noexcept;
+    /// The texts of a picture's header, which no pixel is read for.
+    TextsResult (*texts)(FileFormat, std::span<const std::byte>) noexcept;
     /// Of a job without samples, into an empty file. The file must outlive it.
     RowEncoderResult (*encode_rows)(const EncodeJob&, std::FILE*) noexcept;
 };
 
-inline constexpr unsigned k_picture_codec_version = 2;
+inline constexpr unsigned k_picture_codec_version = 3;
 inline constexpr const char* k_picture_codec_entry = "tidemark_picture_codec";
 
 } // namespace tidemark::image

@@ -226,17 +226,41 @@ bool read_samples(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Image& i
     return true;
 }
 
-DecodeResult decode_or_throw(FileFormat format, std::span<const std::byte> file) {
-    MemoryReader source(file);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(codec_name(format));
+using Input = tl::expected<std::unique_ptr<OIIO::ImageInput>, std::string>;
+
+Input open_input(FileFormat format, MemoryReader& source, OIIO::ImageSpec& spec) {
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(codec_name(format));
     if (!input)
         return cannot_decode(OIIO::geterror());
-    OIIO::ImageSpec request, spec;
+    OIIO::ImageSpec request;
     request.attribute("oiio:UnassociatedAlpha", 1); // "do not multiply by it"
     OIIO::Filesystem::IOProxy* proxy = &source;     // set_ioproxy is undone by an open with a request
     request.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (!input->open(std::string(k_no_file), spec, request))
         return cannot_decode(input->geterror());
+    return input;
+}
+
+TextsResult texts_or_throw(FileFormat format, std::span<const std::byte> file) {
+    MemoryReader source(file);
+    OIIO::ImageSpec spec;
+    const auto input = open_input(format, source, spec);
+    if (!input)
+        return tl::unexpected(input.error());
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+        if (attribute.type() == OIIO::TypeString)
+            texts.emplace_back(attribute.name().string(), attribute.get_string());
+    return texts;
+}
+
+DecodeResult decode_or_throw(FileFormat format, std::span<const std::byte> file) {
+    MemoryReader source(file);
+    OIIO::ImageSpec spec;
+    const auto opened = open_input(format, source, spec);
+    if (!opened)
+        return tl::unexpected(opened.error());
+    const std::unique_ptr<OIIO::ImageInput>& input = *opened;
     if (std::string why = objection(spec); !why.empty())
         return cannot_decode(std::move(why));
     const bool bytes = spec.format.basetype == OIIO::TypeDesc::UINT8;
@@ -266,6 +290,10 @@ DecodeResult decode(FileFormat format, std::span<const std::byte> file) noexcept
     return guarded<DecodeResult>([&] { return decode_or_throw(format, file); });
 }
 
+TextsResult texts(FileFormat format, std::span<const std::byte> file) noexcept {
+    return guarded<TextsResult>([&] { return texts_or_throw(format, file); });
+}
+
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* tidemark_picture_codec() {
@@ -275,7 +303,7 @@ extern "C" __attribute__((visibility("default"))) const void* tidemark_picture_c
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", -1);
         OIIO::attribute("debug", 0); // Debian's build talks on stderr otherwise
-        return PictureCodec{k_picture_codec_version, encode, decode, encode_rows};
+        return PictureCodec{k_picture_codec_version, encode, decode, texts, encode_rows};
     }();
     return &codec;
 }

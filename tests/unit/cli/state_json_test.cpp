@@ -1,6 +1,6 @@
 // A FrameState's way into JSON and onto a command line: no field is lost.
-#include "cli/check/state_json.hpp"
 #include "cli/requests.hpp"
+#include "cli/state_json.hpp"
 #include "render/frame_fields.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "cli/check/state_json.hpp"
+#include "cli/state_json.hpp"
 
 #include "render/frame_fields.hpp"
 

@@ -1,0 +1,215 @@
+#include "cli/capture/fingerprint.hpp"
+
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/overloaded.hpp"
+#include "cli/capture/shard.hpp"
+#include "cli/state_json.hpp"
+#include "cli/version.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <type_traits>
+
+namespace tidemark::cli {
+namespace {
+
+/// 64 bits: among 1e8 frames that differ, two are alike with a probability of 3e-4.
+constexpr size_t k_digits = 16;
+
+constexpr std::string_view k_device = "device";
+
+std::string hash_of(const std::string& bytes) {
+    return sha256(std::as_bytes(std::span(bytes))).substr(0, k_digits);
+}
+
+std::string hash_of(const Json& json) {
+    return hash_of(dump(json));
+}
+
+/// Null where nothing can be read, as there is none of a silent signal.
+Json hash_of_file(const std::filesystem::path& path) {
+    if (!why_unreadable(path).empty())
+        return {};
+    std::ifstream file(path, std::ios::binary);
+    std::vector<char> block(1 << 18);
+    Sha256 hash;
+    while (file) {
+        file.read(block.data(), std::streamsize(block.size()));
+        hash.add(std::as_bytes(std::span(block.data(), size_t(file.gcount()))));
+    }
+    return hash.digits();
+}
+
+/// What an input says of itself, but for its files, which count by their bytes. A new member does not compile
+/// here.
+Json facts_of(const scene::ChannelInput& input) {
+    using namespace scene;
+    const Json facts =
+        std::visit(Overloaded{[](const Picture& i) {
+                                  const auto& [file, one_channel] = i;
+                                  return Json(one_channel);
+                              },
+                              [](const StandIn& i) {
+                                  const auto& [kind, width, height, channels] = i;
+                                  return Json::array({int(kind), width, height, channels});
+                              },
+                              []<class T>(const T& i) {
+                                  const auto& [only] = i;
+                                  if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(only)>>)
+                                      return Json(int(only));
+                                  else if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(only)>>)
+                                      return Json(only);
+                                  else
+                                      return Json(); // a file, or several
+                              }},
+                   input);
+    return Json::array({std::string(traits_of(input).name), facts});
+}
+
+Json facts_of(const scene::Sampling& sampling) {
+    const auto& [magnify, minify, mipmaps, wrap, vflip] = sampling;
+    return Json::array({int(magnify), int(minify), int(mipmaps), int(wrap), vflip});
+}
+
+Json text_facts(const CapturePlan& plan) {
+    Json facts = Json::array({plan.scene.common.text(), plan.scene.moves_view, plan.defines});
+    for (const scene::Pass& pass : plan.scene.passes)
+        facts.push_back(Json::array(
+            {int(pass.kind), pass.name, pass.text.text(), pass.keyboard_helpers, pass.bare_file}));
+    return facts;
+}
+
+Json knob_facts(const scene::Scene& scene) {
+    Json facts = Json::array();
+    for (const scene::Knob& knob : scene.knobs)
+        facts.push_back(Json::array({knob.name, int(knob.type), knob.value}));
+    return facts;
+}
+
+/// What buffers hold is of all the frames before, and those see what was recorded for them.
+bool has_history(const CapturePlan& plan) {
+    return plan.frames.input && may_feed_back(plan.scene);
+}
+
+Json input_facts(const CapturePlan& plan) {
+    Json facts = Json::array();
+    for (const scene::Pass& pass : plan.scene.passes)
+        for (const scene::Channel& channel : pass.channels) {
+            Json& fact =
+                facts.emplace_back(Json::array({facts_of(channel.input), facts_of(channel.sampling)}));
+            for (const std::filesystem::path& file : input_files(channel.input))
+                fact.push_back(hash_of_file(file));
+        }
+    if (has_history(plan))
+        facts.push_back(hash_of_file(plan.frames.input_file));
+    return facts;
+}
+
+/// Size and pass are the frame's; tiles, and a trial of two programs that may not differ, change no picture.
+Json drawing_facts(const CapturePlan& plan) {
+    const auto& [extent, samples, pass, precision, specialise, extras, tile, marks] = plan.drawing;
+    const bool differs = plan.trial && plan.trial->frames.allowed;
+    return Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
+                        plan.output.pattern().extension().string(), plan.output.six_faces(),
+                        plan.output.video() ? Json(plan.pace.fps) : Json(),
+                        differs ? Json(*plan.trial->frames.allowed) : Json()});
+}
+
+/// How a person calls what is another.
+std::string_view words_of(std::string_view part) {
+    constexpr std::pair<std::string_view, std::string_view> k_words[] = {
+        {"version", "another version of Tidemark"},
+        {k_device, "another device or driver"},
+        {"text", "another text of the scene"},
+        {"inputs", "other inputs"},
+        {"knobs", "other knobs"},
+        {"drawing", "other options of drawing"},
+        {"frame", "another state of the frame"},
+    };
+    const auto* found =
+        std::ranges::find(k_words, part, &std::pair<std::string_view, std::string_view>::first);
+    return found == std::end(k_words) ? "something that this version does not know" : found->second;
+}
+
+} // namespace
+
+Fingerprint Fingerprint::of_run(const CapturePlan& plan, const gl::Capabilities& driver) {
+    Fingerprint run;
+    run.parts_ = {{"version", hash_of(std::string(k_version))},
+                  {std::string(k_device), hash_of(Json::array({driver.renderer, driver.version}))},
+                  {"text", hash_of(text_facts(plan))},
+                  {"inputs", hash_of(input_facts(plan))},
+                  {"knobs", hash_of(knob_facts(plan.scene))},
+                  {"drawing", hash_of(drawing_facts(plan))}};
+    return run;
+}
+
+Fingerprint Fingerprint::of_frame(const render::FrameState& state) const {
+    Fingerprint frame = *this;
+    frame.parts_.emplace_back("frame", hash_of(to_json(state)));
+    return frame;
+}
+
+Fingerprint Fingerprint::of_frames(std::span<const render::FrameState> states) const {
+    Json facts = Json::array();
+    for (const render::FrameState& state : states)
+        facts.push_back(hash_of(to_json(state)));
+    Fingerprint frames = *this;
+    frames.parts_.emplace_back("frame", hash_of(facts));
+    return frames;
+}
+
+std::string Fingerprint::text() const {
+    std::string text;
+    for (const auto& [name, hash] : parts_)
+        text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, hash);
+    return text;
+}
+
+Fingerprint Fingerprint::parse(std::string_view text) {
+    Fingerprint fingerprint;
+    while (!text.empty()) {
+        const std::string_view word = text.substr(0, text.find(' '));
+        const size_t equals = std::min(word.find('='), word.size());
+        fingerprint.parts_.emplace_back(word.substr(0, equals),
+                                        word.substr(std::min(equals + 1, word.size())));
+        text.remove_prefix(std::min(text.size(), word.size() + 1));
+    }
+    return fingerprint;
+}
+
+const std::string* Fingerprint::find(std::string_view part) const {
+    const auto found = std::ranges::find(parts_, part, &std::pair<std::string, std::string>::first);
+    return found == parts_.end() ? nullptr : &found->second;
+}
+
+Fingerprint Fingerprint::on_device_of(const Fingerprint& other) const {
+    Fingerprint moved = *this;
+    const std::string* device = other.find(k_device);
+    for (auto& [part, hash] : moved.parts_)
+        if (part == k_device && device)
+            hash = *device;
+    return moved;
+}
+
+std::string Fingerprint::differences(const Fingerprint& other) const {
+    std::vector<std::string_view> words;
+    const auto add = [&](const std::string& part) {
+        const std::string_view word = words_of(part);
+        if (std::ranges::find(words, word) == words.end())
+            words.push_back(word);
+    };
+    for (const auto& [part, hash] : parts_)
+        if (const std::string* others = other.find(part); !others || *others != hash)
+            add(part);
+    for (const auto& [part, hash] : other.parts_)
+        if (!find(part))
+            add(part);
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+} // namespace tidemark::cli

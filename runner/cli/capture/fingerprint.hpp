@@ -1,0 +1,44 @@
+// How a frame was drawn, in a few short hashes: the texts of the scene, the bytes of its inputs, its knobs,
+// the state of the frame, how it is drawn and by what. Two frames with one fingerprint are the same picture;
+// where two differ, the parts say in what.
+#pragma once
+
+#include "cli/capture/capture_plan.hpp"
+#include "gl/capabilities.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tidemark::cli {
+
+class Fingerprint {
+public:
+    /// What all frames of a capture have in common. Reads the files that the scene reads.
+    static Fingerprint of_run(const CapturePlan& plan, const gl::Capabilities& driver);
+    /// That of a frame of the run.
+    Fingerprint of_frame(const render::FrameState& state) const;
+    /// That of several, which are one file.
+    Fingerprint of_frames(std::span<const render::FrameState> states) const;
+
+    /// As in a picture's metadata: `text=0123456789abcdef inputs=…`.
+    std::string text() const;
+    static Fingerprint parse(std::string_view text);
+
+    /// The names of the parts that are others, for people: "another text, other knobs"; empty: none is.
+    std::string differences(const Fingerprint& other) const;
+
+    /// The same, with the device of that one.
+    Fingerprint on_device_of(const Fingerprint& other) const;
+
+    bool operator==(const Fingerprint&) const = default;
+
+private:
+    const std::string* find(std::string_view part) const;
+
+    std::vector<std::pair<std::string, std::string>> parts_; ///< name, hash
+};
+
+} // namespace tidemark::cli

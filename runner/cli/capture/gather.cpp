@@ -1,0 +1,208 @@
+#include "cli/capture/gather.hpp"
+
+#include "base/scratch_folder.hpp"
+#include "base/try.hpp"
+#include "cli/capture/capture_options.hpp"
+#include "cli/capture/capture_run.hpp"
+#include "cli/capture/capture_sound.hpp"
+#include "cli/capture/compile_plan.hpp"
+#include "cli/capture/gathered.hpp"
+#include "cli/capture/kept_frames.hpp"
+#include "cli/capture/segmented_video.hpp"
+#include "cli/capture/shard_note.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/value_check.hpp"
+#include "image/files/file_samples.hpp"
+#include "platform/headless_context.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<CaptureOptions> options_of(const ShardNote& note, const fs::path& file) {
+    CaptureOptions options;
+    CLI::App app;
+    add_capture_options(app, options);
+    std::vector<std::string> words(note.words.rbegin(), note.words.rend()); // as CLI11 takes them
+    try {
+        app.parse(words);
+    } catch (const CLI::Error& error) {
+        return fail(ErrorCode::load, fmt::format("'{}': {}", file.string(), error.what()));
+    }
+    return options;
+}
+
+/// The plan that all shards share.
+Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& note) {
+    const fs::path file = options.folder / k_shard_note;
+    const CaptureOptions capture = TRY(options_of(note, file));
+    CapturePlan plan = TRY(plan_capture(capture));
+    std::error_code ignored;
+    const fs::path folder = plan.output.of_frame(0).path().parent_path();
+    if (!fs::equivalent(folder.empty() ? "." : folder, options.folder, ignored))
+        return fail(ErrorCode::usage,
+                    fmt::format("'{}' was written for '{}': run gather where the shards were run",
+                                file.string(), plan.output.pattern().string()));
+    plan.trial.reset(); // shards make none
+    return plan;
+}
+
+/// Evenly spread; of a scene whose frames need the ones before, the first alone.
+std::vector<int> sample_of(const CapturePlan& plan, int count) {
+    const std::vector<int>& frames = plan.frames.frames;
+    const auto wanted =
+        std::min(frames.size(), size_t(may_feed_back(plan.scene) ? std::min(count, 1) : count));
+    std::vector<int> sample;
+    for (size_t i = 0; i < wanted; ++i)
+        sample.push_back(frames[wanted == 1 ? 0 : i * (frames.size() - 1) / (wanted - 1)]);
+    return sample;
+}
+
+/// The largest difference of a sample, 0..1 in a picture of bytes; infinite where the sizes differ.
+double difference_of(const image::Image& a, const image::Image& b) {
+    if (a.extent != b.extent || a.channels != b.channels)
+        return std::numeric_limits<double>::infinity();
+    const auto floats = [](const image::Image& image) {
+        image::Image wide(image.extent, image.channels, image::SampleType::f32);
+        wide.bytes = image::file_samples(image, image::SampleDepth::f32);
+        return wide;
+    };
+    const image::Image x = floats(a);
+    const image::Image y = floats(b);
+    double largest = 0;
+    for (size_t i = 0; i < x.samples(); ++i)
+        if (const double d = std::abs(double(x.f32()[i]) - double(y.f32()[i])); !(d <= largest))
+            largest = d;
+    return largest;
+}
+
+/// What is wrong with the frames that are drawn again; says it where nothing is.
+Result<std::vector<std::string>> compare_sample(const GatherOptions& options, const CapturePlan& whole,
+                                                bool drawn_here, Interrupt& interrupt) {
+    const ScratchFolder scratch;
+    CapturePlan plan = whole;
+    plan.frames.frames = sample_of(whole, options.samples);
+    const std::string extension = whole.output.pattern().extension().string();
+    plan.output = TRY(
+        OutputName::parse((scratch.path() / (whole.output.six_faces() ? "%d_{}" : "%d")).string() + extension,
+                          plan.frames.frames.size()));
+    auto compiled = TRY(compile(plan, interrupt));
+    Capture run(plan, Fingerprint::of_run(plan, gl::query_capabilities()), compiled);
+    if (!TRY(run.run(interrupt)))
+        return fail(ErrorCode::timed_out, "interrupted");
+    std::vector<std::string> wrong;
+    double largest = 0;
+    for (const int frame : plan.frames.frames)
+        for (size_t i = 0; i < files_of(plan.output, frame).size(); ++i) {
+            const fs::path made = files_of(whole.output, frame)[i];
+            const image::Image theirs = TRY(image::read_picture(made));
+            const image::Image ours = TRY(image::read_picture(files_of(plan.output, frame)[i]));
+            const double difference = difference_of(theirs, ours);
+            largest = std::max(largest, difference);
+            if (!(difference <= (drawn_here ? 0 : options.tolerance)))
+                wrong.push_back(fmt::format("{} is drawn otherwise here: a sample differs by {:.3g}",
+                                            made.string(), difference));
+        }
+    if (wrong.empty())
+        say(fmt::format("{} of them drawn again: {}", plan.frames.frames.size(),
+                        drawn_here
+                            ? "the same pixels"
+                            : fmt::format("on another device, the largest difference is {:.3g}", largest)));
+    return wrong;
+}
+
+/// Bytes with four channels, as an encoder takes them.
+image::Image for_video(const image::Image& picture) {
+    image::Image bytes(picture.extent, picture.channels, image::SampleType::u8);
+    bytes.bytes = image::file_samples(picture, image::SampleDepth::u8);
+    image::Image rgba(picture.extent, 4, image::SampleType::u8);
+    const size_t shown = picture.channels < 3 ? 1 : 3;
+    for (size_t pixel = 0; pixel < rgba.extent.pixels(); ++pixel)
+        for (size_t channel = 0; channel < 4; ++channel)
+            rgba.u8()[4 * pixel + channel] =
+                channel == 3 ? 255 : bytes.u8()[pixel * size_t(picture.channels) + channel % shown];
+    return rgba;
+}
+
+Result<void> make_video(const CapturePlan& pictures, const std::string& name, const Fingerprint& run,
+                        Interrupt& interrupt) {
+    CapturePlan plan = pictures;
+    plan.output = TRY(OutputName::parse(name, plan.frames.frames.size()));
+    if (!plan.output.video() || pictures.output.six_faces())
+        return fail(ErrorCode::usage, fmt::format("-o {}: give an .mp4, a .webm or a .gif", name));
+    plan.segments = segments_of(plan.frames.frames, 0);
+    const auto sound = draw_sound_of_video(plan, interrupt);
+    std::optional<SegmentedVideo> video;
+    for (const int frame : plan.frames.frames) {
+        const image::Image picture = TRY(image::read_picture(pictures.output.of_frame(frame).path()));
+        if (!video)
+            video.emplace(TRY(SegmentedVideo::create(plan, run, picture.extent)));
+        TRY(video->push(for_video(picture)));
+    }
+    TRY(video->finish(sound ? sound->path() : fs::path()));
+    say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
+    return {};
+}
+
+int report(const std::vector<std::string>& wrong) {
+    for (const std::string& line : wrong)
+        say(line);
+    return exit_code(ErrorCode::check_failed);
+}
+
+} // namespace
+
+Result<int> gather(const GatherOptions& options) {
+    Interrupt interrupt;
+    const ShardNote note = TRY(read_note(options.folder / k_shard_note));
+    const CapturePlan plan = TRY(shared_plan(options, note));
+    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const Fingerprint run = Fingerprint::of_run(plan, gl::query_capabilities());
+    const Gathered found = gathered(plan, run, note.count);
+    if (!found.wrong.empty())
+        return report(found.wrong);
+    say(fmt::format("{} frames are there, whole and with one fingerprint, drawn by {}",
+                    plan.frames.frames.size(), found.devices.begin()->first));
+    if (options.samples > 0)
+        if (const auto wrong = TRY(compare_sample(options, plan, found.drawn_here, interrupt));
+            !wrong.empty())
+            return report(wrong);
+    if (options.video)
+        TRY(make_video(plan, *options.video, run, interrupt));
+    remove_states(plan.output);
+    StagedFile::remove_abandoned(plan.output.of_frame(0));
+    return 0;
+}
+
+void add_gather(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<GatherOptions>();
+    CLI::App* command =
+        app.add_subcommand("gather", "Checks what the shards of a capture made, and joins it");
+    command->add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
+        ->required()
+        ->check(unnamed(CLI::ExistingDirectory));
+    command->add_option("-o,--output", options->video, "A video of the frames: .mp4 .webm .gif")
+        ->type_name("OUT");
+    command->add_option("--sample", options->samples, "Frames that are drawn again and compared")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "How far a sample may be off where another device drew the frames [2/255]")
+        ->type_name("D")
+        ->check(CLI::NonNegativeNumber);
+    command->callback([options, &chosen] { chosen = [options] { return gather(*options); }; });
+}
+
+} // namespace tidemark::cli

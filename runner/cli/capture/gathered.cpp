@@ -1,0 +1,77 @@
+#include "cli/capture/gathered.hpp"
+
+#include "cli/capture/kept_frames.hpp"
+#include "image/files/picture_metadata.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::cli {
+namespace {
+
+/// Frames with one thing wrong, the first of them by its file.
+struct Wrong {
+    std::string what;
+    std::string first;
+    size_t count = 0;
+};
+
+/// What is wrong with one file; empty: nothing.
+std::string look_at(const std::filesystem::path& file, const Fingerprint& wanted, Gathered& gathered) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        return "missing";
+    const auto metadata = image::read_metadata(file);
+    if (!metadata)
+        return "not whole: " + metadata.error();
+    const std::string* text = image::find(*metadata, k_fingerprint);
+    if (!text)
+        return "without a fingerprint";
+    const Fingerprint found = Fingerprint::parse(*text);
+    const std::string* device = image::find(*metadata, "Driver");
+    ++gathered.devices[device ? *device : "an unknown device"];
+    gathered.drawn_here &= wanted.on_device_of(found) == wanted;
+    const std::string others = wanted.on_device_of(found).differences(found);
+    return others.empty() ? "" : "drawn with " + others;
+}
+
+void note(std::vector<Wrong>& all, std::string what, const std::string& file) {
+    const auto known = std::ranges::find(all, what, &Wrong::what);
+    if (known != all.end())
+        ++known->count;
+    else
+        all.push_back({std::move(what), file, 1});
+}
+
+/// Which shard makes the frame of that file.
+int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
+    for (int index = 0; index < shards; ++index)
+        for (const int frame : frames_of({index, shards}, plan.frames.frames, plan.scene))
+            for (const auto& made : files_of(plan.output, frame))
+                if (made.string() == file)
+                    return index + 1;
+    return 0;
+}
+
+} // namespace
+
+Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards) {
+    Gathered result;
+    std::vector<Wrong> all;
+    const render::FrameStates states = states_of(plan.frames);
+    for (const int frame : plan.frames.frames)
+        for (const std::filesystem::path& file : files_of(plan.output, frame))
+            if (auto what = look_at(file, run.of_frame(states(frame)), result); !what.empty())
+                note(all, std::move(what), file.string());
+    for (const auto& [what, first, count] : all)
+        result.wrong.push_back(fmt::format("{} of {} frames: {}, {} first (shard {}/{})", count,
+                                           plan.frames.frames.size(), what, first,
+                                           shard_of(plan, shards, first), shards));
+    if (result.devices.size() > 1)
+        for (const auto& [device, count] : result.devices)
+            result.wrong.push_back(fmt::format("{} frames were drawn by {}", count, device));
+    return result;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,145 @@
+#include "cli/capture/saved_state.hpp"
+
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/try.hpp"
+#include "cli/json_dump.hpp"
+#include "cli/sequence.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view k_ending = ".state";
+constexpr int k_version_of_format = 1;
+constexpr size_t k_checksum = 64;
+constexpr size_t k_largest_state = size_t{1} << 36; ///< bytes: whatever memory holds
+
+std::span<const std::byte> bytes_of(std::string_view text) {
+    return std::as_bytes(std::span(text));
+}
+
+/// One line; the textures follow it, then the checksum of all that stands before.
+std::string header_of(const SavedState& state, const Fingerprint& fingerprint) {
+    Json passes = Json::array();
+    for (const render::PassState& pass : state.buffers) {
+        Json& sizes = passes.emplace_back(Json::array({pass.pass, Json::array()}))[1];
+        for (const render::TextureFloats& texture : pass.textures)
+            sizes.push_back(texture.size());
+    }
+    return dump(Json{{"tidemark_state", k_version_of_format},
+                     {"fingerprint", fingerprint.text()},
+                     {"frame", state.frame},
+                     {"program", int(state.program)},
+                     {"passes", passes}}) +
+           "\n";
+}
+
+/// The floats at the front of `rest`; false where there are fewer.
+bool take(std::string_view& rest, size_t count, render::TextureFloats& texture) {
+    if (count > rest.size() / sizeof(float))
+        return false;
+    texture.resize(count);
+    std::memcpy(texture.data(), rest.data(), count * sizeof(float));
+    rest.remove_prefix(count * sizeof(float));
+    return true;
+}
+
+/// Throws where the header is none of ours.
+std::optional<SavedState> parse(const Json& header, std::string_view rest) {
+    const auto program = header.at("program").get<unsigned char>();
+    if (program > static_cast<unsigned char>(glsl::Specialise::constants))
+        return std::nullopt;
+    SavedState state{header.at("frame").get<int>(), glsl::Specialise(program)};
+    for (const Json& pass : header.at("passes")) {
+        render::PassState& into = state.buffers.emplace_back(pass.at(0).get<std::string>());
+        for (const Json& floats : pass.at(1))
+            if (!take(rest, floats.get<size_t>(), into.textures.emplace_back()))
+                return std::nullopt;
+    }
+    return state;
+}
+
+/// Nothing where the last 64 bytes are not the checksum of all others, which are left.
+std::optional<std::string_view> without_checksum(std::string_view file) {
+    if (file.size() < k_checksum)
+        return std::nullopt;
+    const std::string_view content = file.substr(0, file.size() - k_checksum);
+    return file.substr(content.size()) == sha256(bytes_of(content)) ? std::optional(content) : std::nullopt;
+}
+
+} // namespace
+
+OutputPath state_file(const OutputName& output, int frame) {
+    return output.of_frame(frame).beside(k_ending);
+}
+
+std::vector<fs::path> find_states(const OutputName& output) {
+    std::multimap<int, fs::path, std::greater<>> found;
+    const fs::path folder = output.of_frame(0).path().parent_path();
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, ignored), end;
+         !ignored && entry != end; entry.increment(ignored)) {
+        const fs::path& file = entry->path();
+        if (file.extension() != k_ending || !fs::is_regular_file(entry->symlink_status(ignored)))
+            continue;
+        const fs::path picture = fs::path(file).replace_extension();
+        if (output.of_frame(0).path().filename() == picture.filename()) // one for all, or that of frame 0
+            found.emplace(0, file);
+        else if (const auto frame = frame_of(picture, output))
+            found.emplace(*frame, file);
+    }
+    std::vector<fs::path> files;
+    for (const auto& [frame, file] : found)
+        files.push_back(file);
+    return files;
+}
+
+void remove_states(const OutputName& output) {
+    std::error_code ignored;
+    for (const fs::path& file : find_states(output))
+        fs::remove(file, ignored);
+}
+
+Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint) {
+    auto staged = TRY(StagedFile::create(file));
+    Sha256 hash;
+    const auto add = [&](std::span<const std::byte> bytes) {
+        hash.add(bytes);
+        return staged.write(bytes);
+    };
+    TRY(add(bytes_of(header_of(state, fingerprint))));
+    for (const render::PassState& pass : state.buffers)
+        for (const render::TextureFloats& texture : pass.textures)
+            TRY(add(std::as_bytes(std::span(texture))));
+    TRY(staged.write(bytes_of(hash.digits())));
+    if (!state.buffers.empty())
+        ::fsync(staged.descriptor()); // the state before is removed next
+    return staged.commit();
+}
+
+std::optional<SavedState> read_state(const fs::path& file,
+                                     const std::function<Fingerprint(int frame)>& fingerprint_of) {
+    const auto bytes = read_file(file, k_largest_state);
+    const auto content = bytes ? without_checksum(*bytes) : std::nullopt;
+    if (!content)
+        return std::nullopt;
+    const size_t line = std::min(content->find('\n'), content->size());
+    try {
+        const Json header = Json::parse(content->substr(0, line));
+        if (header.at("tidemark_state") != k_version_of_format ||
+            header.at("fingerprint") != fingerprint_of(header.at("frame").get<int>()).text())
+            return std::nullopt;
+        return parse(header, content->substr(std::min(line + 1, content->size())));
+    } catch (const Json::exception&) { // a stranger's
+        return std::nullopt;
+    }
+}
+
+} // namespace tidemark::cli

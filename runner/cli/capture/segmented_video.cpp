@@ -1,0 +1,92 @@
+#include "cli/capture/segmented_video.hpp"
+
+#include "base/try.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+namespace tidemark::cli {
+namespace {
+
+/// As far apart as libx264 sets pictures that depend on no other, so that a long video is no larger for it.
+constexpr int k_default_length = 250;
+
+} // namespace
+
+std::vector<VideoSegment> segments_of(const std::vector<int>& frames, int length) {
+    const auto step = std::ptrdiff_t(length > 0 ? length : k_default_length);
+    std::vector<VideoSegment> segments;
+    for (auto first = frames.begin(); first != frames.end();) {
+        const auto end = first + std::min(step, frames.end() - first);
+        segments.push_back({{first, end}});
+        first = end;
+    }
+    return segments;
+}
+
+OutputPath segment_file(const OutputName& video, size_t index) {
+    return video.of_frame(0).beside(fmt::format(".segment-{:04}.mp4", index));
+}
+
+std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const Fingerprint& run) {
+    const render::FrameStates states = states_of(plan.frames);
+    std::vector<render::FrameState> seen;
+    for (const int frame : segment.frames)
+        seen.push_back(states(frame));
+    return run.of_frames(seen).text();
+}
+
+Result<SegmentedVideo> SegmentedVideo::create(const CapturePlan& plan, Fingerprint run, Extent extent) {
+    SegmentedVideo video(plan, std::move(run), extent);
+    TRY(video.open_next());
+    return video;
+}
+
+Result<void> SegmentedVideo::open_next() {
+    const std::vector<VideoSegment>& segments = plan_.segments;
+    while (next_ < segments.size() && segments[next_].kept)
+        ++next_;
+    if (next_ == segments.size())
+        return {};
+    writer_.emplace(TRY(image::SegmentWriter::create(segment_file(plan_.output, next_),
+                                                     plan_.output.pattern(), {extent_, plan_.pace.fps})));
+    pushed_ = 0;
+    ++next_;
+    return {};
+}
+
+Result<void> SegmentedVideo::push(const image::Image& image) {
+    if (!writer_)
+        TRY(open_next());
+    TRY(writer_->push(image));
+    return ++pushed_ < plan_.segments[next_ - 1].frames.size() ? Result<void>() : close();
+}
+
+Result<void> SegmentedVideo::close() {
+    auto written = writer_->finish(note_of(plan_, plan_.segments[next_ - 1], run_));
+    writer_.reset();
+    if (written)
+        written_ += pushed_;
+    return written;
+}
+
+Result<void> SegmentedVideo::finish(const std::filesystem::path& sound) {
+    std::vector<image::SegmentFile> files;
+    for (size_t i = 0; i < plan_.segments.size(); ++i)
+        files.push_back({segment_file(plan_.output, i).path(), plan_.segments[i].frames.size()});
+    TRY(image::join_segments(plan_.output.of_frame(0), files, plan_.pace.fps, sound));
+    remove_segments();
+    return {};
+}
+
+/// Those of a longer capture that was given up, too.
+void SegmentedVideo::remove_segments() const {
+    std::error_code ignored;
+    for (size_t i = 0; std::filesystem::remove(segment_file(plan_.output, i).path(), ignored); ++i) {
+    }
+    StagedFile::remove_abandoned(segment_file(plan_.output, 0));
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,53 @@
+// A video on its way to disk, in segments that lie beside it until they are joined: what ends a capture costs
+// it one segment at most.
+#pragma once
+
+#include "cli/capture/capture_plan.hpp"
+#include "cli/capture/fingerprint.hpp"
+#include "image/files/video_writer.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace tidemark::cli {
+
+/// `length`: frames in each but the last; 0: as nobody said it.
+std::vector<VideoSegment> segments_of(const std::vector<int>& frames, int length);
+
+/// `wave.mp4.segment-0003.mp4`.
+OutputPath segment_file(const OutputName& video, size_t index);
+
+/// What a segment's note says.
+std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const Fingerprint& run);
+
+class SegmentedVideo {
+public:
+    /// `plan` must outlive it. The first encoder is started, where there is anything to encode.
+    static Result<SegmentedVideo> create(const CapturePlan& plan, Fingerprint run, Extent extent);
+
+    /// The next frame of those that are not kept.
+    Result<void> push(const image::Image& image);
+    /// The segment in hand is given up.
+    void drop() { writer_.reset(); }
+    /// Frames in segments that are on disk, but for those that were kept.
+    size_t written() const { return written_; }
+    /// Joins the segments, with a WAV file where `sound` names one, and removes them.
+    Result<void> finish(const std::filesystem::path& sound);
+
+private:
+    SegmentedVideo(const CapturePlan& plan, Fingerprint run, Extent extent)
+        : plan_(plan), run_(std::move(run)), extent_(extent) {}
+    Result<void> open_next();
+    Result<void> close();
+    void remove_segments() const;
+
+    const CapturePlan& plan_;
+    Fingerprint run_;
+    Extent extent_;
+    size_t next_ = 0; ///< segment that is not in hand yet
+    size_t written_ = 0;
+    size_t pushed_ = 0; ///< frames of the one in hand
+    std::optional<image::SegmentWriter> writer_;
+};
+
+} // namespace tidemark::cli

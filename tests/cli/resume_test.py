@@ -1,0 +1,375 @@
+"""`capture --resume`: what is there already is kept, the rest is drawn, and nobody can tell the result from one of
+a capture that was never cut short. TIDEMARK_KILLS says how many captures are killed."""
+import hashlib
+import json
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from support.program import PROGRAM, ProgramTest, environment, main
+
+KILLS = int(os.environ.get("TIDEMARK_KILLS", "4"))
+
+SCENE = """#iUniform float speed = 0.5
+void mainImage(out vec4 c, in vec2 p) {
+    float x = 0.0;
+    for (int i = 0; i < 400; ++i) x += sin(p.x * float(i) + iTime * speed);
+    c = vec4(p / iResolution.xy, fract(x), 1.0);
+}
+"""
+SEQUENCE = ("capture", "a.glsl", "--size", "64x36", "--frames", "0-19", "-o", "out/f_%04d.png")
+
+
+class Resume(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.glsl", SCENE)
+        (self.folder / "out").mkdir()
+
+    def write_feedback(self) -> None:
+        """`fb`: Buffer A adds to itself and keeps pixels that it discards."""
+        self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'
+                                    "void mainImage(out vec4 c, in vec2 p) { c = fract(texelFetch(iChannel0, ivec2(p), 0)); }\n")
+        self.write("fb/buffer_a.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) {\n'
+                                       "  if (iFrame % 3 == 1 && int(p.x) % 5 == 2) discard;\n"
+                                       "  c = texelFetch(iChannel0, ivec2(p), 0) * 1.01 + vec4(p.x, p.y, 1.0, iTime) * 0.001;\n}\n")
+
+    def contents(self, folder: str = "out") -> dict[str, bytes]:
+        """Hidden files too."""
+        return {path.name: path.read_bytes() for path in (self.folder / folder).iterdir()}
+
+    def whole(self, *arguments: str) -> dict[str, bytes]:
+        """What a capture makes that nobody cuts short; the folder is empty again."""
+        self.succeed(*arguments)
+        files = self.contents()
+        for name in files:
+            (self.folder / "out" / name).unlink()
+        return files
+
+    def resume(self, *arguments: str, **options) -> list[str]:
+        return self.succeed(*arguments, "--resume", **options).stderr.splitlines()
+
+
+class Sequences(Resume):
+    def test_keeps_what_is_there(self):
+        for extension in ("png", "jpg", "tif", "exr"):
+            sequence = (*SEQUENCE[:-1], f"out/f_%04d.{extension}")
+            whole = self.whole(*sequence)
+            self.succeed(*sequence)
+            before = os.stat(self.folder / f"out/f_0002.{extension}").st_mtime_ns
+            for number in (3, 12):
+                (self.folder / f"out/f_{number:04}.{extension}").unlink()
+            self.assertEqual(self.resume(*sequence), [
+                "kept 18 of 20 frames", f"wrote 2 frames, out/f_0003.{extension} to out/f_0012.{extension}"])
+            self.assertEqual(self.contents(), whole)
+            self.assertEqual(os.stat(self.folder / f"out/f_0002.{extension}").st_mtime_ns, before)
+            self.assertEqual(self.resume(*sequence), ["kept 20 of 20 frames"])
+            for name in whole:
+                (self.folder / "out" / name).unlink()
+
+    def expect_redrawn(self, reason: str, *changes: str) -> None:
+        lines = self.resume(*SEQUENCE, *changes)
+        self.assertEqual(lines[:2], [f"drawing 20 frames again, out/f_0000.png first: it was drawn with {reason}",
+                                     "kept 0 of 20 frames"])
+        self.assertEqual(self.resume(*SEQUENCE, *changes), ["kept 20 of 20 frames"])
+
+    def test_draws_again_what_was_drawn_otherwise(self):
+        self.succeed(*SEQUENCE)
+        self.expect_redrawn("other knobs", "--set", "speed=0.75")
+        self.expect_redrawn("other knobs, another state of the frame", "--mouse", "3,4")
+        self.expect_redrawn("another state of the frame", "--size", "32x36")
+        self.expect_redrawn("other options of drawing, another state of the frame", "--depth", "16")
+        self.write("a.glsl", SCENE.replace("400", "401"))
+        self.expect_redrawn("another text of the scene, other options of drawing")
+
+    def test_a_changed_input_is_noticed(self):
+        def picture(value: int) -> bytes:
+            return b"P6 1 1 255\n" + bytes([value] * 3)
+
+        self.write("in.ppm", picture(10))
+        self.write("a.glsl", '#iChannel0 "in.ppm"\n'
+                             "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, vec2(0.5)); }\n")
+        self.succeed(*SEQUENCE)
+        self.write("in.ppm", picture(20))
+        self.expect_redrawn("other inputs")
+
+    def test_damaged_and_foreign_files(self):
+        whole = self.whole(*SEQUENCE)
+        self.succeed(*SEQUENCE)
+        self.write("out/f_0001.png", whole["f_0001.png"][:200])
+        damaged = bytearray(whole["f_0005.png"])
+        damaged[-40] ^= 1
+        self.write("out/f_0005.png", bytes(damaged))
+        self.write("out/f_0006.png", b"")
+        self.write("out/f_0007.png", b"hello\n")
+        lines = self.resume(*SEQUENCE)
+        self.assertEqual(lines, [
+            "drawing out/f_0001.png again: the file is damaged or cut short",
+            "drawing out/f_0005.png again: the file is damaged: a checksum in it is wrong",
+            "drawing out/f_0006.png again: the file is empty",
+            "drawing out/f_0007.png again: it is no picture",
+            "kept 16 of 20 frames", "wrote 4 frames, out/f_0001.png to out/f_0007.png"])
+        self.assertEqual(self.contents(), whole)
+
+    def test_says_what_it_cannot_resume(self):
+        for output, why in (("-", "frames on standard output are not kept"),
+                            ("f_%d.hdr", "a .hdr does not hold how it was drawn; .exr and .tif do"),
+                            ("a.wav", "a sound is made at once, and whole or not at all")):
+            self.expect_failure(["capture", "a.glsl", "--frames", "0-1", "-o", output, "--resume"], 2,
+                                f"tidemark: error: --resume: {why}")
+
+    def test_six_faces_are_one_frame(self):
+        self.write("cube/image.glsl", '#iChannel0 "Cube A"\n'
+                                      "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, vec3(1)); }\n")
+        self.write("cube/cube_a.glsl", "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) "
+                                       "{ c = vec4(abs(d), 1); }\n")
+        faces = ("capture", "cube", "--pass", "Cube A", "--frames", "0-1", "-o", "out/f_%d_{}.png")
+        whole = self.whole(*faces)
+        self.assertEqual(len(whole), 12)
+        self.succeed(*faces)
+        (self.folder / "out/f_1_ny.png").unlink()
+        self.assertEqual(self.resume(*faces)[0], "kept 1 of 2 frames")
+        self.assertEqual(self.contents(), whole)
+
+
+class Feedback(Resume):
+    RUN = ("capture", "fb", "--size", "32x18", "--frames", "0-49", "--state-every", "10", "-o", "out/f_%04d.png")
+
+    def setUp(self):
+        super().setUp()
+        self.write_feedback()
+
+    def cut(self, *arguments: str) -> None:
+        """A capture whose frame 37 cannot be written: a folder is in its place."""
+        (self.folder / "out/f_0037.png").mkdir()
+        self.assertEqual(self.run_program(*arguments).returncode, 4)
+        (self.folder / "out/f_0037.png").rmdir()
+
+    def test_goes_on_from_the_state(self):
+        whole = self.whole(*self.RUN)
+        self.cut(*self.RUN)
+        states = [name for name in self.contents() if name.endswith(".state")]
+        self.assertEqual(states, ["f_0030.png.state"])
+        for name in self.contents():
+            if "f_003" in name and name > "f_0033.png":
+                (self.folder / "out" / name).unlink()
+        done = self.succeed(*self.RUN, "--resume", "--json")
+        self.assertIn("going on from the state before frame 30", done.stderr)
+        frames = {f["frame"]: f for f in json.loads(done.stdout)["frames"]}
+        self.assertEqual(frames[min(frames)]["passes_drawn"], (min(frames) - 30) * 2 + 2)
+        self.assertEqual(self.contents(), whole)
+
+    def test_a_damaged_state_is_none(self):
+        whole = self.whole(*self.RUN)
+        for damage in (lambda b: b[:100], lambda b: b[:-70] + b"x" + b[-69:], lambda b: b"",
+                       lambda b: b"[]\n" + hashlib.sha256(b"[]\n").hexdigest().encode()):
+            self.cut(*self.RUN)
+            state = self.folder / "out/f_0030.png.state"
+            state.write_bytes(damage(state.read_bytes()))
+            self.assertNotIn("going on", "".join(self.resume(*self.RUN)))
+            self.assertEqual(self.contents(), whole)
+            for name in whole:
+                (self.folder / "out" / name).unlink()
+
+
+@unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is not installed")
+class Videos(Resume):
+    def video(self, extension: str, scene: str = "a.glsl") -> list[str]:
+        return ["capture", scene, "--size", "64x36", "--fps", "25", "--frames", "0-49", "--state-every", "10", "-o",
+                f"out/a{extension}"]
+
+    def cut(self, arguments: list[str], segments: int) -> None:
+        """Killed when so many segments are whole."""
+        last = self.folder / "out" / f"{arguments[-1][4:]}.segment-{segments - 1:04}.mp4"
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=environment(),
+                                   stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not last.exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+
+    def decoded(self, name: str) -> bytes:
+        """Each frame's time and checksum."""
+        return subprocess.run(["ffmpeg", "-v", "error", "-i", f"out/{name}", "-f", "framemd5", "-"], cwd=self.folder,
+                              stdout=subprocess.PIPE, check=True).stdout
+
+    def test_goes_on_from_whole_segments(self):
+        self.write_feedback()
+        for extension, scene in ((".mp4", "a.glsl"), (".webm", "a.glsl"), (".gif", "a.glsl"), (".mp4", "fb")):
+            arguments = self.video(extension, scene)
+            whole = self.whole(*arguments)
+            self.assertEqual(set(whole), {f"a{extension}"})
+            self.cut(arguments, 2)
+            self.assertNotIn(f"a{extension}", self.contents())
+            lines = self.resume(*arguments)
+            self.assertRegex(lines[0], r"kept [2345]0 of 50 frames")
+            self.assertEqual(lines[-1], f"wrote out/a{extension}: 50 frames")
+            self.assertEqual(scene == "fb" and lines[0] != "kept 50 of 50 frames",
+                             any(line.startswith("going on from the state before frame") for line in lines))
+            self.assertEqual(self.contents(), whole)
+            (self.folder / f"out/a{extension}").unlink()
+
+    def test_damaged_and_other_segments_are_drawn_again(self):
+        arguments = self.video(".mp4")
+        whole = self.whole(*arguments)
+        self.cut(arguments, 3)
+        damaged = self.folder / "out/a.mp4.segment-0000.mp4"
+        content = bytearray(damaged.read_bytes())
+        content[len(content) // 2] ^= 1
+        damaged.write_bytes(content)
+        self.assertNotIn("kept 50", self.resume(*arguments)[0])
+        self.assertEqual(self.contents(), whole)
+        self.cut(arguments, 2)
+        self.assertIn("drawing frames 0 to 9 again: they were drawn with other knobs",
+                      self.resume(*arguments, "--set", "speed=0.75"))
+
+    def test_segments_change_no_time(self):
+        """Each frame appears when it does in a video of one segment, at a rate that no clock divides."""
+        for extension in (".mp4", ".webm"):
+            times = []
+            for every in ("7", "1000"):
+                self.succeed("capture", "a.glsl", "--size", "64x36", "--fps", "29.97", "--frames", "0-49", "--state-every",
+                             every, "-o", f"out/{every}{extension}")
+                lines = self.decoded(f"{every}{extension}").decode().splitlines()
+                times.append([line.split(",")[:5] for line in lines if not line.startswith("#")])
+            self.assertEqual(len(times[0]), 50)
+            self.assertEqual(times[0], times[1])
+
+    def test_a_dead_encoder_costs_a_segment(self):
+        """One that ends in its third run."""
+        tools = self.folder / "tools"
+        self.write("tools/ffmpeg", "#!/bin/sh\necho run >> count\n"
+                                   f'[ $(wc -l < count) = 3 ] && exec kill -9 $$\nexec {shutil.which("ffmpeg")} "$@"\n')
+        (tools / "ffmpeg").chmod(0o755)
+        arguments = self.video(".mp4")
+        whole = self.whole(*arguments)
+        done = self.run_program(*arguments, env=environment(PATH=f"{tools}:{os.environ['PATH']}"))
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': ffmpeg ended without a word \(in frame 2\d\); "
+                                      r"20 frames are whole, and the same command with --resume goes on\n\Z")
+        self.assertEqual(self.resume(*arguments)[0], "kept 20 of 50 frames")
+        self.assertEqual(self.contents(), whole)
+
+
+class Failures(Resume):
+    """What is on disk is whole, the frame is named, and --resume goes on."""
+
+    WORDS = r"(\d+) frames? (?:is|are) whole, and the same command with --resume goes on\n"
+
+    def expect_cut(self, done: subprocess.CompletedProcess, code: int, error: str) -> int:
+        """How many frames are whole."""
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertRegex(done.stderr, error)
+        words = re.search(self.WORDS, done.stderr)
+        self.assertIsNotNone(words, done.stderr)
+        return int(words.group(1))
+
+    def test_a_full_disk(self):
+        """A limit on the size of files, which the one noisy frame is beyond."""
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5); if (iFrame == 7) "
+                             "c = vec4(fract(sin(dot(p, vec2(91.7, 3.1))) * 4311.3)); }\n")
+        whole = self.whole(*SEQUENCE)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        done = self.run_program(*SEQUENCE, preexec_fn=limit)
+        kept = self.expect_cut(done, 4, "error: cannot write 'out/f_0007.png': File too large; ")
+        self.assertEqual(self.contents(), {name: whole[name] for name in self.contents()})
+        self.assertEqual(len(self.contents()), kept)
+        self.assertEqual(self.resume(*SEQUENCE)[0], f"kept {kept} of 20 frames")
+        self.assertEqual(self.contents(), whole)
+
+    def start_slow(self) -> subprocess.Popen:
+        """Until its third frame is there."""
+        self.write("a.glsl", SCENE.replace("400", "40000"))
+        process = subprocess.Popen([PROGRAM, *SEQUENCE], cwd=self.folder, env=environment(), text=True,
+                                   stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while not (self.folder / "out/f_0002.png").exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.002)
+        return process
+
+    def finished(self, process: subprocess.Popen) -> subprocess.CompletedProcess:
+        stderr = process.communicate()[1]
+        return subprocess.CompletedProcess(process.args, process.returncode, None, stderr)
+
+    def test_the_folder_goes(self):
+        process = self.start_slow()
+        (self.folder / "out").rename(self.folder / "gone")
+        self.expect_cut(self.finished(process), 4, r"error: cannot write 'out/f_00\d\d.png': No such file or directory; ")
+        (self.folder / "gone").rename(self.folder / "out")
+        self.assertRegex(self.resume(*SEQUENCE)[0], r"kept \d+ of 20 frames")
+        self.assertEqual(len(self.contents()), 20)
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_the_permission_goes(self):
+        process = self.start_slow()
+        (self.folder / "out").chmod(0o555)
+        self.expect_cut(self.finished(process), 4, r"error: cannot write 'out/f_00\d\d.png': Permission denied; ")
+        (self.folder / "out").chmod(0o755)
+        self.resume(*SEQUENCE)
+        self.assertEqual(len(self.contents()), 20)
+
+    def test_a_frame_takes_too_long(self):
+        self.write_feedback()
+        done = self.run_program("capture", "fb", "--size", "8x8", "--frames", "0-6,100000000", "-o", "out/f_%d.png",
+                                "--timeout", "2")
+        self.assertEqual(self.expect_cut(done, 5, r"error: gave up drawing frame \d+ after 2(\.\d+)? s \(--timeout\)"), 7)
+        self.assertEqual(set(self.contents()), {f"f_{i}.png" for i in range(7)})
+        self.assertEqual(self.resume("capture", "fb", "--size", "8x8", "--frames", "0-6", "-o", "out/f_%d.png"),
+                         ["kept 7 of 7 frames"])
+
+
+class Killed(Resume):
+    """At any instant, with a signal that nobody can answer."""
+
+    def killed(self, arguments: list[str], seconds: float) -> bool:
+        """False: it was ready before."""
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=environment(),
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            process.wait(seconds)
+            return False
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            return True
+
+    def kill_and_resume(self, sequence: list[str], kills: int) -> None:
+        start = time.monotonic()
+        whole = self.whole(*sequence)
+        seconds = time.monotonic() - start
+        chance = random.Random(1)
+        killed = 0
+        while killed < kills:
+            resumed = [*sequence, "--resume"] if self.contents() else list(sequence)
+            if self.killed(resumed, chance.uniform(0, seconds)):
+                killed += 1
+                continue
+            self.assertEqual(self.contents(), whole)
+            for name in whole:
+                (self.folder / "out" / name).unlink()
+        self.resume(*sequence)
+        self.assertEqual(self.contents(), whole)
+
+    def test_feedback(self):
+        self.write_feedback()
+        self.kill_and_resume([*Feedback.RUN[:4], "--frames", "0-199", *Feedback.RUN[6:]], KILLS)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_video(self):
+        self.kill_and_resume(["capture", "a.glsl", "--size", "64x36", "--frames", "0-199", "--state-every", "20", "-o",
+                              "out/a.mp4"], KILLS)
+
+    def test_pictures(self):
+        self.kill_and_resume(["capture", "a.glsl", "--size", "96x54", "--frames", "0-199", "-o", "out/f_%04d.png"],
+                             KILLS)
+
+
+if __name__ == "__main__":
+    main()

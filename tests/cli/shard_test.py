@@ -1,0 +1,124 @@
+"""`capture --shard` and `gather`: what several processes make is what one would have made."""
+import json
+import shutil
+import subprocess
+import unittest
+
+from support.program import PROGRAM, ProgramTest, environment, main
+
+SCENE = """#iUniform float speed = 0.5
+void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, fract(iTime * speed), 1.0); }
+"""
+SEQUENCE = ("capture", "a.glsl", "--size", "32x18", "--fps", "25", "--frames", "0-9", "-o")
+DRIVEN = r"10 frames are there, whole and with one fingerprint, drawn by .*"
+
+
+class Shards(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.glsl", SCENE)
+        for name in ("out", "whole"):
+            (self.folder / name).mkdir()
+
+    def contents(self, folder: str) -> dict[str, bytes]:
+        return {path.name: path.read_bytes() for path in (self.folder / folder).iterdir()
+                if path.name != "shards.json"}
+
+    def shard(self, which: str, *more: str, **options) -> str:
+        return self.succeed(*SEQUENCE, "out/f_%04d.png", "--shard", which, *more, **options).stderr
+
+    def test_shards_at_once_make_the_sequence(self):
+        started = [subprocess.Popen([PROGRAM, *SEQUENCE, "out/f_%04d.png", "--shard", f"{k}/3"], cwd=self.folder,
+                                    env=environment(), stderr=subprocess.DEVNULL) for k in (1, 2, 3)]
+        self.assertEqual([process.wait() for process in started], [0, 0, 0])
+        self.succeed(*SEQUENCE, "whole/f_%04d.png")
+        self.assertEqual(self.contents("out"), self.contents("whole"))
+        lines = self.succeed("gather", "out").stderr.splitlines()
+        self.assertRegex(lines[0], DRIVEN)
+        self.assertEqual(lines[1:], ["3 of them drawn again: the same pixels"])
+
+    def test_says_what_is_missing(self):
+        self.shard("1/3")
+        self.shard("3/3")
+        self.expect_failure(["gather", "out"], 1, "3 of 10 frames: missing, out/f_0001.png first (shard 2/3)")
+        self.shard("2/3")
+        (self.folder / "out/f_0004.png").write_bytes(b"x")
+        self.expect_failure(["gather", "out"], 1,
+                            "1 of 10 frames: not whole: it is no picture, out/f_0004.png first (shard 2/3)")
+        self.assertIn("kept 2 of 3 frames", self.shard("2/3", "--resume"))
+        self.succeed("gather", "out")
+        self.write("a.glsl", SCENE.replace("speed), 1.0", "speed), 0.5"))
+        self.expect_failure(["gather", "out"], 1, "10 of 10 frames: drawn with another text of the scene, "
+                                                  "out/f_0000.png first (shard 1/3)")
+
+    def test_a_frame_that_is_not_what_it_says(self):
+        """The metadata of one frame around the pixels of another."""
+        for k in (1, 2):
+            self.shard(f"{k}/2")
+        first, last = ((self.folder / f"out/f_{i:04}.png").read_bytes() for i in (0, 9))
+        data = first.index(b"IDAT") - 4, last.index(b"IDAT") - 4
+        (self.folder / "out/f_0009.png").write_bytes(last[:data[1]] + first[data[0]:])
+        self.expect_failure_like(["gather", "out"], 1,
+                                 r"10 frames are there.*\nout/f_0009.png is drawn otherwise here: a sample differs by 0\.\d+")
+        self.assertRegex(self.succeed("gather", "out", "--sample", "0").stderr, rf"\A{DRIVEN}\n\Z")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_a_video_of_them_is_the_video(self):
+        for k in (1, 2):
+            self.shard(f"{k}/2")
+        for name in ("a.mp4", "a.webm", "a.gif"):
+            self.assertTrue(self.succeed("gather", "out", "-o", name).stderr.endswith(f"wrote {name}: 10 frames\n"))
+            self.succeed(*SEQUENCE, f"whole/{name}")
+            self.assertEqual((self.folder / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
+
+    def test_feedback_goes_on_from_the_shard_before(self):
+        self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'
+                                    "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n")
+        self.write("fb/buffer_a.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) '
+                                       "{ c = texelFetch(iChannel0, ivec2(p), 0) + vec4(p, 1, 1) * 0.001; }\n")
+        run = ("capture", "fb", *SEQUENCE[2:])
+        self.succeed(*run, "whole/f_%04d.png")
+        for order in ((1, 2), (2, 1)):
+            said = [self.succeed(*run, "out/f_%04d.png", "--state-every", "100", "--shard", f"{k}/2").stderr
+                    for k in order]
+            self.assertEqual("going on from the state before frame 5" in said[1], order == (1, 2))
+            self.assertIn("wrote 5 frames, out/f_0005.png to out/f_0009.png", "".join(said))
+            self.succeed("gather", "out")
+            self.assertEqual(self.contents("out"), self.contents("whole"))
+            for path in (self.folder / "out").iterdir():
+                path.unlink()
+
+    def test_slurm(self):
+        task = {"SLURM_ARRAY_TASK_COUNT": "2", "SLURM_ARRAY_TASK_MIN": "4", "SLURM_ARRAY_TASK_STEP": "2"}
+        for number in ("4", "6"):
+            self.shard("slurm", env=environment(SLURM_ARRAY_TASK_ID=number, **task))
+        self.succeed("gather", "out")
+        refused = ["capture", "a.glsl", "--frames", "0-9", "-o", "out/f_%04d.png", "--shard"]
+        self.expect_failure([*refused, "slurm"], 2, "tidemark: error: --shard slurm: SLURM_ARRAY_TASK_ID is not set; "
+                                                    "start it as a task of `sbatch --array`",
+                            env=environment(SLURM_ARRAY_TASK_ID=None))
+        self.expect_failure([*refused, "slurm"], 2, "tidemark: error: --shard slurm: task 5 of 2 from 4 on: give --array "
+                                                    "as 0-7, without gaps", env=environment(SLURM_ARRAY_TASK_ID="5", **task))
+        for text in ("0/2", "3/2", "1", "a/b", "1/2/3"):
+            self.expect_failure([*refused, text], 2, f"tidemark: error: --shard {text}: give K/N, K from 1 to N, as in "
+                                                     "2/8, or slurm")
+
+    def test_refused(self):
+        self.shard("1/2")
+        self.expect_failure([*SEQUENCE, "out/f_%04d.png", "--shard", "1/3"], 2,
+                            "tidemark: error: --shard: 'out/shards.json' is of another capture: give a folder of its own, "
+                            "or remove it")
+        self.expect_failure([*SEQUENCE, "a.mp4", "--shard", "1/2"], 2, "tidemark: error: --shard: give a sequence of "
+                            "pictures, which `tidemark gather -o` joins to a video")
+        self.expect_failure(["gather", "whole"], 3, "tidemark: error: cannot read 'whole/shards.json': no such file")
+        for note in ("", "[]", '{"capture": ["x"], "shards": 0}', '{"capture": [1], "shards": 2}'):
+            self.write("whole/shards.json", note)
+            self.expect_failure(["gather", "whole"], 3, "tidemark: error: 'whole/shards.json' is not of `capture --shard`")
+        note = json.loads((self.folder / "out/shards.json").read_text())
+        self.write("whole/shards.json", json.dumps(note))
+        self.expect_failure(["gather", "whole"], 2, "tidemark: error: 'whole/shards.json' was written for "
+                            "'out/f_%04d.png': run gather where the shards were run")
+
+
+if __name__ == "__main__":
+    main()

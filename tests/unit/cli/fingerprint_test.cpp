@@ -1,0 +1,55 @@
+// A fingerprint says in what two frames differ.
+#include "cli/capture/fingerprint.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::cli {
+namespace {
+
+CapturePlan plan_of(const char* text) {
+    CapturePlan plan;
+    plan.scene.passes.resize(1);
+    plan.scene.passes[0].text.append(text, "a.glsl", 1);
+    plan.output = *OutputName::parse("a_%d.png", 2);
+    return plan;
+}
+
+Fingerprint run_of(const CapturePlan& plan, const char* renderer = "one") {
+    gl::Capabilities driver;
+    driver.renderer = renderer;
+    return Fingerprint::of_run(plan, driver);
+}
+
+TEST(Fingerprint, comes_back_from_its_text) {
+    const Fingerprint frame = run_of(plan_of("a")).of_frame({.frame = 3});
+    EXPECT_EQ(Fingerprint::parse(frame.text()), frame);
+    EXPECT_EQ(frame.differences(Fingerprint::parse(frame.text())), "");
+}
+
+TEST(Fingerprint, names_what_differs) {
+    const Fingerprint run = run_of(plan_of("a"));
+    EXPECT_EQ(run.of_frame({.frame = 3}).differences(run.of_frame({.frame = 4})),
+              "another state of the frame");
+    EXPECT_EQ(run.differences(run_of(plan_of("b"))), "another text of the scene");
+    CapturePlan channel = plan_of("a");
+    channel.scene.passes[0].channels[2].sampling.vflip = false;
+    EXPECT_EQ(run.differences(run_of(channel)), "other inputs");
+    CapturePlan knob = plan_of("a");
+    knob.scene.knobs.push_back({.name = "k"});
+    EXPECT_EQ(run.differences(run_of(knob)), "other knobs");
+    EXPECT_EQ(run.differences(Fingerprint::parse("what")),
+              "another version of Tidemark, another device or driver, another text of the scene, other "
+              "inputs, other "
+              "knobs, other options of drawing, something that this version does not know");
+}
+
+TEST(Fingerprint, of_another_device_differs_in_that_alone) {
+    const Fingerprint here = run_of(plan_of("a"));
+    const Fingerprint there = run_of(plan_of("a"), "two");
+    EXPECT_EQ(here.differences(there), "another device or driver");
+    EXPECT_EQ(here.on_device_of(there), there);
+    EXPECT_NE(here.on_device_of(there), run_of(plan_of("b"), "two"));
+}
+
+} // namespace
+} // namespace tidemark::cli
