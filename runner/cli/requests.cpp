@@ -175,6 +175,15 @@ Result<scene::Scene> load(const SceneRequest& request) {
     return scene;
 }
 
+Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence) {
+    auto scene = TRY(load(request));
+    if (sequence.input)
+        if (auto known = check_knobs(*sequence.input, scene.knobs); !known)
+            return fail(ErrorCode::usage,
+                        fmt::format("--input {}: {}", sequence.input_file, known.error().message));
+    return scene;
+}
+
 std::string file_word(const std::filesystem::path& file) {
     const std::string name = file.string();
     return name.starts_with('-') ? "./" + name : name;

@@ -58,6 +58,9 @@ struct FrameSequence {
     std::string input_file{};           ///< that it was read from
 };
 
+/// The scene, which must have the knobs that the sequence's recording turns (ErrorCode::usage).
+Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence);
+
 /// What each frame of the sequence's run sees. Depends on nothing but its number, so that a frame asked for
 /// alone equals the same frame of a sequence.
 render::FrameStates states_of(const FrameSequence& sequence);
