@@ -14,6 +14,8 @@ struct DefinitionField {
     bool whole = false;    ///< written without a point: it may size an array or count turns
     bool held = false;     ///< replaced: not as the file has it
     bool changing = false; ///< under somebody's hand
+
+    bool operator==(const DefinitionField&) const = default;
 };
 
 /// Nothing where the text is no decimal number that GLSL reads without a suffix.

@@ -243,9 +243,9 @@ class Survives(ReloadTest):
         self.assertEqual((before["height"], before["depth"]), (2.5, 0.5))
         self.assertNotEqual(before["camera.x"], 0)
 
-        self.write("a.glsl", self.scene(2, 0.75, 0.75))
+        self.write("a.glsl", self.scene(2, 0.5, 0.75))
         after = view.wait_until_told(self.VALUES, lambda told: told["mark"] == 2)
-        self.assertEqual(after["height"], 2.5)  # turned by hand
+        self.assertEqual(after["height"], 2.5)  # as --set has it
         self.assertEqual(after["depth"], 0.75)  # left as the scene has it
         self.assertGreaterEqual(after["iFrame"], before["iFrame"])
         for name in ("iTime", "iMouse.x", "iMouse.y", "iMouse.z", "iMouse.w", "camera.x", "camera.y", "camera.z"):
