@@ -159,7 +159,7 @@ Result<void> apply_options(const SceneRequest& request, scene::Scene& scene) {
     for (const auto& [settings, apply] : overrides)
         for (const std::string& setting : settings)
             if (auto applied = apply(scene, setting); !applied) {
-                if (apply != scene::override_knob || !request.knobs_may_go)
+                if (apply == scene::override_channel || !request.knobs_may_go)
                     return applied;
                 scene.warnings.push_back(
                     {{request.path.string()}, Severity::warning, std::move(applied.error().message)});

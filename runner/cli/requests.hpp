@@ -27,7 +27,7 @@ struct SceneRequest {
     scene::LoadOptions files{};          ///< --media, --allow-outside
     bool doubles = false;                ///< --precision double
     bool double_hashes = false;          ///< --double-hashes
-    bool knobs_may_go = false;           ///< --set of a knob that is not there is a warning, no error
+    bool knobs_may_go = false;           ///< --set and --define of what is not there: a warning, no error
     std::vector<Diagnostic> said{};      ///< warnings that were printed before, by a load of the same scene
 };
 

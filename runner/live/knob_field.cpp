@@ -8,13 +8,28 @@ namespace tidemark::live {
 using scene::Knob;
 using scene::KnobType;
 
+namespace {
+
+bool has_length(const scene::KnobRange& range) {
+    for (size_t i = 0; i < range.low.size(); ++i)
+        if (!std::isfinite(2 * range.low[i]) || !std::isfinite(2 * range.high[i]))
+            return false;
+    return true;
+}
+
+} // namespace
+
 Widget widget_of(const Knob& knob) {
     if (knob.type == KnobType::color3)
         return Widget::colour;
-    if (!knob.range)
+    if (!knob.range || !has_length(*knob.range))
         return Widget::drag;
     const bool two_values = knob.step && knob.range->high[0] - knob.range->low[0] == (*knob.step)[0];
     return info(knob.type).components == 1 && two_values ? Widget::check_box : Widget::slider;
+}
+
+bool takes(const Knob& knob, double number) {
+    return std::isfinite(number) && (!info(knob.type).whole || scene::fits_int(number));
 }
 
 double in_steps(const Knob& knob, size_t component, double number) {

@@ -14,8 +14,12 @@ struct KnobField {
 
 enum class Widget { check_box, colour, slider, drag };
 
-/// A range that holds two values alone is a check box; without a range there is no slider.
+/// A range that holds two values alone is a check box; without a range, or with one that has no length in
+/// doubles, there is no slider.
 Widget widget_of(const scene::Knob& knob);
+
+/// Whether the knob can have that component: people type what they like.
+bool takes(const scene::Knob& knob, double number);
 
 /// The value of a component nearest to `number` that the knob's step allows, counted from its low end.
 double in_steps(const scene::Knob& knob, size_t component, double number);

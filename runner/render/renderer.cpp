@@ -156,11 +156,12 @@ void Renderer::draw(const FrameInputs& inputs, std::vector<PassTimer>* timers) {
         std::optional<gl::ElapsedTime> timer;
         if (timers)
             timer.emplace();
+        const size_t drawn_before = passes_drawn_;
         draw_pass(planned.pass, inputs);
-        if (timer) {
+        if (timer)
             timer->stop();
+        if (timer && passes_drawn_ != drawn_before)
             timers->push_back({planned.pass, *std::move(timer)});
-        }
     }
 }
 

@@ -46,6 +46,15 @@ class Overlay(OverlayTest):
         self.assertEqual(told["level"], 0.75)
         self.assertGreater(told["time"], 0)
 
+    def test_a_changed_definition_may_go_from_the_file(self):
+        view = self.open_controls(SCENE)
+        view.click_row(HEADER, 0.3)
+        view.drag_row(STEPS, 0.1, 0.3)
+        view.wait_until_told(TOLD, lambda told: told["steps"] > 8)
+        self.write("a.glsl", SCENE.replace("#define STEPS 8\n", "").replace("STEPS", "7"))
+        view.wait_for_words("^a\\.glsl: warning: the scene has no #define or const 'STEPS': ")
+        view.wait_until_told(TOLD, lambda told: told["steps"] == 7)
+
     def test_a_number_shows_a_pass(self):
         self.write("red.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 0.0); }\n")
         for size, scale in SIZES:

@@ -217,6 +217,11 @@ void LiveScene::mended() {
     shown_ = true;
 }
 
+void LiveScene::stop_settling() {
+    if (settling_)
+        builder_.abandon();
+}
+
 void LiveScene::define(const std::string& name, const std::optional<std::string>& value,
                        platform::Window& window, const View& view) {
     std::erase_if(request_.defines, [&](const std::string& text) {

@@ -58,6 +58,9 @@ public:
     /// `follow` gives if there is one. A reload goes first.
     void build_anew(const scene::Scene& scene, platform::Window& window, const View& view, Settle settle);
 
+    /// A quicker program that is looked for is not wanted any more.
+    void stop_settling();
+
     /// Holds a definition at a value as `--define` does; none: it is the files' own again. A reload follows.
     void define(const std::string& name, const std::optional<std::string>& value, platform::Window& window,
                 const View& view);

@@ -4,8 +4,7 @@ namespace tidemark::cli {
 
 std::vector<render::PassTimer>* PassCosts::next_frame() {
     for (const render::PassTimer& timer : timers_)
-        if (const auto took = timer.time.milliseconds();
-            took && *took > 0) // a pass that was not drawn takes none
+        if (const auto took = timer.time.milliseconds(); took)
             milliseconds_[timer.pass] = *took;
     timers_.clear();
     return &timers_;

@@ -8,7 +8,6 @@
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
 #include "cli/picture_facts.hpp"
-#include "cli/view/overlay_fields.hpp"
 #include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/window_loss.hpp"
@@ -400,7 +399,7 @@ Result<void> Viewer::show(Stage fresh, double now) {
         return {};
     }
     play_sound();
-    defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
+    defined_.reset();
     controls_.release(stage_->renderer().scene().knobs);
     reloaded_ = scene_.take_times();
     settled_ = false;

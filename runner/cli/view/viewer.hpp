@@ -149,17 +149,18 @@ private:
     WindowKeys keys_;
     live::Overlay overlay_;
     ErrorBoard errors_;
-    PassCosts costs_;                            ///< while the controls are open
-    std::optional<SteppingThere> stepping_;      ///< on the way to a frame
-    live::SetLoop loop_;                         ///< of time
-    std::optional<size_t> large_;                ///< of the pictures in the overlay
-    std::vector<live::DefinitionField> defined_; ///< of the scene on show
-    bool controls_open_ = false;                 ///< in the overlay
-    bool help_open_ = false;                     ///< likewise
-    bool stale_overlay_ = false;                 ///< it does not show what it should
-    bool stale_ = true;                          ///< the window does not show what it should
-    bool at_rest_ = false; ///< the next frame is this one, until somebody does something
-    bool settled_ = false; ///< the scene on show was, or it was tried
+    PassCosts costs_;                       ///< while the controls are open
+    std::optional<SteppingThere> stepping_; ///< on the way to a frame
+    live::SetLoop loop_;                    ///< of time
+    std::optional<size_t> large_;           ///< of the pictures in the overlay
+    std::optional<std::vector<live::DefinitionField>>
+        defined_;                ///< by the scene on show; none: not looked yet
+    bool controls_open_ = false; ///< in the overlay
+    bool help_open_ = false;     ///< likewise
+    bool stale_overlay_ = false; ///< it does not show what it should
+    bool stale_ = true;          ///< the window does not show what it should
+    bool at_rest_ = false;       ///< the next frame is this one, until somebody does something
+    bool settled_ = false;       ///< the scene on show was, or it was tried
     bool closing_ = false;
 };
 

@@ -16,10 +16,12 @@ namespace tidemark::cli {
 void Viewer::toggle_controls() {
     controls_open_ = !controls_open_;
     stale_overlay_ = true;
-    if (controls_open_ && stage_ && stage_->share() && !scene_.building_since()) {
-        settled_ = false;
+    if (!controls_open_)
+        return;
+    settled_ = false;
+    scene_.stop_settling();
+    if (stage_ && stage_->share() && !scene_.building_since())
         scene_.build_anew(turned_scene(), window_, view(), LiveScene::Settle::no);
-    }
 }
 
 /// 1 to 9, of the pictures in the controls; 0 and the same again: the scene's own.
@@ -47,6 +49,8 @@ bool Viewer::overlay_due() const {
 
 void Viewer::show_overlay() {
     stale_overlay_ = false;
+    if (controls_open_ && stage_ && !defined_)
+        defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
     if (auto shown = overlay_.show(overlay_model(), {window_.framebuffer_extent(), window_.content_scale()});
         !shown)
         say(to_string(shown.error()));
@@ -58,7 +62,7 @@ live::Model Viewer::overlay_model() const {
     if (model.controls) {
         const render::Renderer& renderer = stage_->renderer();
         model.knobs = knob_fields(renderer.scene(), shown_.knobs);
-        model.definitions = defined_;
+        model.definitions = *defined_;
         model.pictures = picture_fields(renderer, costs_);
         if (large_ && *large_ < model.pictures.size())
             model.large = large_;

@@ -22,6 +22,8 @@ live::TimeField Viewer::time_field() const {
 /// A frame that others lead to is stepped to: its buffers hold then what they always hold there.
 void Viewer::seek(double seconds, double now) {
     const double fps = settings_.frames.state.fps;
+    if (!(seconds >= 0 && seconds <= render::k_last_frame / fps))
+        return; // typed
     const int frame = render::frame_at(seconds, fps);
     stale_ = true;
     given_up_ = false;

@@ -19,7 +19,8 @@ void draw_row(DefinitionField& field, Commands& commands) {
         field.changing = true;
     if (field.changing && !ImGui::IsItemActive()) {
         field.changing = false;
-        commands.emplace_back(Define{field.name, text_of(field)});
+        if (std::isfinite(field.value))
+            commands.emplace_back(Define{field.name, text_of(field)});
     }
     ImGui::SameLine();
     ImGui::TextUnformatted(field.name.c_str());

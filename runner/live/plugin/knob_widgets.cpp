@@ -28,7 +28,8 @@ bool draw_check_box(KnobField& field) {
 bool draw_colour(KnobField& field) {
     std::array<float, 3> colour{};
     std::copy_n(field.value.begin(), colour.size(), colour.begin());
-    if (!ImGui::ColorEdit3("##value", colour.data(), ImGuiColorEditFlags_Float))
+    if (!ImGui::ColorEdit3("##value", colour.data(), ImGuiColorEditFlags_Float) ||
+        !std::ranges::all_of(colour, [&](float part) { return takes(field.knob, part); }))
         return false;
     constexpr double k_steps = 1000; // as many digits as the widget shows
     std::ranges::transform(colour, field.value.begin(),
@@ -39,13 +40,15 @@ bool draw_colour(KnobField& field) {
 bool draw_component(KnobField& field, size_t i) {
     const char* format = info(field.knob.type).whole ? k_whole_number : k_number;
     double& value = field.value[i];
+    const double before = value;
     const bool changed =
-        field.knob.range ? ImGui::SliderScalar("##value", ImGuiDataType_Double, &value,
-                                               &field.knob.range->low[i], &field.knob.range->high[i], format)
-                         : ImGui::DragScalar("##value", ImGuiDataType_Double, &value,
-                                             float(drag_speed(field.knob, i)), nullptr, nullptr, format);
+        widget_of(field.knob) == Widget::slider
+            ? ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &field.knob.range->low[i],
+                                  &field.knob.range->high[i], format)
+            : ImGui::DragScalar("##value", ImGuiDataType_Double, &value, float(drag_speed(field.knob, i)),
+                                nullptr, nullptr, format);
     if (changed)
-        value = in_steps(field.knob, i, value);
+        value = takes(field.knob, value) ? in_steps(field.knob, i, value) : before;
     return changed;
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace tidemark::live {
 namespace {
 
@@ -34,6 +36,19 @@ TEST(KnobField, keeps_its_step_from_the_low_end_on) {
     EXPECT_EQ(in_steps({.name = "k", .step = KnobValue{1}}, 0, 2.6), 3);
     EXPECT_EQ(in_steps({.name = "k"}, 0, 0.12345), 0.12345);
     EXPECT_EQ(in_steps({.name = "k", .step = KnobValue{0}}, 0, 0.12345), 0.12345);
+}
+
+TEST(KnobField, has_no_slider_as_long_as_all_doubles) {
+    EXPECT_EQ(widget_of({.name = "k", .range = KnobRange{{-1.7e308}, {1.7e308}}}), Widget::drag);
+}
+
+TEST(KnobField, takes_what_its_type_can_hold) {
+    const Knob whole{.name = "k", .type = KnobType::int1};
+    EXPECT_TRUE(takes(whole, -2147483648.0));
+    EXPECT_FALSE(takes(whole, 1e12));
+    EXPECT_TRUE(takes({.name = "k"}, 1e12));
+    EXPECT_FALSE(takes({.name = "k"}, HUGE_VAL));
+    EXPECT_FALSE(takes({.name = "k"}, std::nan("")));
 }
 
 TEST(KnobField, is_turned_where_it_differs_from_the_default) {
