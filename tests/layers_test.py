@@ -17,9 +17,10 @@ ALLOWED = {
     "sound": ["base"],
     "bake": ["base", "image"],
     "platform": ["base"],
+    "live": ["base", "text", "scene", "platform"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
     "lab": ["base", "text", "scene", "glsl", "ir", "gl", "image", "render"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "render", "lab"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "render", "lab"],
     "main.cpp": ["cli"],
 }
 
@@ -29,6 +30,7 @@ ROOMS = {
     # The plug-in is a library of its own: image/files knows the table of functions that it hands over.
     "image": {"": [], "files": ["", "plugin"], "made": ["", "files"], "compare": [""], "plugin": ["", "files"]},
     "ir": {"": ["plugin"], "plugin": []},
+    "live": {"": ["plugin"], "plugin": [""]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "march": [""], "study": ["", "march"], "trace": [], "pixel": ["march"],

@@ -67,12 +67,25 @@ bool Controls::take(const CameraReset&) {
     return true;
 }
 
+bool Controls::take(const KnobTurned& event) {
+    scene::set(knobs_, event.setting);
+    return true;
+}
+
+void Controls::release(const std::vector<scene::Knob>& knobs) {
+    for (const scene::Knob& knob : knobs)
+        if (knob.value == knob.initial && value_after(knob, knobs_) == knob.initial)
+            std::erase_if(knobs_, [&](const scene::Setting& held) { return held.name == knob.name; });
+}
+
 void Controls::fill(render::FrameState& state) const {
     state.mouse = mouse_;
     state.right_button = right_down_;
     state.keys = keyboard_.texels();
     state.camera = camera_;
     state.initial_camera = initial_camera_;
+    for (const scene::Setting& setting : knobs_)
+        scene::set(state.knobs, setting);
 }
 
 void Controls::frame_drawn() {

@@ -1,11 +1,13 @@
-// What people do to a scene, as its uniforms show it: mouse, keyboard and orbit camera, whether the events
-// come from a window or from a recording.
+// What people do to a scene, as its uniforms show it: mouse, keyboard, orbit camera and knobs, whether the
+// events come from a window or from a recording.
 #pragma once
 
 #include "platform/input.hpp"
 #include "render/frame_state.hpp"
+#include "scene/knob.hpp"
 
 #include <variant>
+#include <vector>
 
 namespace tidemark::cli {
 
@@ -14,10 +16,16 @@ struct CameraReset {
     bool operator==(const CameraReset&) const = default;
 };
 
+/// A knob is set to a value, as `--set` has it.
+struct KnobTurned {
+    scene::Setting setting;
+    bool operator==(const KnobTurned&) const = default;
+};
+
 /// What a scene may learn of.
 using ControlEvent =
     std::variant<platform::PointerMoved, platform::ButtonPressed, platform::ButtonReleased,
-                 platform::WheelTurned, platform::KeyPressed, platform::KeyReleased, CameraReset>;
+                 platform::WheelTurned, platform::KeyPressed, platform::KeyReleased, CameraReset, KnobTurned>;
 
 class Controls {
 public:
@@ -26,8 +34,10 @@ public:
     /// `height` in pixels of what is drawn. True when a uniform may have changed.
     bool handle(const ControlEvent& event, double height);
 
-    /// Sets the mouse, the keys and the camera.
+    /// Sets the mouse, the keys, the camera, and the knobs that were turned.
     void fill(render::FrameState& state) const;
+    /// Knobs that stand where the scene has them are not held there: they follow its defaults.
+    void release(const std::vector<scene::Knob>& knobs);
     /// To be called when a frame has been drawn: what was new in it is then no longer new.
     void frame_drawn();
 
@@ -39,11 +49,13 @@ private:
     bool take(const platform::KeyPressed& event);
     bool take(const platform::KeyReleased& event);
     bool take(const CameraReset&);
+    bool take(const KnobTurned& event);
 
     render::OrbitCamera initial_camera_;
     render::OrbitCamera camera_;
     render::Mouse mouse_;
     render::Keyboard keyboard_;
+    std::vector<scene::Setting> knobs_; ///< each once
     platform::PointerPosition pointer_{};
     double height_ = 1;
     bool turning_ = false;

@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "base/try.hpp"
 #include "cli/requests.hpp"
+#include "scene/overrides.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,18 @@ bool take_key(std::string_view& line, platform::Key& key) {
     return true;
 }
 
+/// The rest of the line.
+bool take_setting(std::string_view& line, scene::Setting& setting) {
+    line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
+    line = line.substr(0, line.find_last_not_of(k_blanks) + 1);
+    const auto split = scene::split_setting(line, "set");
+    if (!split)
+        return false;
+    setting = {std::string(split->first), std::string(split->second)};
+    line = {};
+    return true;
+}
+
 /// The kinds of events: how a line says one, and what to give when it does so wrongly.
 struct Kind {
     std::string_view name;
@@ -111,6 +124,10 @@ constexpr Kind k_kinds[] = {
          return event_if<platform::KeyReleased>(
              [&](platform::KeyReleased& event) { return take_key(line, event.key); });
      }},
+    {"set", "set NAME=VALUE",
+     [](std::string_view& line) {
+         return event_if<KnobTurned>([&](KnobTurned& event) { return take_setting(line, event.setting); });
+     }},
     {"camera", "camera reset",
      [](std::string_view& line) {
          return event_if<CameraReset>([&](CameraReset&) { return take_word(line) == "reset"; });
@@ -131,7 +148,7 @@ Result<TimedEvent> parse_line(std::string_view line) {
                                     [&](const Kind& known) { return known.name == name; });
     if (kind == std::end(k_kinds))
         return refuse(fmt::format(
-            "unknown event '{}': give press, release, move, wheel, keydown, keyup or camera", name));
+            "unknown event '{}': give press, release, move, wheel, keydown, keyup, set or camera", name));
     const auto event = kind->take(rest);
     if (!event || !take_word(rest).empty())
         return refuse(fmt::format("give it as `{} {}`", timed.frame, kind->form));
@@ -166,6 +183,9 @@ struct Wording {
         return fmt::format("keyup {}", platform::js_key_code(event.key));
     }
     std::string operator()(const CameraReset&) const { return "camera reset"; }
+    std::string operator()(const KnobTurned& event) const {
+        return fmt::format("set {}={}", event.setting.name, event.setting.value);
+    }
 };
 
 } // namespace
@@ -196,6 +216,20 @@ Result<InputScript> parse_input_script(std::string_view text, const std::string&
 Result<InputScript> load_input_script(const std::filesystem::path& file) {
     auto text = TRY(read_text_file(file));
     return parse_input_script(text, file.string());
+}
+
+bool turns_knobs(const InputScript& script) {
+    return std::ranges::any_of(
+        script, [](const TimedEvent& timed) { return std::holds_alternative<KnobTurned>(timed.event); });
+}
+
+Result<void> check_knobs(const InputScript& script, std::vector<scene::Knob> knobs) {
+    for (const TimedEvent& timed : script)
+        if (const auto* turned = std::get_if<KnobTurned>(&timed.event))
+            TRY(find_knob(knobs, turned->setting.name).and_then([&](const scene::Knob* knob) {
+                return parse_knob_value(*knob, turned->setting.value);
+            }));
+    return {};
 }
 
 std::string to_string(const InputScript& script) {

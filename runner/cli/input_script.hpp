@@ -1,9 +1,10 @@
-// Mouse and keyboard events by frame: read from a text, replayed frame by frame, recorded into a text.
+// Mouse, keyboard and knob events by frame: read from a text, replayed frame by frame, recorded into a text.
 #pragma once
 
 #include "base/result.hpp"
 #include "cli/controls.hpp"
 #include "platform/input.hpp"
+#include "scene/knob.hpp"
 
 #include <filesystem>
 #include <string>
@@ -27,11 +28,17 @@ using InputScript = std::vector<TimedEvent>;
 ///
 ///     FRAME press left|middle|right X Y       FRAME move X Y       FRAME keydown CODE
 ///     FRAME release left|middle|right         FRAME wheel UP       FRAME keyup CODE
-///     FRAME camera reset
+///     FRAME camera reset                      FRAME set NAME=VALUE
 ///
 /// Errors (ErrorCode::load) have their place in `file`.
 Result<InputScript> parse_input_script(std::string_view text, const std::string& file);
 Result<InputScript> load_input_script(const std::filesystem::path& file);
+
+/// Whether a knob is turned in it.
+bool turns_knobs(const InputScript& script);
+
+/// Fails (ErrorCode::usage) where the scene has no such knob, or one that does not take the value.
+Result<void> check_knobs(const InputScript& script, std::vector<scene::Knob> knobs);
 
 /// The text that parses to that script.
 std::string to_string(const InputScript& script);
@@ -42,7 +49,7 @@ public:
     Replay(InputScript script, const render::OrbitCamera& camera)
         : script_(std::move(script)), camera_(camera), controls_(camera) {}
 
-    /// Sets what the events up to the state's frame make of the mouse, the keyboard and the camera.
+    /// Sets what the events up to the state's frame make of mouse, keyboard, camera and knobs.
     void fill(render::FrameState& state);
 
     /// Adds what happens before `frame`, after `go_back` to it.

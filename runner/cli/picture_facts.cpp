@@ -24,7 +24,8 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene&
         {"Software", fmt::format("tidemark {}", k_version)}};
     std::string knobs;
     for (const scene::Knob& knob : scene.knobs)
-        knobs += fmt::format("{}{}={}", knobs.empty() ? "" : "; ", knob.name, scene::to_string(knob));
+        knobs += fmt::format("{}{}={}", knobs.empty() ? "" : "; ", knob.name,
+                             scene::to_string(knob, value_after(knob, state.knobs)));
     if (!knobs.empty())
         metadata.emplace_back("Knobs", std::move(knobs));
     return metadata;

@@ -159,7 +159,7 @@ Result<void> apply_options(const SceneRequest& request, scene::Scene& scene) {
     for (const auto& [settings, apply] : overrides)
         for (const std::string& setting : settings)
             if (auto applied = apply(scene, setting); !applied) {
-                if (apply != scene::override_knob || !request.knobs_may_go)
+                if (apply == scene::override_channel || !request.knobs_may_go)
                     return applied;
                 scene.warnings.push_back(
                     {{request.path.string()}, Severity::warning, std::move(applied.error().message)});
@@ -172,6 +172,15 @@ Result<scene::Scene> load(const SceneRequest& request) {
     auto scene = load_as_written(request);
     if (scene)
         TRY(apply_options(request, *scene));
+    return scene;
+}
+
+Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence) {
+    auto scene = TRY(load(request));
+    if (sequence.input)
+        if (auto known = check_knobs(*sequence.input, scene.knobs); !known)
+            return fail(ErrorCode::usage,
+                        fmt::format("--input {}: {}", sequence.input_file, known.error().message));
     return scene;
 }
 

@@ -27,7 +27,7 @@ struct SceneRequest {
     scene::LoadOptions files{};          ///< --media, --allow-outside
     bool doubles = false;                ///< --precision double
     bool double_hashes = false;          ///< --double-hashes
-    bool knobs_may_go = false;           ///< --set of a knob that is not there is a warning, no error
+    bool knobs_may_go = false;           ///< --set and --define of what is not there: a warning, no error
     std::vector<Diagnostic> said{};      ///< warnings that were printed before, by a load of the same scene
 };
 
@@ -57,6 +57,9 @@ struct FrameSequence {
     std::optional<InputScript> input{}; ///< instead of a person, or of a mouse and a camera that stand still
     std::string input_file{};           ///< that it was read from
 };
+
+/// The scene, which must have the knobs that the sequence's recording turns (ErrorCode::usage).
+Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence);
 
 /// What each frame of the sequence's run sees. Depends on nothing but its number, so that a frame asked for
 /// alone equals the same frame of a sequence.

@@ -63,7 +63,7 @@ Result<std::optional<lab::TurnRange>> parse_turns(const std::string& text) {
 
 Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& frames,
                           const lab::PixelRequest& request) {
-    const auto scene = TRY(load(command.scene));
+    const auto scene = TRY(load(command.scene, frames));
     const auto context = TRY(platform::HeadlessContext::create(command.device));
     render::RenderOptions drawing;
     drawing.extent = frames.state.extent;

@@ -63,6 +63,7 @@ void clear_window() {
 
 void blit_to_window(const RenderTarget& target, Extent window) {
     const Extent from = target.extent();
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitNamedFramebuffer(target.framebuffer.id(), 0, 0, 0, from.width, from.height, 0, 0, window.width,
                            window.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }

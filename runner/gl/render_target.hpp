@@ -40,7 +40,8 @@ void read_corner(const RenderTarget& target, Extent size, GLenum format, GLenum 
 /// Makes the window's own framebuffer black.
 void clear_window();
 
-/// Shows the target in the window's own framebuffer, stretched to fill it when their sizes differ.
+/// Shows the target in the window's own framebuffer, stretched to fill it when their sizes differ. That one
+/// is drawn into from then on.
 void blit_to_window(const RenderTarget& target, Extent window);
 
 } // namespace tidemark::gl

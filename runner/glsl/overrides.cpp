@@ -139,6 +139,16 @@ std::vector<NamedText> definitions_of(const scene::Scene& scene) {
     return found;
 }
 
+std::vector<NamedText> plain_numbers(const scene::Scene& scene) {
+    std::vector<NamedText> definitions = definitions_of(scene);
+    std::erase_if(definitions, [](const NamedText& definition) {
+        const auto tokens = text::tokenize(definition.text);
+        const bool is_signed = !tokens.empty() && (tokens[0].is("-") || tokens[0].is("+"));
+        return tokens.size() != size_t(is_signed) + 1 || tokens.back().kind != TokenKind::number;
+    });
+    return definitions;
+}
+
 std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name) {
     const std::vector<NamedText> definitions = definitions_of(scene);
     auto value = value_of(definitions, name);

@@ -22,6 +22,9 @@ struct NamedText {
 /// What the scene defines names as: the text of each one's first definition that no #if takes out.
 std::vector<NamedText> definitions_of(const scene::Scene& scene);
 
+/// Those of them whose text is one number, with its sign.
+std::vector<NamedText> plain_numbers(const scene::Scene& scene);
+
 /// The same of one name; a value that is itself such a name is followed.
 std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name);
 

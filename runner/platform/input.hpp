@@ -119,6 +119,13 @@ struct KeyReleased {
     bool operator==(const KeyReleased&) const = default;
 };
 
+/// What a key typed, by the person's keyboard layout; after the KeyPressed that it belongs to, if there is
+/// one.
+struct TextTyped {
+    char32_t character = 0;
+    bool operator==(const TextTyped&) const = default;
+};
+
 /// The new size; 0x0 for a minimised window on some systems.
 struct FramebufferResized {
     Extent extent;
@@ -139,7 +146,8 @@ struct FocusLost {
     bool operator==(const FocusLost&) const = default;
 };
 
-using InputEvent = std::variant<PointerMoved, ButtonPressed, ButtonReleased, WheelTurned, KeyPressed,
-                                KeyReleased, FramebufferResized, RedrawNeeded, CloseRequested, FocusLost>;
+using InputEvent =
+    std::variant<PointerMoved, ButtonPressed, ButtonReleased, WheelTurned, KeyPressed, KeyReleased, TextTyped,
+                 FramebufferResized, RedrawNeeded, CloseRequested, FocusLost>;
 
 } // namespace tidemark::platform

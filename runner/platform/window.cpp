@@ -198,6 +198,9 @@ void Window::State::listen_to_people() {
     glfwSetScrollCallback(handle, [](GLFWwindow* source, double right, double up) {
         of(source).events.push_back(WheelTurned{right, up});
     });
+    glfwSetCharCallback(handle, [](GLFWwindow* source, unsigned character) {
+        of(source).events.push_back(TextTyped{char32_t(character)});
+    });
     glfwSetKeyCallback(handle, [](GLFWwindow* source, int glfw_key, int scancode, int action, int) {
         const Key key = key_from_glfw(glfw_key, glfwGetKeyName(glfw_key, scancode));
         if (key == Key::unknown)
@@ -281,6 +284,17 @@ void Window::wake() {
 
 Extent Window::framebuffer_extent() const {
     return state_->framebuffer;
+}
+
+double Window::content_scale() const {
+    float x = 1;
+    float y = 1;
+    glfwGetWindowContentScale(state_->window.get(), &x, &y);
+    return std::max(x, y);
+}
+
+void Window::set_clipboard(const std::string& text) {
+    glfwSetClipboardString(state_->window.get(), text.c_str());
 }
 
 void Window::swap() {

@@ -38,6 +38,10 @@ public:
 
     /// As of the last event returned.
     Extent framebuffer_extent() const;
+    /// Pixels of this display for one of an ordinary display's: 2 on a dense one.
+    double content_scale() const;
+    /// What other programs paste from now on, as long as this one runs.
+    void set_clipboard(const std::string& text);
     /// Shows what has been drawn.
     void swap();
     void set_title(const std::string& title);

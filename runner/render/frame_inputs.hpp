@@ -4,12 +4,14 @@
 
 #include "base/result.hpp"
 #include "render/keyboard.hpp"
+#include "scene/setting.hpp"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <string_view>
+#include <vector>
 
 namespace tidemark::render {
 
@@ -44,6 +46,7 @@ struct FrameInputs {
     glm::mat4 view{1};         ///< iViewMatrix: the same camera, from where it stood at first
     glm::vec2 mouse_button{0}; ///< iMouseButton: 1 while down; left, right
     KeyboardTexels keyboard{};
+    std::vector<scene::Setting> knobs{}; ///< set to something else than in the scene
 };
 
 inline constexpr double k_sample_rate = 44100; ///< iSampleRate

@@ -29,6 +29,7 @@ FrameInputs inputs_of(const FrameState& state) {
     inputs.keyboard = state.keys;
     inputs.date = later(state.date, inputs.time);
     inputs.camera = state.camera.matrix();
+    inputs.knobs = state.knobs;
     if (state.initial_camera)
         inputs.view = inverse(state.initial_camera->matrix()) * inputs.camera;
     return inputs;

@@ -1,6 +1,7 @@
 #include "render/live_clock.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tidemark::render {
 namespace {
@@ -24,6 +25,19 @@ void LiveClock::restart(double now) {
     fresh_ = true;
 }
 
+void LiveClock::seek(double time, int frame, double now) {
+    time_ = time;
+    resumed_at_ = now;
+    next_frame_ = frame;
+    fresh_ = true;
+}
+
+void LiveClock::set_speed(double speed, double now) {
+    time_ = time_at(now);
+    resumed_at_ = now;
+    speed_ = speed;
+}
+
 void LiveClock::step(int frames, double fps, double now) {
     if (!paused_)
         toggle_pause(now);
@@ -36,7 +50,7 @@ void LiveClock::step(int frames, double fps, double now) {
 double LiveClock::time_at(double now) const {
     if (frames_per_second_)
         return next_frame_ / *frames_per_second_;
-    return paused_ ? time_ : time_ + (now - resumed_at_);
+    return paused_ ? time_ : std::max(0.0, time_ + speed_ * (now - resumed_at_));
 }
 
 FrameState LiveClock::next_frame(double now) {
@@ -44,7 +58,7 @@ FrameState LiveClock::next_frame(double now) {
     FrameState state{.frame = next_frame_, .fps = frames_per_second_.value_or(frame_rate_)};
     if (!frames_per_second_) {
         state.time = time_at(now);
-        state.time_delta = fresh_ || paused_ ? k_usual_delta : now - drawn_at_;
+        state.time_delta = fresh_ || paused_ ? k_usual_delta : std::abs(speed_) * (now - drawn_at_);
     }
     ++next_frame_;
     drawn_at_ = now;

@@ -24,6 +24,14 @@ public:
     /// Pauses and moves by so many frames of 1/fps; never before frame 0 or time 0.
     void step(int frames, double fps, double now);
 
+    /// That frame is next, at that time.
+    void seek(double time, int frame, double now);
+    /// Seconds of iTime in one of the wall clock's; below zero iTime runs backwards, down to 0. Frames are
+    /// counted on.
+    void set_speed(double speed, double now);
+    double speed() const { return speed_; }
+    bool by_frames() const { return frames_per_second_.has_value(); }
+
     /// No frame is drawn for a while, which is no frame's iTimeDelta.
     void rest() { fresh_ = true; }
 
@@ -41,6 +49,7 @@ private:
     std::optional<double> frames_per_second_; ///< none: the wall clock
     double time_ = 0;                         ///< iTime at resumed_at_, or frozen
     double resumed_at_;                       ///< wall clock
+    double speed_ = 1;
     double drawn_at_ = 0;
     int next_frame_ = 0;
     bool paused_ = false;

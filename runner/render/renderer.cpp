@@ -173,13 +173,23 @@ void Renderer::warm_up(const FrameInputs& inputs) {
     reset();
 }
 
-void Renderer::draw(const FrameInputs& inputs) {
+void Renderer::draw(const FrameInputs& inputs, std::vector<PassTimer>* timers) {
     const Doing drawing = doing(k_drawing, scene());
     draws_in_frame_ = 0;
     textures_.update(inputs);
-    for (const PlannedPass& planned : plan().passes)
-        if (!is_tiled(planned.pass))
-            draw_pass(planned.pass, inputs);
+    for (const PlannedPass& planned : plan().passes) {
+        if (is_tiled(planned.pass))
+            continue;
+        std::optional<gl::ElapsedTime> timer;
+        if (timers)
+            timer.emplace();
+        const size_t drawn_before = passes_drawn_;
+        draw_pass(planned.pass, inputs);
+        if (timer)
+            timer->stop();
+        if (timer && passes_drawn_ != drawn_before)
+            timers->push_back({planned.pass, *std::move(timer)});
+    }
 }
 
 std::optional<TileGrid> Renderer::tiles() const {

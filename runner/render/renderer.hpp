@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "gl/elapsed_time.hpp"
 #include "gl/program.hpp"
 #include "image/image.hpp"
 #include "render/bound_channel.hpp"
@@ -34,6 +35,12 @@ struct FrameWork {
     bool operator==(const FrameWork&) const = default;
 };
 
+/// What a pass took in a frame, by the driver's timer.
+struct PassTimer {
+    size_t pass;
+    gl::ElapsedTime time;
+};
+
 class Renderer {
 public:
     /// Compiles the passes that the shown one may need, loads what they read, makes the targets. The error of
@@ -44,8 +51,8 @@ public:
     void warm_up(const FrameInputs& inputs);
 
     /// One frame. Buffers keep their content for the next one. A pass that reads what it read the last time
-    /// is not drawn again.
-    void draw(const FrameInputs& inputs);
+    /// is not drawn again. Passes that are drawn are added to `timers`.
+    void draw(const FrameInputs& inputs, std::vector<PassTimer>* timers = nullptr);
     /// How many passes have been drawn in all frames so far.
     size_t passes_drawn() const { return passes_drawn_; }
     /// Whether the next frame may be another one although nobody turns, moves or presses anything. Buffers
@@ -94,7 +101,9 @@ public:
     FrameWork work() const;
     Extent extent() const { return extent_; }
     image::SampleType samples() const { return compiled_.options().samples; }
-    const gl::RenderTarget& target() const { return passes_[shown_index()].target.latest(); }
+    const gl::RenderTarget& target() const { return target_of(shown_index()); }
+    /// The last picture of a pass in the plan.
+    const gl::RenderTarget& target_of(size_t pass) const { return passes_[pass].target.latest(); }
     const scene::Scene& scene() const { return compiled_.scene(); }
     const scene::Pass& shown_pass() const { return scene().passes[shown_index()]; }
     size_t shown_index() const { return compiled_.shown(); }

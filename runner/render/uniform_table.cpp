@@ -133,7 +133,7 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
         case Source::struct_size: return UniformNumbers(channels[entry.index].resolution);
         case Source::struct_time: return {channels[entry.index].time};
         case Source::struct_loaded: return {channels[entry.index].loaded ? 1.0 : 0.0};
-        case Source::knob: return UniformNumbers(knobs[entry.index].value);
+        case Source::knob: return UniformNumbers(value_after(knobs[entry.index], inputs.knobs));
         }
         return {};
     };

@@ -109,6 +109,8 @@ Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text) {
                                                   type.directive_name, form));
     };
     text = trimmed(text);
+    if (text == k_default_value)
+        return knob.initial;
     if (knob.type == KnobType::color3 && text.starts_with('#')) {
         const auto colour = parse_hex_colour(text);
         return colour ? Result<KnobValue>(*colour) : refuse();
@@ -125,6 +127,14 @@ Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text) {
     return value;
 }
 
+KnobValue value_after(const Knob& knob, std::span<const Setting> settings) {
+    KnobValue value = knob.value;
+    for (const Setting& setting : settings)
+        if (setting.name == knob.name)
+            value = parse_knob_value(knob, setting.value).value_or(value);
+    return value;
+}
+
 Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name) {
     const auto found =
         std::find_if(knobs.begin(), knobs.end(), [&](const Knob& knob) { return knob.name == name; });
@@ -137,12 +147,23 @@ Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name) {
                                               hint_for(name, names, "it declares none with #iUniform")));
 }
 
+namespace {
+
+std::string to_text(const Knob& knob, const KnobValue& value, std::string_view constructor) {
+    const int count = info(knob.type).components;
+    const std::span<const double> components(value.data(), size_t(count));
+    return count == 1 ? fmt::format("{}", components[0])
+                      : fmt::format("{}({})", constructor, fmt::join(components, ", "));
+}
+
+} // namespace
+
 std::string to_string(const Knob& knob, const KnobValue& value) {
-    const KnobTypeInfo& type = info(knob.type);
-    const std::span<const double> components(value.data(), size_t(type.components));
-    if (type.components == 1)
-        return fmt::format("{}", components[0]);
-    return fmt::format("{}({})", type.glsl_name, fmt::join(components, ", "));
+    return to_text(knob, value, info(knob.type).glsl_name);
+}
+
+std::string to_literal(const Knob& knob) {
+    return to_text(knob, knob.value, info(knob.type).directive_name);
 }
 
 } // namespace tidemark::scene

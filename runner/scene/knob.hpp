@@ -2,9 +2,11 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "scene/setting.hpp"
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,9 +45,14 @@ struct Knob {
     SourceLocation where{};
 };
 
-/// Reads `0.5`, `1,2,3`, `vec3(1, 2, 3)`, or, for a colour, `#rrggbb`. One number stands for all components.
-/// The error (ErrorCode::usage) says what the knob takes.
+/// Reads `0.5`, `1,2,3`, `vec3(1, 2, 3)`, or, for a colour, `#rrggbb`. One number stands for all components;
+/// `default` is what the scene declares. The error (ErrorCode::usage) says what the knob takes.
 Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text);
+
+inline constexpr std::string_view k_default_value = "default";
+
+/// What it is once it was set to these in turn: the last that it takes decides.
+KnobValue value_after(const Knob& knob, std::span<const Setting> settings);
 
 /// Whether a component of a whole-number type can hold `number`, which is whole.
 inline bool fits_int(double number) {
@@ -60,5 +67,8 @@ std::string to_string(const Knob& knob, const KnobValue& value);
 inline std::string to_string(const Knob& knob) {
     return to_string(knob, knob.value);
 }
+
+/// The same as a directive has it, which calls a colour by its own name: `color3(1, 0.5, 0)`.
+std::string to_literal(const Knob& knob);
 
 } // namespace tidemark::scene

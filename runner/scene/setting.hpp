@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tidemark::scene {
 
@@ -11,5 +12,8 @@ struct Setting {
 
     bool operator==(const Setting&) const = default;
 };
+
+/// Instead of an earlier one of its name.
+void set(std::vector<Setting>& settings, const Setting& setting);
 
 } // namespace tidemark::scene

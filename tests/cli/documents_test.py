@@ -220,12 +220,11 @@ class Explained(unittest.TestCase):
         self.assertEqual(re.findall(r"^\| (\d+) \|", table, re.MULTILINE), codes)
 
     def test_every_key_has_its_row(self) -> None:
-        source = (ROOT / "runner" / "cli" / "view" / "viewer.cpp").read_text()
-        shown = re.search(r'k_help = R"\((.*?)\nA scene', source, re.DOTALL)[1]
-        keys = {key for line in shown.splitlines() for cell in re.split(r"  +", line)[::2] for key in cell.split(", ")}
-        table = COMMANDS.read_text().partition("\n## Keys\n")[2].partition("\n## ")[0]
-        rows = re.findall(r"^\| ([^|]*) \|", table, re.MULTILINE)
-        self.assertEqual(keys, {key for row in rows for key in re.split(", |; ", row)} - {"key", "---"})
+        source = (ROOT / "runner" / "cli" / "view" / "window_keys.cpp").read_text()
+        rows = re.findall(r'^    \{"(.*)",\s+"(.*)"\},$', source.partition("k_rows[]")[2], re.MULTILINE)
+        table = COMMANDS.read_text().partition("\n## Keys\n")[2].partition("\n## ")[0].replace("`", "")
+        self.assertGreater(len(rows), 5)
+        self.assertEqual(rows, re.findall(r"^\| (.*?) \| (.*) \|$", table, re.MULTILINE)[1:])
 
     def test_a_topic_that_is_not_there(self) -> None:
         done = subprocess.run([PROGRAM, "help", "keyz"], capture_output=True, text=True)

@@ -63,7 +63,7 @@ class Input(ProgramTest):
         self.write("bad.txt", "0 move 1 2\n1 mvoe 1 2\n")
         self.expect_failure(["capture", "a.glsl", "--input", "bad.txt"], 3,
                             "bad.txt:2: error: unknown event 'mvoe': give press, release, move, wheel, keydown, "
-                            "keyup or camera")
+                            "keyup, set or camera")
         self.expect_failure(["capture", "a.glsl", "--input", "none.txt"], 3,
                             "tidemark: error: cannot read 'none.txt': no such file")
 

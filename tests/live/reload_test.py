@@ -243,36 +243,38 @@ class Survives(ReloadTest):
         self.assertEqual((before["height"], before["depth"]), (2.5, 0.5))
         self.assertNotEqual(before["camera.x"], 0)
 
-        self.write("a.glsl", self.scene(2, 0.75, 0.75))
+        self.write("a.glsl", self.scene(2, 0.5, 0.75))
         after = view.wait_until_told(self.VALUES, lambda told: told["mark"] == 2)
-        self.assertEqual(after["height"], 2.5)  # turned by hand
+        self.assertEqual(after["height"], 2.5)  # as --set has it
         self.assertEqual(after["depth"], 0.75)  # left as the scene has it
         self.assertGreaterEqual(after["iFrame"], before["iFrame"])
         for name in ("iTime", "iMouse.x", "iMouse.y", "iMouse.z", "iMouse.w", "camera.x", "camera.y", "camera.z"):
             self.assertEqual(after[name], before[name], name)
 
-    def test_an_edited_value_that_an_option_holds_is_said(self):
-        values = {"level": "level", "steps": "STEPS", "mark": "MARK"}
+    HELD = {"level": "level", "steps": "STEPS", "mark": "MARK"}
 
-        def scene(mark: int, level: str, steps: str, knob: str = "level") -> str:
-            return probe.shader(values, f"#iUniform float {knob} = {level} in {{ 0.0, 9.0 }}\n#define STEPS {steps}\n"
-                                        f"#define MARK {mark}.0\n").replace("return level", f"return {knob}")
+    def held_scene(self, mark: int, level: str, steps: str, knob: str = "level") -> str:
+        return probe.shader(self.HELD, f"#iUniform float {knob} = {level} in {{ 0.0, 9.0 }}\n#define STEPS {steps}\n"
+                                       f"#define MARK {mark}.0\n").replace("return level", f"return {knob}")
 
-        held = "level stays 0.5 as --set says; the file's default is now {}"
-        defined = "STEPS stays 7.0 as --define says; the file's definition is now {}"
-        view = self.start("--set", "level=0.5", "--define", "STEPS=7.0", scene=scene(1, "0.5", "3.0"))
-        told = []
-        for mark, level, steps in ((2, "0.7", "3.0"), (3, "0.7", "3.0"), (4, "0.5", "4.0"), (5, "0.5", "4.0")):
-            self.write("a.glsl", scene(mark, level, steps))
-            told = view.wait_until_told(values, lambda told: told["mark"] == mark)
-            self.assertEqual((told["level"], told["steps"]), (0.5, 7))
-        said = [line for line in view.stderr().splitlines() if " stays " in line]
-        self.assertEqual(said, [held.format(0.7), held.format(0.5), defined.format("4.0")])
-        self.write("a.glsl", scene(6, "0.2", "4.0", knob="other"))
+    def test_an_edited_default_ends_its_set_and_no_define(self):
+        view = self.start("--set", "level=0.5", "--define", "STEPS=7.0", scene=self.held_scene(1, "0.2", "3.0"))
+        for mark, level, steps, wanted in ((2, "0.2", "3.0", 0.5), (3, "0.7", "3.0", 0.7), (4, "0.5", "4.0", 0.5),
+                                           (5, "0.9", "4.0", 0.9)):
+            self.write("a.glsl", self.held_scene(mark, level, steps))
+            told = view.wait_until_told(self.HELD, lambda told: told["mark"] == mark)
+            self.assertEqual((round(told["level"], 6), told["steps"]), (wanted, 7))
+        said = [line for line in view.stderr().splitlines() if " stays " in line or " is over" in line]
+        self.assertEqual(said, ["level is 0.7 now, as the file says: --set level=0.5 is over",
+                                "STEPS stays 7.0 as --define says; the file's definition is now 4.0"])
+
+    def test_a_set_waits_for_a_knob_that_is_gone(self):
+        view = self.start("--set", "level=0.5", "--define", "STEPS=7.0", scene=self.held_scene(1, "0.2", "3.0"))
+        self.write("a.glsl", self.held_scene(6, "0.2", "4.0", knob="other"))
         view.wait_for_words("^a\\.glsl: warning: the scene has no knob 'level': it has other$")
-        view.wait_until_told(values, lambda told: told["mark"] == 6)
-        self.write("a.glsl", scene(7, "0.2", "4.0"))
-        self.assertEqual(view.wait_until_told(values, lambda told: told["mark"] == 7)["level"], 0.5)
+        view.wait_until_told(self.HELD, lambda told: told["mark"] == 6)
+        self.write("a.glsl", self.held_scene(7, "0.2", "4.0"))
+        self.assertEqual(view.wait_until_told(self.HELD, lambda told: told["mark"] == 7)["level"], 0.5)
 
     def test_defines_and_channels_of_the_command_line(self):
         self.write("three.png", png.encode(3, 2, 1, [bytes(3)] * 2))

@@ -53,6 +53,19 @@ class Settle(LiveTest):
         view.wait_for_title(" fps$")
         return rows, saved.rows
 
+    def test_controls_bring_the_whole_text_back(self):
+        """The quicker program has decided what the knob decides."""
+        self.write("a.glsl", "#iUniform float level = 0.0 in { 0.0, 1.0 }\n" + marching().replace(
+            "c = vec4(vec3", "if (level > 0.5) c = vec4(1.0); else c = vec4(vec3"))
+        view = self.view("a.glsl", "--size", "200x200", "--fps", "10")
+        self.settled(view)
+        view.key("Tab")
+        white = bytes((255, 255, 255)) # of the letters on its buttons: the scene has none
+        place = view.place()
+        wait_for(lambda: any(white in row for row in self.screen.rows(place["X"], place["Y"], 200, 60)), "the controls")
+        view.drag((40, 66), (190, 66))
+        wait_for(lambda: png.read(view.save()).pixel(190, 190)[:3] == (255, 255, 255), "what the knob asks for")
+
     def test_bytes_stay(self):
         self.write("a.glsl", marching())
         view = self.view("a.glsl", *SIZE)

@@ -126,7 +126,7 @@ class Keys(LiveTest):
     def test_h_prints_the_keys(self):
         view = self.start()
         view.key("h")
-        for words in ("drag ", "wheel ", "space ", "left, right ", "Home ", "S  ", "F  ", "Esc ", "H  this help"):
+        for words in ("drag ", "wheel, ", "space; left, right ", "Home ", "S  ", "Tab; ", "F; H, F1 ", "Esc "):
             view.wait_for_words(words)
 
     def test_f_fills_the_screen_and_gives_it_back(self):

@@ -191,11 +191,16 @@ Result<void> check_faces(const CapturePlan& plan) {
 constexpr size_t k_frames_worth_a_trial = 64;
 
 /// A trial looks at the first frame that is drawn and at the last, as the sequence sees them but for what
-/// buffers hold: they are empty.
-std::optional<PlannedTrial> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
+/// buffers hold: they are empty. Where knobs are turned on the way no program has their values in it.
+Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
     const std::vector<int>& frames = plan.frames.frames;
+    const bool turned = plan.frames.input && turns_knobs(*plan.frames.input);
+    if (turned && options.allowed_difference)
+        return fail(ErrorCode::usage,
+                    fmt::format("--allow-difference: knobs cannot be constants while {} turns them",
+                                plan.frames.input_file));
     const bool long_enough = frames.size() >= k_frames_worth_a_trial && !options.timeout;
-    if (options.plain || !(options.allowed_difference || long_enough))
+    if (options.plain || turned || !(options.allowed_difference || long_enough))
         return std::nullopt;
     const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
     const render::FrameStates states = states_of(plan.frames);
@@ -221,14 +226,14 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     auto plan = plan_of_options(options);
     if (!plan)
         return plan;
-    auto scene = TRY(load(options.scene));
+    auto scene = TRY(load(options.scene, plan->frames));
     plan->scene = std::move(scene);
     TRY(spare_what_is_read(options, *plan));
     TRY(check_faces(*plan));
     if (!options.shard.empty())
         TRY(take_shard(options, *plan));
     else
-        plan->trial = plan_trial(options, *plan);
+        plan->trial = TRY(plan_trial(options, *plan));
     return plan;
 }
 

@@ -38,7 +38,7 @@ Result<int> check_trace(const TraceOptions& options) {
         const auto pixel = TRY(parse_pixel(options.pixel, frames.state.extent));
         job.request.pixel = lab::PixelPlace{pixel.x, pixel.y};
     }
-    const auto scene = TRY(load(options.scene));
+    const auto scene = TRY(load(options.scene, frames));
     job.request.frame = frames.frames.front();
     job.request.states = states_of(frames);
     job.request.hidden = options.hidden;

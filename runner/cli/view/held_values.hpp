@@ -1,5 +1,6 @@
-// Values that `--set` and `--define` hold whatever the file says: what the file says of each, and the words
-// for whoever edits it there and sees nothing change. Changes no scene.
+// Values that options or people hold against the file: what the file says of each, and the words for whoever
+// edits it there. A `--define` stays; a `--set` is over as soon as the file has another default. Changes no
+// scene.
 #pragma once
 
 #include "cli/requests.hpp"
@@ -22,8 +23,17 @@ struct HeldValue {
 /// `scene` is as its files have it: no option has changed it yet. What it does not have is left out.
 std::vector<HeldValue> held_values(const SceneRequest& request, const scene::Scene& scene);
 
+/// The request without each `--set` that is over: the file had another default `before`.
+SceneRequest without_edited(SceneRequest request, const std::vector<HeldValue>& before,
+                            const std::vector<HeldValue>& now);
+
 /// A line for each value that the file had another idea of before.
-std::vector<std::string> edited_in_vain(const std::vector<HeldValue>& before,
-                                        const std::vector<HeldValue>& now);
+std::vector<std::string> edits_of_held(const std::vector<HeldValue>& before,
+                                       const std::vector<HeldValue>& now);
+
+/// A line for each knob with another default now that was turned by hand, and stays so.
+std::vector<std::string> edits_of_turned(const std::vector<scene::Knob>& before,
+                                         const std::vector<scene::Knob>& now,
+                                         const std::vector<scene::Setting>& turned);
 
 } // namespace tidemark::cli

@@ -4,6 +4,7 @@
 #include "cli/console.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "scene/folder_scene.hpp"
+#include "scene/overrides.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -53,13 +54,14 @@ LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher)
     request_.knobs_may_go = true;
 }
 
-LiveScene::Loading LiveScene::load(const SceneRequest& request) {
+LiveScene::Loading LiveScene::load(const SceneRequest& request, const std::vector<HeldValue>& before) {
     const double begun = file_clock_seconds();
     Loading loading{load_as_written(request), {}, begun};
     if (!loading.scene)
         return loading;
     loading.held = held_values(request, *loading.scene);
-    if (auto applied = apply_options(request, *loading.scene); !applied)
+    const SceneRequest asked = without_edited(request, before, loading.held);
+    if (auto applied = apply_options(asked, *loading.scene); !applied)
         loading.scene = fail(std::move(applied.error()));
     return loading;
 }
@@ -112,7 +114,7 @@ LiveScene::Loading LiveScene::watched(Loading loading) {
         const auto is_new = [&](const fs::path& file) { return touched_since(file, loading.begun); };
         if (std::ranges::none_of(watched_, is_new))
             break;
-        loading = load(request_);
+        loading = load(request_, held_on_show_);
     }
     if (loading.scene) {
         files_ = loading.scene->files;
@@ -138,16 +140,18 @@ Result<void> LiveScene::begin(Loading loading, platform::Window& window, const V
     return build(*std::move(loading.scene), window, view);
 }
 
-Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view, bool settle) {
+Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view, Settle settle) {
     auto context = TRY(window.create_context());
     building_since_ = now_seconds();
-    settling_ = settle;
-    builder_.start({std::move(context), std::move(scene), view.options, view.inputs, settle, view.rehearsal});
+    settling_ = settle == Settle::yes;
+    builder_.start(
+        {std::move(context), std::move(scene), view.options, view.inputs, settling_, view.rehearsal});
     return {};
 }
 
-void LiveScene::settle(const scene::Scene& scene, platform::Window& window, const View& view) {
-    (void)build(scene, window, view, true); // where it fails, what shows the scene now goes on doing so
+void LiveScene::build_anew(const scene::Scene& scene, platform::Window& window, const View& view,
+                           Settle settle) {
+    (void)build(scene, window, view, settle); // where it fails, what shows the scene now goes on doing so
 }
 
 std::optional<double> LiveScene::building_since() const {
@@ -183,7 +187,7 @@ Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const V
 
 void LiveScene::reload(platform::Window& window, const View& view) {
     builder_.abandon();
-    Loading loading = watched(load(request_));
+    Loading loading = watched(load(request_, held_on_show_));
     times_->loaded = now_seconds();
     if (auto begun = begin(std::move(loading), window, view); !begun)
         fail_with(std::move(begun.error()));
@@ -206,10 +210,30 @@ void LiveScene::mended() {
         say(fmt::format("{}: good{}", request_.path.string(), shown_ ? " again" : ""));
     failure_.reset();
     report_at_.reset();
-    for (const std::string& line : edited_in_vain(held_on_show_, held_))
+    for (const std::string& line : edits_of_held(held_on_show_, held_))
         say(line);
+    request_ = without_edited(std::move(request_), held_on_show_, held_);
     held_on_show_ = held_;
     shown_ = true;
+}
+
+void LiveScene::stop_settling() {
+    if (settling_)
+        builder_.abandon();
+}
+
+void LiveScene::define(const std::string& name, const std::optional<std::string>& value,
+                       platform::Window& window, const View& view) {
+    std::erase_if(request_.defines, [&](const std::string& text) {
+        const auto split = scene::split_setting(text, "--define");
+        return split && split->first == name;
+    });
+    if (value)
+        request_.defines.push_back(fmt::format("{}={}", name, *value));
+    saved_ = true;
+    const double now = now_seconds();
+    times_ = ReloadTimes{file_clock_seconds(), now};
+    reload(window, view);
 }
 
 void LiveScene::give_up() {

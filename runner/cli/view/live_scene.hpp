@@ -40,8 +40,9 @@ public:
         std::shared_ptr<Rehearsal> rehearsal{};
     };
 
-    /// Prints the scene's warnings. Options that do not fit the scene are an ErrorCode::usage.
-    static Loading load(const SceneRequest& request);
+    /// Prints the scene's warnings. Options that do not fit the scene are an ErrorCode::usage. `before`: what
+    /// its files said of held values when it was on show last.
+    static Loading load(const SceneRequest& request, const std::vector<HeldValue>& before = {});
 
     /// Watches the files of `request`, of which `first` is the first look, and begins to build it or waits
     /// for what mends it. `window` is woken when there is something to do: it must live longer.
@@ -52,14 +53,24 @@ public:
     /// help: the options do not fit the scene that it was created with, or there is no context.
     Result<std::optional<Stage>> follow(platform::Window& window, const View& view, double now);
 
-    /// Begins to look for a quicker program for the scene on show, which `follow` gives if there is one. A
-    /// reload goes first. Nothing else may be under way.
-    void settle(const scene::Scene& scene, platform::Window& window, const View& view);
+    enum class Settle { no, yes };
+    /// Begins to build the scene on show again: as it was first, or to look for a quicker program, which
+    /// `follow` gives if there is one. A reload goes first.
+    void build_anew(const scene::Scene& scene, platform::Window& window, const View& view, Settle settle);
+
+    /// A quicker program that is looked for is not wanted any more.
+    void stop_settling();
+
+    /// Holds a definition at a value as `--define` does; none: it is the files' own again. A reload follows.
+    void define(const std::string& name, const std::optional<std::string>& value, platform::Window& window,
+                const View& view);
 
     /// The build under way is not wanted any more.
     void give_up();
 
     const std::string& name() const { return name_; }
+    /// What the scene on show was asked for: options that the file has overruled are gone.
+    const SceneRequest& request() const { return request_; }
     /// What is wrong with the files as they are. Not while it may be the middle of a save.
     const Error* failure() const { return failure_ && !report_at_ ? &*failure_ : nullptr; }
     /// Since when there is something being built that people wait for.
@@ -74,7 +85,8 @@ public:
 private:
     LiveScene(SceneRequest request, platform::FileWatcher watcher);
 
-    Result<void> build(scene::Scene scene, platform::Window& window, const View& view, bool settle = false);
+    Result<void> build(scene::Scene scene, platform::Window& window, const View& view,
+                       Settle settle = Settle::no);
     void reload(platform::Window& window, const View& view);
     Result<void> begin(Loading loading, platform::Window& window, const View& view);
     Loading watched(Loading loading);

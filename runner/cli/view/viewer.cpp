@@ -8,7 +8,6 @@
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
 #include "cli/picture_facts.hpp"
-#include "cli/view/wall_clock.hpp"
 #include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/window_loss.hpp"
@@ -24,14 +23,6 @@ namespace tidemark::cli {
 namespace {
 
 using platform::Key;
-
-constexpr const char* k_help = R"(drag        iMouse; turns the camera of a scene that declares iCamera
-wheel       zooms that camera     middle drag  pans it     R  resets it
-space       pause                 left, right  a frame back, forward
-Home        restart               S            save a picture
-F           full screen           H  this help
-Esc         quit; while it compiles, or a frame holds the window: give that up
-A scene that reads the keyboard gets all keys but Esc: hold Ctrl for the above.)";
 
 /// So long compiling goes unmentioned.
 constexpr double k_short_wait_seconds = 0.3;
@@ -106,6 +97,8 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         const double now = now_seconds();
         TRY(follow_scene(now));
         settle_after_rest(now);
+        step_there();
+        go_round(now);
         if (wants_frame(now))
             draw(now);
         look_for_numbers(now_seconds());
@@ -118,8 +111,11 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
 /// First to what was done while a frame held the window: it was meant for what people saw then.
 void Viewer::listen() {
     const auto handle_all = [this](const std::vector<platform::InputEvent>& events) {
-        for (const platform::InputEvent& event : events)
-            std::visit([this](const auto& happened) { handle(happened); }, event);
+        for (const platform::InputEvent& event : events) {
+            if (!overlay_.take(event))
+                std::visit([this](const auto& happened) { handle(happened); }, event);
+            obey_overlay();
+        }
     };
     double now = now_seconds();
     held_seconds_ = now - listened_at_;
@@ -156,6 +152,8 @@ bool Viewer::wants_frame(double now) const {
     const Extent extent = window_.framebuffer_extent();
     if (extent.width == 0 || extent.height == 0)
         return false; // minimised
+    if (overlay_due())
+        return true;
     if (waits_for_better() || (slow_ && now < next_draw_))
         return false;
     return stale_ || (moving() && now >= next_draw_);
@@ -163,12 +161,12 @@ bool Viewer::wants_frame(double now) const {
 
 /// Frames follow each other by themselves.
 bool Viewer::moving() const {
-    return stage_ && !clock_.paused() && !at_rest_ && !given_up_;
+    return stage_ && !clock_.paused() && !at_rest_ && !given_up_ && !stepping_;
 }
 
 double Viewer::seconds_to_sleep(double now) const {
     double until = std::numeric_limits<double>::infinity();
-    if (stale_ && !slow_)
+    if ((stale_ && !slow_) || overlay_due() || stepping_)
         return 0;
     if ((stale_ || moving()) && !waits_for_better())
         until = next_draw_;
@@ -181,13 +179,10 @@ double Viewer::seconds_to_sleep(double now) const {
 }
 
 void Viewer::draw(double now) {
+    const bool due = stale_ || (moving() && now >= next_draw_);
     const bool stale = std::exchange(stale_, false);
-    if (!stage_) {
-        gl::clear_window();
-        return window_.swap();
-    }
-    if (given_up_)
-        return show_again();
+    if (!stage_ || given_up_ || stepping_ || !due)
+        return present();
     render::Renderer& renderer = stage_->renderer();
     next_draw_ = std::max(next_draw_ + 1 / settings_.frames.state.fps, now);
     shown_ = clock_.next_frame(now);
@@ -199,10 +194,10 @@ void Viewer::draw(double now) {
         controls_.fill(shown_);
     const size_t drawn_before = renderer.passes_drawn();
     drew_ = true;
-    renderer.draw(inputs_of(shown_));
+    renderer.draw(inputs_of(shown_), controls_open_ ? costs_.next_frame() : nullptr);
     const bool drawn = renderer.passes_drawn() != drawn_before;
-    if (drawn || stale)
-        show_again();
+    if (drawn || stale || stale_overlay_ || overlay_.wants_frame())
+        present();
     controls_.frame_drawn();
     if (drawn)
         finite_.frame_drawn();
@@ -214,9 +209,13 @@ void Viewer::draw(double now) {
         report_reload();
 }
 
-/// The picture as it was drawn last.
-void Viewer::show_again() {
-    gl::blit_to_window(stage_->renderer().target(), window_.framebuffer_extent());
+/// The picture as it was drawn last, and what lies over it.
+void Viewer::present() {
+    if (stage_)
+        gl::blit_to_window(stage_->renderer().target(), window_.framebuffer_extent());
+    else
+        gl::clear_window();
+    show_overlay();
     window_.swap();
 }
 
@@ -236,7 +235,7 @@ std::string Viewer::trace_command() const {
     state.fps = settings_.frames.state.fps;
     state.date = settings_.frames.state.date;
     state.pass = settings_.frames.state.pass;
-    return cli::trace_command(settings_.scene, settings_.frames, state);
+    return cli::trace_command(scene_.request(), settings_.frames, state);
 }
 
 bool Viewer::compiles_for_long(double now) const {
@@ -247,7 +246,8 @@ bool Viewer::compiles_for_long(double now) const {
 /// What is being waited for, else the error while there is one, else the frame rate, which changes twice a
 /// second at most.
 void Viewer::show_title(double now) {
-    std::string state = given_up_         ? "given up, space goes on"
+    std::string state = stepping_ ? fmt::format("stepping to frame {}, Esc gives up", stepping_->where().last)
+                        : given_up_       ? "given up, space goes on"
                         : clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.seconds())
                         : at_rest_        ? "still"
                                           : fmt::format("{:.0f} fps", clock_.frame_rate());
@@ -277,44 +277,24 @@ void Viewer::control(const ControlEvent& event) {
         replay_->note(clock_.next_frame_number(), event);
 }
 
-/// A key is the scene's or ours, and goes as it came. Ctrl is the scene's: what follows it is ours.
 void Viewer::handle(const platform::KeyPressed& event) {
-    const bool is_control = event.key == Key::control;
-    const bool ours = (control_down_ && !is_control) || event.key == Key::escape || !scene_reads_keyboard();
-    control_down_ |= is_control;
-    const bool repeats = event.key == Key::left || event.key == Key::right;
-    if (!event.repeat && ours)
-        obeyed_.insert(event.key);
-    if (obeyed_.contains(event.key) && (!event.repeat || repeats))
+    const auto owner = keys_.press(event, stage_ && reads_keyboard(stage_->renderer()));
+    if (owner == WindowKeys::Owner::window)
         obey(event.key, now_seconds());
-    else if (!event.repeat && !ours)
+    else if (owner == WindowKeys::Owner::scene)
         control(event);
 }
 
 void Viewer::handle(const platform::KeyReleased& event) {
-    if (event.key == Key::control)
-        control_down_ = false;
-    if (obeyed_.erase(event.key) == 0)
+    if (keys_.release(event) == WindowKeys::Owner::scene)
         control(event);
 }
 
-/// Such a scene has the keys to itself; with Ctrl they are the viewer's again.
-bool Viewer::scene_reads_keyboard() const {
-    if (!stage_)
-        return false;
-    for (const render::PlannedPass& planned : stage_->renderer().plan().passes) {
-        if (planned.keyboard_helpers)
-            return true;
-        for (const int channel : planned.channels)
-            if (traits_of(stage_->renderer().scene().passes[planned.pass].channels[size_t(channel)].input)
-                    .changes == scene::Changes::with_keys)
-                return true;
-    }
-    return false;
-}
-
 void Viewer::obey(Key key, double now) {
-    if (given_up_ && (key == Key::left || key == Key::right || key == Key::space || key == Key::home)) {
+    const bool moves_time = key == Key::left || key == Key::right || key == Key::space || key == Key::home;
+    if (stepping_ && moves_time)
+        carry_out(live::GiveUpSeek{});
+    if (given_up_ && moves_time) {
         given_up_ = false;
         if (key == Key::space && !clock_.paused())
             return;
@@ -336,14 +316,18 @@ void Viewer::obey(Key key, double now) {
     case Key::f: window_.toggle_full_screen(); break;
     case Key::escape: escape(now); break;
     case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
-    case Key::h: return say(k_help);
-    default: return;
+    case Key::h:
+    case Key::f1: return toggle_help();
+    case Key::tab: return toggle_controls();
+    default: return show_picture_of(key);
     }
     stale_ = true;
 }
 
 /// Whoever cannot get at a window that a frame holds wants to be rid of that frame, and keep the window.
 void Viewer::escape(double now) {
+    if (stepping_)
+        return carry_out(live::GiveUpSeek{});
     if (given_up_ && now - given_up_at_ < k_hold_seconds)
         return; // pressed again, for the same frame
     if (stage_ && (of_the_hold_ || (slow_ && moving()))) {
@@ -399,9 +383,8 @@ LiveScene::View Viewer::view() const {
 }
 
 Result<void> Viewer::follow_scene(double now) {
-    const bool failed = scene_.failure() != nullptr;
     auto fresh = TRY(scene_.follow(window_, view(), now));
-    stale_ = stale_ || failed != (scene_.failure() != nullptr);
+    stale_overlay_ |= errors_.show(scene_.failure());
     return fresh ? show(*std::move(fresh), now) : Result<void>();
 }
 
@@ -416,6 +399,8 @@ Result<void> Viewer::show(Stage fresh, double now) {
         return {};
     }
     play_sound();
+    defined_.reset();
+    controls_.release(stage_->renderer().scene().knobs);
     reloaded_ = scene_.take_times();
     settled_ = false;
     given_up_ = slow_ = false;
@@ -430,12 +415,18 @@ Result<void> Viewer::show(Stage fresh, double now) {
 Result<void> Viewer::swap_in(Stage fresh) {
     if (stage_)
         glFinish(); // what it drew is there to be taken over
+    stepping_.reset();
+    costs_.forget();
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));
     if (auto entered = stage_->enter(); !entered)
         return entered;
-    if (before)
+    if (before) {
         stage_->renderer().continue_from(before->renderer());
+        for (const std::string& line : edits_of_turned(before->renderer().scene().knobs,
+                                                       stage_->renderer().scene().knobs, shown_.knobs))
+            say(line);
+    }
     if (const Extent extent = window_.framebuffer_extent(); extent != stage_->renderer().extent())
         handle(platform::FramebufferResized{extent}); // it has changed meanwhile
     return {};
@@ -443,13 +434,14 @@ Result<void> Viewer::swap_in(Stage fresh) {
 
 /// Only what moves: a picture that stands still is not drawn anyway.
 void Viewer::settle_after_rest(double now) {
-    if (settings_.plain || settled_ || !moving() || scene_.building_since() || scene_.failure())
+    if (settings_.plain || settled_ || !moving() || scene_.building_since() || scene_.failure() ||
+        knobs_may_turn())
         return;
     const auto rest = stage_->seconds_to_settle();
     if (!rest || now - touched_at_ < *rest)
         return;
     settled_ = true;
-    scene_.settle(stage_->renderer().scene(), window_, view());
+    scene_.build_anew(turned_scene(), window_, view(), LiveScene::Settle::yes);
 }
 
 void Viewer::play_sound() {

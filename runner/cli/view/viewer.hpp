@@ -8,17 +8,22 @@
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/requests.hpp"
+#include "cli/view/error_board.hpp"
 #include "cli/view/finite_watch.hpp"
 #include "cli/view/live_scene.hpp"
+#include "cli/view/pass_costs.hpp"
 #include "cli/view/sound_player.hpp"
 #include "cli/view/stage.hpp"
+#include "cli/view/stepping_there.hpp"
+#include "cli/view/wall_clock.hpp"
+#include "cli/view/window_keys.hpp"
+#include "live/overlay.hpp"
 #include "platform/window.hpp"
 #include "render/live_clock.hpp"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 namespace tidemark::cli {
@@ -60,12 +65,43 @@ private:
     void obey(platform::Key key, double now);
     void escape(double now);
     void forget_what_follows();
-    bool scene_reads_keyboard() const;
+    void handle(const platform::TextTyped&) {}
     void handle(const platform::FramebufferResized& event);
     void handle(const platform::RedrawNeeded&) { stale_ = true; }
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
     void save_picture();
+
+    // The overlay: viewer_overlay.cpp
+    void toggle_controls();
+    void show_picture_of(platform::Key digit);
+    void toggle_help();
+    void show_overlay();
+    live::Model overlay_model() const;
+    void obey_overlay();
+    void carry_out(const live::TurnKnob& command);
+    void carry_out(const live::ResetKnob& command);
+    void carry_out(const live::ResetKnobs& command);
+    void carry_out(const live::CopyKnobs& command);
+    void carry_out(const live::WriteKnobs& command);
+    void carry_out(const live::OpenEditor& command);
+    void carry_out(const live::Define& command);
+    void carry_out(const live::Undefine& command);
+    void carry_out(const live::ShowPicture& command) { large_ = command.index; }
+    void carry_out(const live::TogglePause&) { obey(platform::Key::space, now_seconds()); }
+    void carry_out(const live::Restart&) { obey(platform::Key::home, now_seconds()); }
+    void carry_out(const live::Seek& command) { seek(command.seconds, now_seconds()); }
+    void carry_out(const live::GiveUpSeek&);
+    void carry_out(const live::SetSpeed& command);
+    void carry_out(const live::SetLoop& command);
+    live::TimeField time_field() const;
+    void seek(double seconds, double now);
+    void step_there();
+    void go_round(double now);
+    bool has_feedback() const { return stage_ && stage_->renderer().plan().feedback; }
+    bool knobs_may_turn() const;
+    bool overlay_due() const;
+    scene::Scene turned_scene() const;
 
     LiveScene::View view() const;
     Result<void> follow_scene(double now);
@@ -77,7 +113,7 @@ private:
     bool compiles_for_long(double now) const;
 
     void draw(double now);
-    void show_again();
+    void present();
     void look_for_numbers(double now);
     std::string trace_command() const;
     void show_title(double now);
@@ -108,13 +144,23 @@ private:
     bool drew_ = false;        ///< since then
     bool slow_ = false;        ///< the frame that was drawn last held the window
     double given_up_at_ = 0;
-    bool given_up_ = false;          ///< frames take too long: none until somebody asks for one, or saves
-    double touched_at_ = 0;          ///< when somebody last changed what is drawn, or its size
-    std::set<platform::Key> obeyed_; ///< keys that are down and that the scene knows nothing of
-    bool control_down_ = false;
-    bool stale_ = true;    ///< the window does not show what it should
-    bool at_rest_ = false; ///< the next frame is this one, until somebody does something
-    bool settled_ = false; ///< the scene on show was, or it was tried
+    bool given_up_ = false; ///< frames take too long: none until somebody asks for one, or saves
+    double touched_at_ = 0; ///< when somebody last changed what is drawn, or its size
+    WindowKeys keys_;
+    live::Overlay overlay_;
+    ErrorBoard errors_;
+    PassCosts costs_;                       ///< while the controls are open
+    std::optional<SteppingThere> stepping_; ///< on the way to a frame
+    live::SetLoop loop_;                    ///< of time
+    std::optional<size_t> large_;           ///< of the pictures in the overlay
+    std::optional<std::vector<live::DefinitionField>>
+        defined_;                ///< by the scene on show; none: not looked yet
+    bool controls_open_ = false; ///< in the overlay
+    bool help_open_ = false;     ///< likewise
+    bool stale_overlay_ = false; ///< it does not show what it should
+    bool stale_ = true;          ///< the window does not show what it should
+    bool at_rest_ = false;       ///< the next frame is this one, until somebody does something
+    bool settled_ = false;       ///< the scene on show was, or it was tried
     bool closing_ = false;
 };
 

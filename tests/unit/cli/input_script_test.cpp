@@ -18,11 +18,12 @@ const InputScript k_script{
     {9, platform::ButtonPressed{Button::middle, {0, 0}}},
     {9, platform::ButtonReleased{Button::middle}},
     {12, CameraReset{}},
+    {13, KnobTurned{{"deep", "vec3(0.1, 0, 1)"}}},
 };
 
 constexpr const char* k_text =
     "0 press left 10 20.5\n2 move -3 0.001\n2 release left\n5 keydown 65\n5 wheel -1\n"
-    "9 keyup 65\n9 press middle 0 0\n9 release middle\n12 camera reset\n";
+    "9 keyup 65\n9 press middle 0 0\n9 release middle\n12 camera reset\n13 set deep=vec3(0.1, 0, 1)\n";
 
 /// What is wrong with a text.
 std::string refusal(std::string_view text) {
@@ -48,12 +49,14 @@ TEST(InputScript, says_what_is_wrong_and_where) {
     EXPECT_EQ(refusal("\n# x\n-1 move 1 2"), "take.txt:3: error: " + number);
     EXPECT_EQ(refusal("100000001 move 1 2"), "take.txt:1: error: " + number);
     EXPECT_EQ(refusal("1 moves 1 2"), "take.txt:1: error: unknown event 'moves': give press, release, move, "
-                                      "wheel, keydown, keyup or camera");
+                                      "wheel, keydown, keyup, set or camera");
     EXPECT_EQ(refusal("1"), "take.txt:1: error: unknown event '': give press, release, move, wheel, keydown, "
-                            "keyup or camera");
+                            "keyup, set or camera");
     EXPECT_EQ(refusal("1 move 1"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 move 1 nan"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 move 1 2 3"), "take.txt:1: error: give it as `1 move X Y`");
+    EXPECT_EQ(refusal("1 set deep"), "take.txt:1: error: give it as `1 set NAME=VALUE`");
+    EXPECT_EQ(refusal("1 set"), "take.txt:1: error: give it as `1 set NAME=VALUE`");
     EXPECT_EQ(refusal("1 press west 1 2"), "take.txt:1: error: give it as `1 press left|middle|right X Y`");
     EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown CODE (1 to 255)`");
     EXPECT_EQ(refusal("1 camera"), "take.txt:1: error: give it as `1 camera reset`");

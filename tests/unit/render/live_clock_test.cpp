@@ -173,5 +173,28 @@ TEST(LiveClock, the_time_of_a_pause_is_no_part_of_the_rate) {
     EXPECT_EQ(clock.next_frame(100.5).fps, 4);
 }
 
+TEST(LiveClock, goes_to_a_frame_and_on_from_there) {
+    LiveClock clock(1000);
+    (void)clock.next_frame(1000);
+    clock.seek(5, 300, 1001);
+    const FrameInputs there = inputs_of(clock.next_frame(1001));
+    EXPECT_EQ(there.frame, 300);
+    EXPECT_EQ(there.time, 5);
+    EXPECT_EQ(there.time_delta, k_delta);
+    EXPECT_EQ(inputs_of(clock.next_frame(1001.5)).time, 5.5);
+}
+
+TEST(LiveClock, runs_at_another_speed_and_back_to_0) {
+    LiveClock clock(1000);
+    clock.set_speed(2, 1001);
+    EXPECT_EQ(clock.time(1002), 3);
+    (void)clock.next_frame(1002);
+    clock.set_speed(-1, 1002);
+    const FrameInputs back = inputs_of(clock.next_frame(1002.5));
+    EXPECT_EQ(back.time, 2.5);
+    EXPECT_EQ(back.time_delta, 0.5);
+    EXPECT_EQ(clock.time(1010), 0);
+}
+
 } // namespace
 } // namespace tidemark::render

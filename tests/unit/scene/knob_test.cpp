@@ -28,6 +28,19 @@ TEST(KnobValue, a_number) {
     EXPECT_EQ(parsed(KnobType::int1, "int(3)"), "3");
 }
 
+TEST(KnobValue, the_default) {
+    Knob knob{.name = "k", .initial = {0.25}, .value = {7}};
+    EXPECT_EQ(parse_knob_value(knob, "default"), knob.initial);
+}
+
+TEST(KnobValue, the_last_setting_that_it_takes_decides) {
+    const Knob knob{.name = "k", .initial = {1}, .value = {2}};
+    EXPECT_EQ(value_after(knob, {}), KnobValue{2});
+    const std::vector<Setting> settings{{"k", "3"}, {"other", "4"}, {"k", "5"}, {"k", "blue"}};
+    EXPECT_EQ(value_after(knob, settings), KnobValue{5});
+    EXPECT_EQ(value_after(knob, std::vector<Setting>{{"k", "default"}}), knob.initial);
+}
+
 TEST(KnobValue, a_list) {
     EXPECT_EQ(parsed(KnobType::vec2, "1,2"), "vec2(1, 2)");
     EXPECT_EQ(parsed(KnobType::vec3, " 1 , 2 , 3.5 "), "vec3(1, 2, 3.5)");

@@ -1,0 +1,128 @@
+#include "cli/view/editor.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+namespace tidemark::cli {
+namespace {
+
+/// How an editor is told a line and a column.
+enum class Form { plus_line, file_colon, goto_file_colon, options };
+
+struct KnownEditor {
+    std::string_view name;
+    Form form;
+    bool in_terminal;
+};
+
+constexpr KnownEditor k_editors[] = {
+    {"code", Form::goto_file_colon, false},
+    {"codium", Form::goto_file_colon, false},
+    {"cursor", Form::goto_file_colon, false},
+    {"subl", Form::file_colon, false},
+    {"zed", Form::file_colon, false},
+    {"kate", Form::options, false},
+    {"hx", Form::file_colon, true},
+    {"helix", Form::file_colon, true},
+    {"vi", Form::plus_line, true},
+    {"vim", Form::plus_line, true},
+    {"nvim", Form::plus_line, true},
+    {"nano", Form::plus_line, true},
+    {"kak", Form::plus_line, true},
+    {"micro", Form::plus_line, true},
+};
+
+/// Others are told the line as most are.
+KnownEditor known(std::string_view program) {
+    const std::string name = std::filesystem::path(program).filename().string();
+    const auto* found = std::ranges::find(k_editors, name, &KnownEditor::name);
+    return found == std::end(k_editors) ? KnownEditor{"", Form::plus_line, false} : *found;
+}
+
+std::vector<std::string> split(std::string_view words) {
+    std::vector<std::string> found;
+    while (true) {
+        words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
+        if (words.empty())
+            return found;
+        found.emplace_back(words.substr(0, words.find(' ')));
+        words.remove_prefix(found.back().size());
+    }
+}
+
+std::vector<std::string> place_words(Form form, const SourceLocation& where) {
+    const int line = std::max(where.line, 1);
+    const int column = std::max(where.column, 1);
+    const std::string place = fmt::format("{}:{}:{}", where.file, line, column);
+    switch (form) {
+    case Form::file_colon: return {place};
+    case Form::goto_file_colon: return {"--goto", place};
+    case Form::options: return {"-l", fmt::format("{}", line), "-c", fmt::format("{}", column), where.file};
+    case Form::plus_line: return {fmt::format("+{}", line), where.file};
+    }
+    return {};
+}
+
+/// In a session of its own, with nothing of ours to read or write.
+int spawn(const std::vector<std::string>& words, pid_t& child) {
+    std::vector<char*> arguments;
+    for (const std::string& word : words)
+        arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+    const int error = ::posix_spawnp(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return error;
+}
+
+const char* chosen_editor() {
+    for (const char* variable : {"VISUAL", "EDITOR"})
+        if (const char* value = std::getenv(variable); value && *value)
+            return value;
+    return nullptr;
+}
+
+} // namespace
+
+std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where) {
+    std::vector<std::string> words = split(editor);
+    if (words.empty())
+        return words;
+    const KnownEditor kind = known(words.front());
+    for (std::string& word : place_words(kind.form, where))
+        words.push_back(std::move(word));
+    if (kind.in_terminal)
+        words.insert(words.begin(), {"x-terminal-emulator", "-e"});
+    return words;
+}
+
+Result<void> open_editor(const SourceLocation& where) {
+    const char* editor = chosen_editor();
+    const auto words = editor_words(editor ? editor : "", where);
+    if (words.empty())
+        return fail(ErrorCode::usage, "no editor to open: set VISUAL or EDITOR, as in VISUAL='code --wait'");
+    pid_t child = 0;
+    if (const int error = spawn(words, child); error != 0)
+        return fail(ErrorCode::usage,
+                    fmt::format("cannot start the editor '{}': {}", words.front(), std::strerror(error)));
+    std::thread([child] { ::waitpid(child, nullptr, 0); }).detach(); // it leaves no zombie
+    return {};
+}
+
+} // namespace tidemark::cli

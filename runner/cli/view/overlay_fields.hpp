@@ -1,0 +1,19 @@
+// Parts of the overlay's model that a scene and its Renderer decide.
+#pragma once
+
+#include "cli/requests.hpp"
+#include "cli/view/pass_costs.hpp"
+#include "live/model.hpp"
+
+namespace tidemark::cli {
+
+std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
+                                         const std::vector<scene::Setting>& turned);
+
+/// The numbers that the scene's texts define, as they are after `request`.
+std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request);
+
+/// What passes draw, then the flat pictures that they read.
+std::vector<live::PictureField> picture_fields(const render::Renderer& renderer, const PassCosts& costs);
+
+} // namespace tidemark::cli

@@ -1,0 +1,25 @@
+// What each pass of a window's frames takes, by the driver's timer: only while somebody looks.
+#pragma once
+
+#include "render/renderer.hpp"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace tidemark::cli {
+
+class PassCosts {
+public:
+    /// For the next frame. Takes what the timers of the frame before say, which is drawn by now.
+    std::vector<render::PassTimer>* next_frame();
+    void forget();
+    /// Milliseconds, when it was drawn last.
+    std::optional<double> of(size_t pass) const;
+
+private:
+    std::vector<render::PassTimer> timers_;
+    std::map<size_t, double> milliseconds_;
+};
+
+} // namespace tidemark::cli

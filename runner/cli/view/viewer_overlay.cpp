@@ -1,0 +1,147 @@
+// What the overlay shows of the window, and what is asked for in it.
+#include "base/shell_word.hpp"
+#include "cli/console.hpp"
+#include "cli/view/editor.hpp"
+#include "cli/view/overlay_fields.hpp"
+#include "cli/view/viewer.hpp"
+#include "cli/view/write_knobs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::cli {
+
+/// A settled program has the values of knobs in it: while they are turned the text is drawn as it is.
+void Viewer::toggle_controls() {
+    controls_open_ = !controls_open_;
+    stale_overlay_ = true;
+    if (!controls_open_)
+        return;
+    settled_ = false;
+    scene_.stop_settling();
+    if (stage_ && stage_->share() && !scene_.building_since())
+        scene_.build_anew(turned_scene(), window_, view(), LiveScene::Settle::no);
+}
+
+/// 1 to 9, of the pictures in the controls; 0 and the same again: the scene's own.
+void Viewer::show_picture_of(platform::Key digit) {
+    if (!controls_open_ || digit < platform::Key::digit_0 || digit > platform::Key::digit_9)
+        return;
+    const int number = int(digit) - int(platform::Key::digit_0);
+    const std::optional<size_t> index = number > 0 ? std::optional(size_t(number) - 1) : std::nullopt;
+    large_ = large_ == index ? std::nullopt : index;
+    stale_overlay_ = true;
+}
+
+/// In the terminal, too: that one stays to be read.
+void Viewer::toggle_help() {
+    help_open_ = !help_open_;
+    stale_overlay_ = true;
+    if (help_open_)
+        say(key_table());
+}
+
+/// It is drawn without a new frame of the scene, which brings it along while the scene moves.
+bool Viewer::overlay_due() const {
+    return (stale_overlay_ || overlay_.wants_frame()) && !moving();
+}
+
+void Viewer::show_overlay() {
+    stale_overlay_ = false;
+    if (controls_open_ && stage_ && !defined_)
+        defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
+    if (auto shown = overlay_.show(overlay_model(), {window_.framebuffer_extent(), window_.content_scale()});
+        !shown)
+        say(to_string(shown.error()));
+    overlay_.draw();
+}
+
+live::Model Viewer::overlay_model() const {
+    live::Model model{.controls = controls_open_ && stage_, .errors = errors_.fields()};
+    if (model.controls) {
+        const render::Renderer& renderer = stage_->renderer();
+        model.knobs = knob_fields(renderer.scene(), shown_.knobs);
+        model.definitions = *defined_;
+        model.pictures = picture_fields(renderer, costs_);
+        if (large_ && *large_ < model.pictures.size())
+            model.large = large_;
+        model.time = time_field();
+        model.extent = renderer.extent();
+    }
+    if (help_open_) {
+        for (const KeyRow& row : key_rows())
+            model.help.push_back({std::string(row.keys), std::string(row.meaning)});
+        model.help_footer = k_keys_of_scenes;
+    }
+    return model;
+}
+
+void Viewer::obey_overlay() {
+    for (const live::Command& command : overlay_.take_commands())
+        std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
+}
+
+void Viewer::carry_out(const live::TurnKnob& command) {
+    const auto& knobs = stage_->renderer().scene().knobs;
+    const auto knob = std::ranges::find(knobs, command.name, &scene::Knob::name);
+    if (knob != knobs.end())
+        control(KnobTurned{{command.name, to_string(*knob, command.value)}});
+}
+
+void Viewer::carry_out(const live::ResetKnob& command) {
+    control(KnobTurned{{command.name, std::string(scene::k_default_value)}});
+}
+
+void Viewer::carry_out(const live::ResetKnobs&) {
+    for (const scene::Knob& knob : stage_->renderer().scene().knobs)
+        if (value_after(knob, shown_.knobs) != knob.initial)
+            carry_out(live::ResetKnob{knob.name});
+}
+
+void Viewer::carry_out(const live::CopyKnobs&) {
+    std::vector<std::string> words;
+    for (const scene::Knob& knob : turned_scene().knobs)
+        if (knob.value != knob.initial)
+            words.insert(words.end(), {"--set", fmt::format("{}={}", knob.name, to_string(knob))});
+    const std::string text = shell_words(words);
+    window_.set_clipboard(text);
+    say(words.empty() ? "nothing to copy: every knob is as the file has it" : "copied: " + text);
+}
+
+/// The reload that follows finds every knob where it is.
+void Viewer::carry_out(const live::WriteKnobs&) {
+    auto written = write_knobs(turned_scene().knobs);
+    if (!written)
+        return say(to_string(written.error()));
+    for (const std::string& line : *written)
+        say(line);
+}
+
+void Viewer::carry_out(const live::OpenEditor& command) {
+    if (auto opened = open_editor(command.where); !opened)
+        say(to_string(opened.error()));
+}
+
+void Viewer::carry_out(const live::Define& command) {
+    scene_.define(command.name, command.value, window_, view());
+}
+
+void Viewer::carry_out(const live::Undefine& command) {
+    scene_.define(command.name, std::nullopt, window_, view());
+}
+
+/// A program that has the values of knobs in it would be wrong soon.
+bool Viewer::knobs_may_turn() const {
+    return controls_open_ || (replay_ && turns_knobs(replay_->script()));
+}
+
+/// The scene on show, with its knobs as they are.
+scene::Scene Viewer::turned_scene() const {
+    scene::Scene scene = stage_->renderer().scene();
+    for (scene::Knob& knob : scene.knobs)
+        knob.value = value_after(knob, shown_.knobs);
+    return scene;
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,92 @@
+// Time in the window, where the overlay's bar has it: to a moment, at another speed, round and round.
+#include "cli/view/viewer.hpp"
+
+#include <algorithm>
+
+namespace tidemark::cli {
+
+live::TimeField Viewer::time_field() const {
+    live::TimeField time{.seconds = shown_.seconds(),
+                         .frame = shown_.frame,
+                         .paused = clock_.paused(),
+                         .speed = clock_.speed(),
+                         .turns_back = !has_feedback(),
+                         .has_speed = !clock_.by_frames(),
+                         .loop_from = loop_.from,
+                         .loop_to = loop_.to};
+    if (stepping_)
+        time.stepping = stepping_->where();
+    return time;
+}
+
+/// A frame that others lead to is stepped to: its buffers hold then what they always hold there.
+void Viewer::seek(double seconds, double now) {
+    const double fps = settings_.frames.state.fps;
+    if (!(seconds >= 0 && seconds <= render::k_last_frame / fps))
+        return; // typed
+    const int frame = render::frame_at(seconds, fps);
+    stale_ = true;
+    given_up_ = false;
+    clock_.seek(seconds, frame, now);
+    forget_what_follows();
+    if (!has_feedback())
+        return;
+    if (frame == 0)
+        return stage_->renderer().reset();
+    render::FrameState state = shown_;
+    state.extent = stage_->renderer().extent();
+    state.time.reset();
+    state.time_delta.reset();
+    state.fps = fps;
+    const auto states = [state, replay = replay_](int number) mutable {
+        render::FrameState seen = state.at_frame(number);
+        if (replay)
+            replay->fill(seen);
+        return seen;
+    };
+    stepping_.emplace(stage_->renderer(), states, frame - 1, seconds);
+}
+
+/// A few frames at a time, and the bar between. Time goes on from there.
+void Viewer::step_there() {
+    constexpr double k_seconds = 1 / 30.0;
+    if (!stepping_)
+        return;
+    if (stepping_->advance(k_seconds)) {
+        clock_.seek(stepping_->seconds(), clock_.next_frame_number(), now_seconds());
+        stepping_.reset();
+    }
+    stale_ = !stepping_;
+    stale_overlay_ = true;
+}
+
+void Viewer::carry_out(const live::GiveUpSeek&) {
+    if (!stepping_)
+        return;
+    const int next = stepping_->where().frame + 1;
+    stepping_.reset();
+    const double now = now_seconds();
+    clock_.seek(next / settings_.frames.state.fps, next, now);
+    if (!clock_.paused())
+        clock_.toggle_pause(now);
+    stale_ = true;
+}
+
+void Viewer::carry_out(const live::SetSpeed& command) {
+    clock_.set_speed(command.speed, now_seconds());
+}
+
+void Viewer::carry_out(const live::SetLoop& command) {
+    loop_ = command;
+}
+
+void Viewer::go_round(double now) {
+    if (!loop_.from || !loop_.to || *loop_.from >= *loop_.to || !moving() || recording())
+        return;
+    const double time = clock_.time(now);
+    const bool back = clock_.speed() < 0;
+    if (back ? time <= *loop_.from : time >= *loop_.to)
+        seek(back ? *loop_.to : *loop_.from, now);
+}
+
+} // namespace tidemark::cli

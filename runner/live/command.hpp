@@ -1,0 +1,66 @@
+// What people ask for in the overlay, as plain values: whoever owns the window carries them out.
+#pragma once
+
+#include "scene/knob.hpp"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tidemark::live {
+
+struct TurnKnob {
+    std::string name;
+    scene::KnobValue value{};
+};
+struct ResetKnob {
+    std::string name;
+};
+struct ResetKnobs {};
+/// Into the clipboard, as options.
+struct CopyKnobs {};
+/// Into the file that declares them.
+struct WriteKnobs {};
+
+/// At that place.
+struct OpenEditor {
+    SourceLocation where;
+};
+
+/// As `--define` does.
+struct Define {
+    std::string name;
+    std::string value;
+};
+struct Undefine {
+    std::string name;
+};
+
+/// Of Model::pictures; none: the scene's own.
+struct ShowPicture {
+    std::optional<size_t> index{};
+};
+
+struct TogglePause {};
+struct Restart {};
+struct Seek {
+    double seconds = 0;
+};
+/// Stays at the frame that was reached.
+struct GiveUpSeek {};
+struct SetSpeed {
+    double speed = 1;
+};
+/// With both ends time goes round between them.
+struct SetLoop {
+    std::optional<double> from{};
+    std::optional<double> to{};
+};
+
+using Command =
+    std::variant<TurnKnob, ResetKnob, ResetKnobs, CopyKnobs, WriteKnobs, OpenEditor, Define, Undefine,
+                 ShowPicture, TogglePause, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
+using Commands = std::vector<Command>;
+
+} // namespace tidemark::live

@@ -1,0 +1,39 @@
+// All that the overlay shows, as plain values: made anew for every frame by whoever owns the window.
+#pragma once
+
+#include "live/definition_field.hpp"
+#include "live/error_field.hpp"
+#include "live/knob_field.hpp"
+#include "live/picture_field.hpp"
+#include "live/time_field.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::live {
+
+/// What people do, and what comes of it.
+struct HelpRow {
+    std::string keys;
+    std::string meaning;
+};
+
+struct Model {
+    bool controls = false; ///< open: then all down to `extent` is shown
+    std::vector<KnobField> knobs{};
+    std::vector<DefinitionField> definitions{};
+    std::vector<PictureField> pictures{};
+    std::optional<size_t> large{}; ///< of them
+    TimeField time{};
+    Extent extent{}; ///< of what the scene draws
+
+    std::vector<ErrorField>
+        errors{};                ///< the one to mend first in front; the panel is open while there are any
+    std::vector<HelpRow> help{}; ///< likewise
+    std::string help_footer{};
+
+    bool anything() const { return controls || !errors.empty() || !help.empty(); }
+};
+
+} // namespace tidemark::live

@@ -1,0 +1,34 @@
+#include "live/plugin/help_panel.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace tidemark::live {
+
+void draw_help(const Model& model, const Surface& surface) {
+    constexpr double k_width = 620; // the longest row is two lines
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
+    ImGui::SetNextWindowPos({all.x / 2, all.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+    const float width = std::min(all.x, float(k_width * surface.scale));
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, all.y});
+    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+    if (ImGui::Begin("Help", nullptr, k_plain & ~ImGuiWindowFlags_NoScrollbar)) {
+        if (ImGui::BeginTable("keys", 2)) {
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
+            ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+            for (const HelpRow& row : model.help) {
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(row.keys.c_str());
+                ImGui::TableNextColumn();
+                ImGui::TextWrapped("%s", row.meaning.c_str());
+            }
+            ImGui::EndTable();
+        }
+        ImGui::TextWrapped("%s", model.help_footer.c_str());
+    }
+    ImGui::End();
+}
+
+} // namespace tidemark::live

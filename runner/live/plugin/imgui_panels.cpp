@@ -1,0 +1,130 @@
+#include "live/plugin/imgui_panels.hpp"
+
+#include "live/plugin/controls_panel.hpp"
+#include "live/plugin/error_panel.hpp"
+#include "live/plugin/help_panel.hpp"
+#include "live/plugin/imgui_input.hpp"
+#include "live/plugin/picture_widgets.hpp"
+#include "live/plugin/time_bar.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tidemark::live {
+namespace {
+
+/// Of the font that Dear ImGui brings, at which its pixels are whole.
+constexpr double k_font_pixels = 13;
+
+/// What is wrong first is written so much larger.
+constexpr double k_large = 1.5;
+
+ImFont* add_font(double scale) {
+    ImFontConfig font;
+    font.SizePixels = float(std::max(1.0, std::round(k_font_pixels * scale)));
+    return ImGui::GetIO().Fonts->AddFontDefault(&font);
+}
+
+constexpr const char* k_glsl_version = "#version 450 core";
+
+} // namespace
+
+ImGuiPanels::ImGuiPanels() {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // it writes no file
+    name_keys(io);
+    ImGui_ImplOpenGL3_Init(k_glsl_version);
+}
+
+ImGuiPanels::~ImGuiPanels() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+}
+
+/// Sizes of widgets and of the font for another density of pixels.
+void ImGuiPanels::adopt(double scale) {
+    ImGuiStyle style;
+    ImGui::StyleColorsDark(&style);
+    style.WindowRounding = style.FrameRounding = 3;
+    style.Colors[ImGuiCol_WindowBg].w = 0.85F;
+    style.ScaleAllSizes(float(scale));
+    ImGui::GetStyle() = style;
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    add_font(scale);
+    large_ = add_font(k_large * scale);
+    ImGui_ImplOpenGL3_DestroyDeviceObjects(); // the next frame makes others, with that font
+}
+
+void ImGuiPanels::show(Model model, const Surface& surface) {
+    if (surface.scale != surface_.scale)
+        adopt(surface.scale);
+    surface_ = surface;
+    keep_changing(model_.definitions, model.definitions);
+    model_ = std::move(model);
+}
+
+/// Each event has runs of its own, so that a press and its release in one frame of the window are both seen,
+/// and that what lies under the pointer is what lies there now.
+bool ImGuiPanels::take(const platform::InputEvent& event) {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool typing = io.WantTextInput; // the key that ends it is the field's, too
+    feed(io, event, surface_.extent.height);
+    run();
+    run(); // whether somebody types still is known one run later
+    return owner_.take(event, {io.WantCaptureMouse, typing});
+}
+
+void ImGuiPanels::run() {
+    const auto now = std::chrono::steady_clock::now();
+    constexpr float k_shortest = 1e-5F; // it divides by that
+    ImGuiIO& io = ImGui::GetIO();
+    io.DeltaTime =
+        std::max(k_shortest, std::chrono::duration<float>(now - std::exchange(ran_at_, now)).count());
+    io.DisplaySize = {float(surface_.extent.width), float(surface_.extent.height)};
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    float bottom = 0;
+    if (model_.controls) {
+        if (model_.large)
+            draw_large(model_.pictures[*model_.large], surface_);
+        draw_controls(model_, surface_, commands_);
+        bottom = draw_time_bar(model_, surface_, commands_);
+    }
+    if (!model_.errors.empty())
+        draw_errors(model_, surface_, {large_, bottom}, commands_);
+    if (!model_.help.empty())
+        draw_help(model_, surface_);
+    ImGui::Render();
+}
+
+void ImGuiPanels::draw() {
+    run();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+Commands ImGuiPanels::take_commands() {
+    return std::exchange(commands_, {});
+}
+
+void ImGuiPanels::release_all() {
+    live::release_all(ImGui::GetIO());
+    owner_.release_all();
+}
+
+namespace {
+
+const PanelsPlugIn k_plug_in{k_panels_version,
+                             []() -> std::unique_ptr<Panels> { return std::make_unique<ImGuiPanels>(); }};
+
+} // namespace
+} // namespace tidemark::live
+
+extern "C" __attribute__((visibility("default"))) const void* tidemark_panels() {
+    return &tidemark::live::k_plug_in;
+}

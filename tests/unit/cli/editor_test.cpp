@@ -1,0 +1,33 @@
+// How editors are told a place.
+#include "cli/view/editor.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tidemark::cli {
+namespace {
+
+using testing::ElementsAre;
+
+const SourceLocation k_place{"a b.glsl", 12, 5};
+
+TEST(Editor, is_told_the_place_in_its_own_way) {
+    EXPECT_THAT(editor_words("code --wait", k_place),
+                ElementsAre("code", "--wait", "--goto", "a b.glsl:12:5"));
+    EXPECT_THAT(editor_words("/usr/bin/kate", k_place),
+                ElementsAre("/usr/bin/kate", "-l", "12", "-c", "5", "a b.glsl"));
+    EXPECT_THAT(editor_words("emacsclient  -n", k_place),
+                ElementsAre("emacsclient", "-n", "+12", "a b.glsl"));
+    EXPECT_THAT(editor_words("vim", k_place),
+                ElementsAre("x-terminal-emulator", "-e", "vim", "+12", "a b.glsl"));
+}
+
+TEST(Editor, has_a_line_where_an_error_has_none) {
+    EXPECT_THAT(editor_words("subl", {"a.glsl", 0, 0}), ElementsAre("subl", "a.glsl:1:1"));
+}
+
+TEST(Editor, is_none_without_words) {
+    EXPECT_THAT(editor_words("  ", k_place), ElementsAre());
+}
+
+} // namespace
+} // namespace tidemark::cli
