@@ -37,8 +37,10 @@ public:
     /// Makes it, empty (ErrorCode::write: OutputPath::place). `extension`: instead of the output's. Removes
     /// what a process that was killed left of the same output.
     static Result<StagedFile> create(const OutputPath& output, std::string_view extension = {});
-    /// Looks again for what a process that was killed left of this output: one may have died slowly.
-    static void remove_abandoned(const OutputPath& output);
+    /// Looks again for what a process that was killed left of this output: one may have died slowly. Of
+    /// another machine's nobody knows whether it lives: `all` where none does.
+    enum class Machines { ours, all };
+    static void remove_abandoned(const OutputPath& output, Machines machines = Machines::ours);
     StagedFile(StagedFile&& other) noexcept;
     StagedFile& operator=(StagedFile&&) = delete;
     StagedFile(const StagedFile&) = delete;

@@ -96,9 +96,10 @@ std::string temporary_name(const std::string& stem, const std::string& extension
     return fmt::format(".{}{}{}-{}-{}{}", stem, k_part, machine(), ::getpid(), ++count, extension);
 }
 
-/// The process of this machine whose file under construction this is, and of which output; 0: it is none.
+/// The process whose file under construction this is, its machine, and of which output; 0: it is none.
 struct PartOf {
     pid_t process = 0;
+    std::string machine{};
     std::string stem{};
 };
 
@@ -108,8 +109,9 @@ PartOf part_of(const std::string& name) {
         return {};
     PartOf found;
     const size_t numbers = part + k_part.size();
-    if (!std::string_view(name).substr(numbers).starts_with(machine() + "-"))
+    if (name.size() <= numbers + k_machine_digits || name[numbers + k_machine_digits] != '-')
         return {};
+    found.machine = name.substr(numbers, k_machine_digits);
     const char* const end = name.data() + name.size();
     const auto [after, wrong] =
         std::from_chars(name.data() + numbers + k_machine_digits + 1, end, found.process);
@@ -138,8 +140,8 @@ bool has_ended(pid_t process) {
 }
 
 /// Neither does its process live, nor does one that this machine does not know hold the file.
-bool is_abandoned(const fs::path& path, pid_t process) {
-    if (!has_ended(process))
+bool is_abandoned(const fs::path& path, const PartOf& part) {
+    if (part.machine == machine() && !has_ended(part.process))
         return false;
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat facts {};
@@ -148,12 +150,13 @@ bool is_abandoned(const fs::path& path, pid_t process) {
            (::flock(file.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK);
 }
 
-void remove_abandoned_in(const fs::path& folder, const std::string& output) {
+void remove_abandoned_in(const fs::path& folder, const std::string& output, StagedFile::Machines machines) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         const PartOf part = part_of(entry->path().filename().string());
-        if (part.process > 0 && without_digits(part.stem) == output &&
-            is_abandoned(entry->path(), part.process))
+        const bool looked_at = machines == StagedFile::Machines::all || part.machine == machine();
+        if (part.process > 0 && looked_at && without_digits(part.stem) == output &&
+            is_abandoned(entry->path(), part))
             ::unlink(entry->path().c_str());
     }
 }
@@ -168,7 +171,7 @@ void remove_abandoned_once(const fs::path& folder, const std::string& stem) {
         if (!seen.emplace(folder, output).second)
             return;
     }
-    remove_abandoned_in(folder, output);
+    remove_abandoned_in(folder, output, StagedFile::Machines::ours);
 }
 
 fs::path folder_of(const fs::path& file) {
@@ -177,9 +180,9 @@ fs::path folder_of(const fs::path& file) {
 
 } // namespace
 
-void StagedFile::remove_abandoned(const OutputPath& output) {
+void StagedFile::remove_abandoned(const OutputPath& output, Machines machines) {
     if (const auto place = output.place(); place && !place->stream)
-        remove_abandoned_in(folder_of(place->path), without_digits(output.path().stem().string()));
+        remove_abandoned_in(folder_of(place->path), without_digits(output.path().stem().string()), machines);
 }
 
 Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view extension) {

@@ -3,6 +3,7 @@ command reads, into a device and never in its place."""
 import json
 import os
 import pathlib
+import re
 import shutil
 import stat
 import subprocess
@@ -53,7 +54,8 @@ class Links(ProgramTest):
     def refuse(self, arguments: list[str], path: str, link: str | None = None, target=None) -> None:
         """Ends with exit code 4 and the sentence; what lies behind the link is as it was."""
         done = self.run_program(*arguments)
-        self.assertEqual(done.stderr.splitlines()[-1:], [sentence(path, target or self.victim, link)])
+        said = re.sub(r"; \d+ frames? (is|are) whole, and the same command with --resume goes on$", "", done.stderr.strip())
+        self.assertEqual(said.splitlines()[-1:], [sentence(path, target or self.victim, link)])
         self.assertEqual(done.returncode, 4)
         self.assertEqual([name for name in self.files() if ".part-" in name], [])
 

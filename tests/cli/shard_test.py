@@ -37,6 +37,17 @@ class Shards(ProgramTest):
         self.assertRegex(lines[0], DRIVEN)
         self.assertEqual(lines[1:], ["3 of them drawn again: the same pixels"])
 
+    def test_what_another_machine_left_goes(self):
+        """A shard leaves it alone; when all frames are there nobody is at work any more."""
+        left = {"out/.f_0003.part-0123abcd-7-1.png", "out/.f_0003.png.part-0123abcd-7-2.state"}
+        for name in left:
+            self.write(name, "half")
+        for k in (1, 2):
+            self.shard(f"{k}/2", "--resume")
+        self.assertLessEqual(left, self.files())
+        self.succeed("gather", "out")
+        self.assertFalse(left & self.files())
+
     def test_says_what_is_missing(self):
         self.shard("1/3")
         self.shard("3/3")

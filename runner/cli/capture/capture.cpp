@@ -84,7 +84,8 @@ void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
 /// What a run before left, which may have ended after this one began, and what this one needs no more.
 void tidy_up(const CapturePlan& plan) {
     if (plan.resume)
-        StagedFile::remove_abandoned(plan.output.of_frame(0));
+        for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
+            StagedFile::remove_abandoned(file);
     if (!plan.shard && !plan.output.standard_output())
         remove_states(plan.output);
 }
@@ -228,7 +229,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
         .add_option("--state-every", options.state_every,
                     "Saves the buffers of a scene that reads its own last frame, for --resume")
         ->type_name("FRAMES")
-        ->check(CLI::PositiveNumber);
+        ->check(unnamed(CLI::PositiveNumber));
     command
         .add_option(
             "--shard", options.shard,

@@ -30,18 +30,24 @@ std::string hash_of(const Json& json) {
     return hash_of(dump(json));
 }
 
+/// Of a larger file, a film, the beginning is hashed, with its size and when it changed: a capture does not
+/// wait for all of it.
+constexpr uintmax_t k_hashed_whole = uintmax_t{64} << 20;
+constexpr size_t k_beginning = size_t{1} << 20;
+
 /// Null where nothing can be read, as there is none of a silent signal.
-Json hash_of_file(const std::filesystem::path& path) {
+Json facts_of_file(const std::filesystem::path& path) {
+    std::error_code error;
     if (!why_unreadable(path).empty())
         return {};
+    const uintmax_t size = std::filesystem::file_size(path, error);
+    const bool whole = size <= k_hashed_whole;
+    std::string bytes(whole ? size_t(size) : k_beginning, '\0');
     std::ifstream file(path, std::ios::binary);
-    std::vector<char> block(1 << 18);
-    Sha256 hash;
-    while (file) {
-        file.read(block.data(), std::streamsize(block.size()));
-        hash.add(std::as_bytes(std::span(block.data(), size_t(file.gcount()))));
-    }
-    return hash.digits();
+    file.read(bytes.data(), std::streamsize(bytes.size()));
+    bytes.resize(size_t(file.gcount()));
+    const auto changed = std::filesystem::last_write_time(path, error).time_since_epoch().count();
+    return Json::array({hash_of(bytes), size, whole ? Json() : Json(changed)});
 }
 
 /// What an input says of itself, but for its files, which count by their bytes. A new member does not compile
@@ -102,10 +108,10 @@ Json input_facts(const CapturePlan& plan) {
             Json& fact =
                 facts.emplace_back(Json::array({facts_of(channel.input), facts_of(channel.sampling)}));
             for (const std::filesystem::path& file : input_files(channel.input))
-                fact.push_back(hash_of_file(file));
+                fact.push_back(facts_of_file(file));
         }
     if (has_history(plan))
-        facts.push_back(hash_of_file(plan.frames.input_file));
+        facts.push_back(facts_of_file(plan.frames.input_file));
     return facts;
 }
 

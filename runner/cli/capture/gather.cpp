@@ -86,35 +86,42 @@ double difference_of(const image::Image& a, const image::Image& b) {
     return largest;
 }
 
+/// The plan's sample, drawn into another folder: the plan of that.
+Result<CapturePlan> draw_sample(const CapturePlan& whole, int count, const fs::path& folder,
+                                Interrupt& interrupt) {
+    CapturePlan plan = whole;
+    plan.frames.frames = sample_of(whole, count);
+    const std::string name =
+        (whole.output.six_faces() ? "%d_{}" : "%d") + whole.output.pattern().extension().string();
+    plan.output = TRY(OutputName::parse((folder / name).string(), plan.frames.frames.size()));
+    auto compiled = TRY(compile(plan, interrupt));
+    Capture run(plan, Fingerprint::of_run(plan, gl::query_capabilities()), compiled);
+    if (!TRY(run.run(interrupt)))
+        return fail(ErrorCode::check_failed, "interrupted before the frames were compared");
+    return plan;
+}
+
 /// What is wrong with the frames that are drawn again; says it where nothing is.
 Result<std::vector<std::string>> compare_sample(const GatherOptions& options, const CapturePlan& whole,
                                                 bool drawn_here, Interrupt& interrupt) {
     const ScratchFolder scratch;
-    CapturePlan plan = whole;
-    plan.frames.frames = sample_of(whole, options.samples);
-    const std::string extension = whole.output.pattern().extension().string();
-    plan.output = TRY(
-        OutputName::parse((scratch.path() / (whole.output.six_faces() ? "%d_{}" : "%d")).string() + extension,
-                          plan.frames.frames.size()));
-    auto compiled = TRY(compile(plan, interrupt));
-    Capture run(plan, Fingerprint::of_run(plan, gl::query_capabilities()), compiled);
-    if (!TRY(run.run(interrupt)))
-        return fail(ErrorCode::timed_out, "interrupted");
+    const CapturePlan again = TRY(draw_sample(whole, options.samples, scratch.path(), interrupt));
+    const double allowed = drawn_here ? 0 : options.tolerance;
     std::vector<std::string> wrong;
     double largest = 0;
-    for (const int frame : plan.frames.frames)
-        for (size_t i = 0; i < files_of(plan.output, frame).size(); ++i) {
+    for (const int frame : again.frames.frames)
+        for (size_t i = 0; i < files_of(again.output, frame).size(); ++i) {
             const fs::path made = files_of(whole.output, frame)[i];
             const image::Image theirs = TRY(image::read_picture(made));
-            const image::Image ours = TRY(image::read_picture(files_of(plan.output, frame)[i]));
+            const image::Image ours = TRY(image::read_picture(files_of(again.output, frame)[i]));
             const double difference = difference_of(theirs, ours);
             largest = std::max(largest, difference);
-            if (!(difference <= (drawn_here ? 0 : options.tolerance)))
+            if (!(difference <= allowed))
                 wrong.push_back(fmt::format("{} is drawn otherwise here: a sample differs by {:.3g}",
                                             made.string(), difference));
         }
     if (wrong.empty())
-        say(fmt::format("{} of them drawn again: {}", plan.frames.frames.size(),
+        say(fmt::format("{} of them drawn again: {}", again.frames.frames.size(),
                         drawn_here
                             ? "the same pixels"
                             : fmt::format("on another device, the largest difference is {:.3g}", largest)));
@@ -180,7 +187,8 @@ Result<int> gather(const GatherOptions& options) {
     if (options.video)
         TRY(make_video(plan, *options.video, run, interrupt));
     remove_states(plan.output);
-    StagedFile::remove_abandoned(plan.output.of_frame(0));
+    for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
+        StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is at work any more
     return 0;
 }
 
@@ -195,13 +203,13 @@ void add_gather(CLI::App& app, Action& chosen) {
         ->type_name("OUT");
     command->add_option("--sample", options->samples, "Frames that are drawn again and compared")
         ->type_name("N")
-        ->check(CLI::NonNegativeNumber)
+        ->check(unnamed(CLI::NonNegativeNumber))
         ->capture_default_str();
     command
         ->add_option("--tolerance", options->tolerance,
                      "How far a sample may be off where another device drew the frames [2/255]")
         ->type_name("D")
-        ->check(CLI::NonNegativeNumber);
+        ->check(unnamed(CLI::NonNegativeNumber));
     command->callback([options, &chosen] { chosen = [options] { return gather(*options); }; });
 }
 

@@ -309,13 +309,23 @@ pid_t gone() {
     return child;
 }
 
+/// The digits that stand for the machine in the name of a file under construction, and a dash.
+std::string machine_in(const fs::path& staged) {
+    const std::string name = staged.filename().string();
+    const size_t part = name.find(".part-") + 6;
+    return name.substr(part, name.find('-', part) + 1 - part);
+}
+
 TEST(StagedFile, what_a_killed_process_left_of_the_same_output_goes) {
     const TemporaryFolder folder;
-    const std::string dead = std::to_string(gone()), alive = std::to_string(::getppid());
+    const std::string machine = machine_in(StagedFile::create(folder / "own.png")->path());
+    const std::string dead = machine + std::to_string(gone()), alive = machine + std::to_string(::getppid());
+    const std::string elsewhere = "01234567-" + std::to_string(gone());
     save_in_place(folder / (".a.0007.part-" + dead + "-3.png"));
-    const std::vector<std::string> kept{".a.part-" + alive + "-3.png", ".b.part-" + dead + "-3.png",
-                                        ".a.part-" + dead + ".png",    "a.part-" + dead + "-3.png",
-                                        ".a.part-" + dead + "-x.png",  ".a.notes"};
+    const std::vector<std::string> kept{
+        ".a.part-" + alive + "-3.png",         ".b.part-" + dead + "-3.png", ".a.part-" + dead + ".png",
+        "a.part-" + dead + "-3.png",           ".a.part-" + dead + "-x.png", ".a.notes",
+        ".a.0003.part-" + elsewhere + "-3.png"};
     for (const std::string& name : kept)
         save_in_place(folder / name);
     fs::create_symlink("a.part", folder / (".a.part-" + dead + "-9.png"));
@@ -325,6 +335,8 @@ TEST(StagedFile, what_a_killed_process_left_of_the_same_output_goes) {
     for (const std::string& name : kept)
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     EXPECT_EQ(files_in(folder), kept.size() + 3);
+    StagedFile::remove_abandoned(folder / "a.0012.png", StagedFile::Machines::all);
+    EXPECT_EQ(files_in(folder), kept.size() + 2) << "that of another machine";
     ::close(held);
 }
 
