@@ -60,7 +60,7 @@ class Interrupted(ProgramTest):
         running.wait(timeout=TIME_LIMIT)
         names = self.expect_whole_pictures()
         for name in self.files() - {"wave.glsl", *names}:
-            self.assertRegex(name, r"\A\.wave\.\d{4}\.part-\d+-\d+\.png\Z")
+            self.assertRegex(name, r"\A\.wave\.\d{4}\.part-[0-9a-f]{8}-\d+-\d+\.png\Z")
         for name in self.files() - {"wave.glsl", *names}:
             with (self.folder / name).open() as file:
                 fcntl.flock(file, fcntl.LOCK_EX)  # whoever wrote it is gone

@@ -19,8 +19,8 @@ namespace {
 constexpr Extent k_rays{16, 9};
 constexpr double k_moments[] = {1.0 / 3, 10};
 constexpr uint64_t k_most_evaluations = 5'000; ///< of a ray
-/// Of all rays: some seconds of a field of seven octaves. What is left of the rays is not looked at.
-constexpr uint64_t k_most_of_all = 25'000;
+/// Of all rays of a moment: some seconds of a field of seven octaves. What is left of them is not looked at.
+constexpr uint64_t k_most_of_all = 12'500;
 /// Of the decided rays; below that is a matter of silhouettes.
 constexpr double k_most_wrong_percent = 0.5;
 
@@ -39,24 +39,30 @@ glm::ivec2 pixel_of(size_t i, Extent whole) {
     return {(2 * x + 1) * whole.width / (2 * k_rays.width), (2 * y + 1) * whole.height / (2 * k_rays.height)};
 }
 
+/// `look` says how many evaluations the ray of a pixel took.
+template <class Look>
+void look_at_rays(Extent whole, Look look) {
+    uint64_t left = k_most_of_all;
+    for (size_t i = 0; i < k_rays.pixels() && left > 0; ++i)
+        left -= std::min<uint64_t>(left, look(pixel_of(i, whole)));
+}
+
 Result<RayCounts> count(ProbeBench& bench, const PassFunction& function) {
     const size_t image = bench.scene().image_index();
     RayCounts counts;
-    uint64_t left = k_most_of_all;
     for (const double moment : k_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
         const ir::TextureSet textures = textures_of(renderer, image);
         ir::FloatEvaluator pixel = function.frame(renderer, image, render::inputs_of(state));
-        const uint64_t least_left = moment == k_moments[0] ? left / 2 : 0;
-        for (size_t i = 0; i < k_rays.pixels() && left > least_left; ++i) {
-            const glm::ivec2 at = pixel_of(i, renderer.extent());
+        look_at_rays(renderer.extent(), [&](glm::ivec2 at) -> uint64_t {
             function.move_to(pixel, at);
-            if (const auto ray = prove_ray(function, pixel, textures, at, k_most_evaluations)) {
-                counts.add(*ray);
-                left -= std::min(left, ray->evaluations);
-            }
-        }
+            const auto ray = prove_ray(function, pixel, textures, at, k_most_evaluations);
+            if (!ray)
+                return 0;
+            counts.add(*ray);
+            return ray->evaluations;
+        });
     }
     return counts;
 }
@@ -167,17 +173,15 @@ uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& s
 Result<Scales> scales_of(ProbeBench& bench, const PassFunction& function) {
     const size_t image = bench.scene().image_index();
     Scales scales;
-    uint64_t left = k_most_of_all;
     for (const double moment : k_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
         const MarchRays rays({function, renderer, image, render::inputs_of(state)}, ir::Surface::zero);
-        const uint64_t least_left = moment == k_moments[0] ? left / 2 : 0;
-        for (size_t i = 0; i < k_rays.pixels() && left > least_left; ++i) {
-            const glm::ivec2 pixel = pixel_of(i, renderer.extent());
-            if (auto ray = rays.enter(pixel); ray && ray->slice && !ray->march.turns.empty())
-                left -= std::min(left, add(*ray, pixel, state, scales));
-        }
+        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) -> uint64_t {
+            auto ray = rays.enter(pixel);
+            const bool marches = ray && ray->slice && !ray->march.turns.empty();
+            return marches ? add(*ray, pixel, state, scales) : 0;
+        });
     }
     return scales;
 }
