@@ -1,0 +1,57 @@
+"""`cmake --install` into a folder of any name: the program runs from there, with its plug-ins and its library."""
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, has_context, main
+
+BUILD = pathlib.Path(PROGRAM).resolve().parent
+SMALL = ("--size", "32x18")
+OF_LIBRARY = """#include <tidemark/noise.glsl>
+void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(value_noise(p / 8.0, ivec2(0))), 1.0); }
+"""
+
+
+@unittest.skipUnless((BUILD / "cmake_install.cmake").is_file() and shutil.which("cmake"), "there is no build folder")
+class Installed(ProgramTest):
+    def setUp(self) -> None:
+        super().setUp()
+        self.prefix = self.folder / "a prefix"
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", self.prefix], check=True, timeout=TIME_LIMIT,
+                       stdout=subprocess.DEVNULL)
+
+    def installed(self, *arguments: str) -> subprocess.CompletedProcess:
+        return subprocess.run([self.prefix / "bin/tidemark", *arguments], cwd=self.folder, env=environment(),
+                              capture_output=True, text=True, timeout=TIME_LIMIT)
+
+    def made(self, *arguments: str) -> str:
+        """What the installed program wrote, which is named last, byte for byte as the one in the build folder writes it."""
+        done = self.installed(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        name = arguments[-1]
+        self.succeed(*arguments[:-1], "build-" + name)
+        self.assertEqual((self.folder / name).read_bytes(), (self.folder / ("build-" + name)).read_bytes())
+        return done.stderr
+
+    def test_runs(self) -> None:
+        self.assertEqual(self.installed("--version").stdout, self.succeed("--version").stdout.decode())
+
+    @unittest.skipUnless(has_context(), "no OpenGL context")
+    def test_draws_with_its_library_and_its_plug_ins(self) -> None:
+        self.write("mine.glsl", OF_LIBRARY)
+        self.made("capture", "mine.glsl", *SMALL, "-o", "mine.exr")
+        scene = str(self.prefix / "share/tidemark/shaders/stylized_waves.glsl")  # reads a texture
+        self.assertNotIn("warning", self.made("capture", scene, *SMALL, "-o", "waves.png"))
+
+    @unittest.skipUnless(has_context(), "no OpenGL context")
+    def test_the_library_ends_at_its_folder(self) -> None:
+        self.write("scenes/out.glsl", OF_LIBRARY.replace("noise.glsl", "../water_surface.glsl"))
+        done = self.installed("capture", "scenes/out.glsl", *SMALL)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("out.glsl:1: error: ", done.stderr)
+        self.assertIn("lies outside the scene's folder", done.stderr)
+
+
+if __name__ == "__main__":
+    main(needs_context=False)
