@@ -1,9 +1,11 @@
 """`cmake --install` into a folder of any name: the program runs from there, with its plug-ins and its library."""
+import gzip
 import pathlib
 import shutil
 import subprocess
 import unittest
 
+from support import option_table
 from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, has_context, main
 
 BUILD = pathlib.Path(PROGRAM).resolve().parent
@@ -36,6 +38,15 @@ class Installed(ProgramTest):
 
     def test_runs(self) -> None:
         self.assertEqual(self.installed("--version").stdout, self.succeed("--version").stdout.decode())
+
+    def test_has_a_manual_page_for_every_command_and_its_options(self) -> None:
+        for command in option_table.commands():
+            with self.subTest(command):
+                page = self.prefix / f"share/man/man1/tidemark-{command.split()[0]}.1.gz"
+                roff = gzip.decompress(page.read_bytes()).decode().replace("\\-", "-")
+                for head, _ in option_table.options_of(command):
+                    self.assertIn(f"\\fB{head.split(' ')[0]}\\fR", roff)
+        self.assertIn(b".SH COMMANDS", gzip.decompress((self.prefix / "share/man/man1/tidemark.1.gz").read_bytes()))
 
     @unittest.skipUnless(has_context(), "no OpenGL context")
     def test_draws_with_its_library_and_its_plug_ins(self) -> None:
