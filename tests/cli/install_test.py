@@ -39,6 +39,16 @@ class Installed(ProgramTest):
     def test_runs(self) -> None:
         self.assertEqual(self.installed("--version").stdout, self.succeed("--version").stdout.decode())
 
+    @unittest.skipUnless(shutil.which("desktop-file-validate"), "desktop-file-utils is not installed")
+    def test_its_desktop_entry_is_valid_and_names_its_icon(self) -> None:
+        entry = self.prefix / "share/applications/tidemark.desktop"
+        if not entry.is_file():
+            self.skipTest("a build without a window")
+        done = subprocess.run(["desktop-file-validate", entry], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
+        self.assertIn("Icon=tidemark\n", entry.read_text())
+        self.assertTrue((self.prefix / "share/icons/hicolor/128x128/apps/tidemark.png").is_file())
+
     def test_has_a_manual_page_for_every_command_and_its_options(self) -> None:
         for command in option_table.commands():
             with self.subTest(command):
