@@ -2,6 +2,7 @@
 #include "cli/candidates.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/value_check.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -44,6 +45,8 @@ complete -c tidemark -a '(__tidemark_words)'
 
 Result<int> print_completion(const CLI::App& app, const std::string& what,
                              const std::vector<std::string>& words) {
+    if (what != "words" && !words.empty())
+        return fail(ErrorCode::usage, "unexpected argument '" + words.front() + "'");
     std::string text;
     if (what == "words")
         for (const std::string& word : candidates(app, words))
@@ -66,7 +69,7 @@ void add_completion(CLI::App& app, Action& chosen) {
         app.add_subcommand("completion", "Prints the completion script for bash, zsh or fish");
     command->add_option("SHELL", options->what, "bash, zsh or fish; words: what the last WORD may become")
         ->type_name("bash|zsh|fish|words")
-        ->check(CLI::IsMember({"bash", "zsh", "fish", "words"}));
+        ->check(one_of({"bash", "zsh", "fish", "words"}));
     command->add_option("WORD", options->words, "With words, behind --: the line as far as it is typed")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->callback([options, &app, &chosen] {
