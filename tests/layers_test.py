@@ -21,6 +21,7 @@ ALLOWED = {
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
     "lab": ["base", "text", "scene", "glsl", "ir", "gl", "image", "render"],
     "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "render", "lab"],
+    "install": [],
     "main.cpp": ["cli"],
 }
 

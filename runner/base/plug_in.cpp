@@ -1,5 +1,7 @@
 #include "base/plug_in.hpp"
 
+#include "base/installed.hpp"
+
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -43,8 +45,7 @@ void* open_library(const fs::path& file) {
 } // namespace
 
 std::vector<fs::path> plug_in_folders() {
-    std::error_code ignored;
-    const fs::path home = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    const fs::path home = program_folder();
     return {home, (home / "../lib/tidemark").lexically_normal()};
 }
 

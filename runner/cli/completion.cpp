@@ -1,70 +1,80 @@
+#include "base/try.hpp"
+#include "cli/candidates.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/value_check.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include <memory>
 
 namespace tidemark::cli {
 namespace {
 
-std::vector<std::string> option_names(const CLI::App& command) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames())
-            names.push_back("--" + name);
-        for (const std::string& name : option->get_snames())
-            names.push_back("-" + name);
-    }
-    return names;
-}
+// Each asks the program what the word may become, and adds the names of files.
 
-/// A branch of the script for the command and before it one for each of its own sub-commands, whose options
-/// are known once it is written.
-std::string branches_of(const CLI::App& command) {
-    constexpr auto branch = "        {}) words='{}' ;;\n";
-    const std::string& name = command.get_name();
-    std::vector<std::string> words = option_names(command);
-    std::string branches;
-    for (const CLI::App* inner : command.get_subcommands({})) {
-        words.push_back(inner->get_name());
-        branches += fmt::format(branch, fmt::format("'{} {}'", name, inner->get_name()),
-                                fmt::join(option_names(*inner), " "));
-    }
-    return branches + fmt::format(branch, fmt::format("{0}|'{0} '*", name), fmt::join(words, " "));
+constexpr std::string_view k_bash = R"sh(# Completion of tidemark for bash: source <(tidemark completion)
+_tidemark() {
+    local IFS=$'\n' current="${COMP_WORDS[COMP_CWORD]}"
+    COMPREPLY=($("${COMP_WORDS[0]}" completion words -- "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
+               $(compgen -f -- "$current"))
+    if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace 2>/dev/null || true; fi
 }
-
-/// A bash function over the very options that the program parses. Whatever is no option is a file.
-std::string bash_script(const CLI::App& app) {
-    std::vector<std::string> commands;
-    std::string cases;
-    for (const CLI::App* command : app.get_subcommands({})) {
-        commands.push_back(command->get_name());
-        cases += branches_of(*command);
-    }
-    return fmt::format(R"(# Completion of tidemark for bash: source <(tidemark completion)
-_tidemark() {{
-    local words='{} {}' current="${{COMP_WORDS[COMP_CWORD]}}"
-    if [ "$COMP_CWORD" -gt 1 ]; then
-        local before="${{COMP_WORDS[1]}}"
-        [ "$COMP_CWORD" -gt 2 ] && before="$before ${{COMP_WORDS[2]}}"
-        case "$before" in
-{}        *) words='' ;;
-        esac
-    fi
-    COMPREPLY=($(compgen -W "$words" -- "$current") $(compgen -f -- "$current"))
-}}
 complete -o filenames -F _tidemark tidemark
-)",
-                       fmt::join(commands, " "), fmt::join(option_names(app), " "), cases);
+)sh";
+
+constexpr std::string_view k_zsh = R"sh(#compdef tidemark
+# Completion of tidemark for zsh: source <(tidemark completion zsh)
+_tidemark() {
+    local -a found
+    found=(${(f)"$($words[1] completion words -- "${(@)words[2,CURRENT]}" 2>/dev/null)"})
+    compadd -S '' -- ${(M)found:#*=}
+    compadd -- ${found:#*=}
+    _files
+}
+if [[ $funcstack[1] == _tidemark ]]; then _tidemark "$@"; else compdef _tidemark tidemark; fi
+)sh";
+
+constexpr std::string_view k_fish = R"sh(# Completion of tidemark for fish: tidemark completion fish | source
+function __tidemark_words
+    set -l words (commandline -opc) (commandline -ct)
+    $words[1] completion words -- $words[2..-1] 2>/dev/null
+end
+complete -c tidemark -a '(__tidemark_words)'
+)sh";
+
+Result<int> print_completion(const CLI::App& app, const std::string& what,
+                             const std::vector<std::string>& words) {
+    if (what != "words" && !words.empty())
+        return fail(ErrorCode::usage, "unexpected argument '" + words.front() + "'");
+    std::string text;
+    if (what == "words")
+        for (const std::string& word : candidates(app, words))
+            text += word + '\n';
+    else
+        text = what == "zsh" ? k_zsh : what == "fish" ? k_fish : k_bash;
+    TRY(put(text));
+    return 0;
 }
 
 } // namespace
 
 void add_completion(CLI::App& app, Action& chosen) {
-    CLI::App* command = app.add_subcommand("completion", "Prints the completion script for bash");
-    command->callback(
-        [&app, &chosen] { chosen = [&app] { return put(bash_script(app)).map([] { return 0; }); }; });
+    struct Options {
+        std::string what = "bash";
+        std::vector<std::string> words;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("completion", "Prints the completion script for bash, zsh or fish");
+    command->add_option("SHELL", options->what, "bash, zsh or fish; words: what the last WORD may become")
+        ->type_name("bash|zsh|fish|words")
+        ->check(one_of({"bash", "zsh", "fish", "words"}));
+    command->add_option("WORD", options->words, "With words, behind --: the line as far as it is typed")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->callback([options, &app, &chosen] {
+        chosen = [options, &app] { return print_completion(app, options->what, options->words); };
+    });
 }
 
 } // namespace tidemark::cli

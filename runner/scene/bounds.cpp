@@ -1,6 +1,7 @@
 #include "scene/bounds.hpp"
 
 #include "base/file.hpp"
+#include "base/installed.hpp"
 
 #include <fmt/format.h>
 
@@ -24,7 +25,10 @@ fs::path real_path(const fs::path& path) {
 } // namespace
 
 Bounds::Bounds(const fs::path& folder, bool allow_outside)
-    : folder_(folder.empty() ? "." : folder.string()), everything_(allow_outside) {
+    : folder_(folder.empty() ? "." : folder.string()), everything_(allow_outside),
+      library_(library_folder()) {
+    if (const fs::path library = real_path(library_); !library.empty())
+        roots_.push_back(library);
     const fs::path root = real_path(folder.empty() ? fs::path(".") : folder);
     if (root.empty())
         return;

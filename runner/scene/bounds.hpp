@@ -10,7 +10,8 @@
 
 namespace tidemark::scene {
 
-/// The scene's folder, and the folders `textures` and `lib` beside it, where scenes keep what they share.
+/// The scene's folder, the folders `textures` and `lib` beside it, where scenes keep what they share, and the
+/// shader library.
 class Bounds {
 public:
     /// `folder` is that of the scene; everything may be read when `allow_outside`.
@@ -18,12 +19,15 @@ public:
 
     /// Symbolic links are followed first. The error (ErrorCode::load) says what to do; it has no place yet.
     Result<void> check(const std::filesystem::path& file) const;
+    /// What `#include <tidemark/…>` reads.
+    const std::filesystem::path& library() const { return library_; }
     /// The text of a file within the bounds.
     Result<std::string> read_text(const std::filesystem::path& file) const;
 
 private:
     std::string folder_; ///< as it was named, for the message
     bool everything_;
+    std::filesystem::path library_;
     std::vector<std::filesystem::path> roots_;
 };
 

@@ -48,7 +48,7 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
             return read_text_file(path);
         return read_file(path).map(plain_text);
     };
-    auto expanded = TRY(text::expand_includes(file, read_text));
+    auto expanded = TRY(text::expand_includes(file, read_text, bounds_.library()));
     for (const auto* paths : {&expanded.files, &expanded.missing}) // a missing one may come
         for (const fs::path& path : *paths)
             note_file(scene_, path);

@@ -6,19 +6,47 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace tidemark::text {
 namespace fs = std::filesystem;
 namespace {
 
-/// One `#include` line: the directive's characters and the name between its quotes.
+/// One `#include` line: the directive's characters and the name between its quotes, or behind `<tidemark/`.
 struct Include {
-    size_t begin;
-    size_t end;
-    int line;
-    std::string name;
-    bool conditional; ///< stands under an #if
+    size_t begin = 0;
+    size_t end = 0;
+    int line = 0;
+    std::string name = {};
+    bool of_library = false;
+    bool conditional = false; ///< stands under an #if
 };
+
+constexpr std::string_view k_library = "tidemark/";
+
+/// What is included by the `#include` whose `#` is tokens[at], where it is one that we follow.
+std::optional<Include> include_at(std::string_view text, const std::vector<Token>& tokens, size_t at) {
+    const size_t end = end_of_directive(tokens, at);
+    if (at + 2 >= end)
+        return std::nullopt;
+    const Token& first = tokens[at + 2];
+    Include include{.begin = tokens[at].begin, .end = first.end(), .line = tokens[at].line};
+    if (first.kind == TokenKind::string) {
+        include.name = first.text.substr(1, first.text.size() - 2);
+        return include;
+    }
+    const auto last = std::find_if(tokens.begin() + at + 2, tokens.begin() + end,
+                                   [](const Token& token) { return token.is(">"); });
+    if (!first.is("<") || last == tokens.begin() + end)
+        return std::nullopt;
+    const std::string_view name = text.substr(first.end(), last->begin - first.end());
+    if (!name.starts_with(k_library))
+        return std::nullopt;
+    include.name = name.substr(k_library.size());
+    include.of_library = true;
+    include.end = last->end();
+    return include;
+}
 
 std::vector<Include> find_includes(std::string_view text) {
     std::vector<Include> found;
@@ -32,11 +60,11 @@ std::vector<Include> find_includes(std::string_view text) {
             ++depth;
         else if (keyword.is("endif"))
             depth = std::max(0, depth - 1);
-        else if (keyword.is("include") && i + 2 < tokens.size() && tokens[i + 2].kind == TokenKind::string) {
-            const Token& name = tokens[i + 2];
-            found.push_back({tokens[i].begin, name.end(), tokens[i].line,
-                             std::string(name.text.substr(1, name.text.size() - 2)), depth > 0});
-        }
+        else if (keyword.is("include"))
+            if (auto include = include_at(text, tokens, i)) {
+                include->conditional = depth > 0;
+                found.push_back(*std::move(include));
+            }
     }
     return found;
 }
@@ -47,7 +75,7 @@ constexpr size_t k_deepest = 100;
 
 class Expander {
 public:
-    explicit Expander(const ReadText& read) : read_(read) {}
+    Expander(const ReadText& read, const fs::path& library) : read_(read), library_(library) {}
 
     Result<void> expand(const fs::path& path) {
         auto bytes = read_(path);
@@ -101,7 +129,8 @@ private:
     }
 
     Result<void> follow(const fs::path& from, const Include& include, const std::string& text) {
-        const fs::path target = (from.parent_path() / include.name).lexically_normal();
+        const fs::path folder = include.of_library ? library_ : from.parent_path();
+        const fs::path target = (folder / include.name).lexically_normal();
         for (const Level& level : chain_)
             if (level.file == target)
                 return refuse(fmt::format("'{}' includes itself", include.name));
@@ -132,6 +161,7 @@ private:
     }
 
     const ReadText& read_;
+    const fs::path& library_;
     ExpandedText result_;
     std::vector<fs::path> missing_;
     size_t followed_ = 0;
@@ -140,8 +170,8 @@ private:
 
 } // namespace
 
-Result<ExpandedText> expand_includes(const fs::path& path, const ReadText& read) {
-    Expander expander(read);
+Result<ExpandedText> expand_includes(const fs::path& path, const ReadText& read, const fs::path& library) {
+    Expander expander(read, library);
     if (auto done = expander.expand(path.lexically_normal()); !done)
         return fail(expander.with_files(std::move(done.error())));
     return expander.take();

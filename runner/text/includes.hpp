@@ -1,4 +1,5 @@
-// `#include "…"`: pastes files into one MappedText. Reads files only through the function it is given.
+// `#include "…"`, `#include <tidemark/…>`: pastes files into one MappedText. Reads files only through the
+// function it is given.
 #pragma once
 
 #include "base/result.hpp"
@@ -20,8 +21,10 @@ struct ExpandedText {
 };
 
 /// `path` with every `#include "name"` (relative to the file that says it) replaced by that file's text, at
-/// each occurrence. An `#include <name>`, and one under an `#if` whose file does not exist, are left for
-/// the driver. Cycles and missing files are errors that name the chain of includes.
-Result<ExpandedText> expand_includes(const std::filesystem::path& path, const ReadText& read);
+/// each occurrence; `#include <tidemark/name>` is the file of that name in the folder `library`. Another
+/// `#include <name>`, and one under an `#if` whose file does not exist, are left for the driver. Cycles and
+/// missing files are errors that name the chain of includes.
+Result<ExpandedText> expand_includes(const std::filesystem::path& path, const ReadText& read,
+                                     const std::filesystem::path& library);
 
 } // namespace tidemark::text

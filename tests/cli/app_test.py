@@ -83,7 +83,7 @@ class Unknown(ProgramTest):
             with self.subTest(command=command):
                 self.expect_failure([command, "a.glsl", "b.glsl"], 2,
                                     "tidemark: error: unexpected argument 'b.glsl'")
-        self.expect_failure(["completion", "zsh"], 2, "tidemark: error: unexpected argument 'zsh'")
+        self.expect_failure(["completion", "bash", "zsh"], 2, "tidemark: error: unexpected argument 'zsh'")
 
     def test_scene_missing(self):
         for command in ("view", "capture"):

@@ -1,7 +1,19 @@
-"""`completion`: a script that bash takes and that completes commands, options and files."""
+"""`completion`: scripts that shells take and that complete commands, options, what a scene names, and files."""
+import os
+import pathlib
+import shutil
 import subprocess
+import unittest
 
-from support.program import ProgramTest, main
+from support.program import PROGRAM, ProgramTest, environment, main
+
+# The program by its name, as a shell finds it.
+WITH_PROGRAM = environment(PATH=f"{pathlib.Path(PROGRAM).resolve().parent}:{os.environ['PATH']}")
+SCENE = """#define STEPS 4
+#iUniform float height = 0.5 in { 0.0, 2.0 }
+#iUniform float hue = 0.5
+void mainImage(out vec4 c, in vec2 p) { c = vec4(height * hue); }
+"""
 
 
 class Completion(ProgramTest):
@@ -14,7 +26,7 @@ class Completion(ProgramTest):
         line = ('source completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _tidemark; '
                 'printf "%s\\n" "${COMPREPLY[@]}"')
         done = subprocess.run(["bash", "-uc", line, "bash", "tidemark", *words], cwd=self.folder,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=WITH_PROGRAM)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return set(done.stdout.split())
 
@@ -38,6 +50,39 @@ class Completion(ProgramTest):
         self.assertEqual(self.completed("bake", "noise", "--s"), {"--seed"})
         self.assertEqual(self.completed("bake", "island", "--s"), {"--size", "--seed", "--sea", "--study"})
         self.assertEqual(self.completed("capture", "a.glsl", "--fra"), {"--frame", "--frames"})
+
+    def test_another_shell(self):
+        self.expect_failure(["completion", "csh"], 2, "tidemark: error: SHELL: give bash or zsh or fish or words, not 'csh'")
+
+    def test_what_a_scene_names(self):
+        self.write("wave.glsl", SCENE)
+        self.assertEqual(self.completed("capture", "wave.glsl", "--set", "h"), {"height=", "hue="})
+        self.assertEqual(self.completed("study", "wave.glsl", "--define", "S"), {"STEPS="})
+        self.assertEqual(self.completed("capture", "none.glsl", "--set", "h"), set())
+        self.write("broken.glsl", "#include \"none.glsl\"")
+        self.assertEqual(self.completed("capture", "broken.glsl", "--set", "h"), set())
+
+    def test_values(self):
+        self.assertEqual(self.completed("check", "--probe", "no_"), {"no_nan"})
+        self.assertEqual(self.completed("capture", "--precision", "d"), {"double"})
+        self.assertEqual(self.completed("inspect", "--device", "au"), {"auto"})
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
+    def test_fish(self):
+        self.write("wave.glsl", SCENE)
+        line = ('tidemark completion fish | source; complete -C "tidemark capt"; '
+                'complete -C "tidemark capture wave.glsl --set hu"')
+        done = subprocess.run(["fish", "--no-config", "-c", line], cwd=self.folder, capture_output=True, text=True,
+                              env=WITH_PROGRAM)
+        self.assertEqual((done.stdout.split(), done.stderr), (["capture", "hue="], ""))
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
+    def test_zsh(self):
+        line = ("autoload -Uz compinit; compinit -u -d dump; source <(tidemark completion zsh); print $_comps[tidemark]; "
+                "compadd() { while [[ $1 != -- ]]; do shift; done; print -- ${@[2,-1]}; }; _files() {}; "
+                "words=(tidemark check --probe no_); CURRENT=4; _tidemark")
+        done = subprocess.run(["zsh", "-fc", line], cwd=self.folder, capture_output=True, text=True, env=WITH_PROGRAM)
+        self.assertEqual((done.stdout.split(), done.stderr), (["_tidemark", "no_nan"], ""))
 
     def test_files(self):
         self.write("wave.glsl", "")

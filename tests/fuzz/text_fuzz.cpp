@@ -44,13 +44,13 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::map<std::string, std::string> files;
     for (char name = 'a'; name <= 'z' && !text.empty(); ++name)
         files[std::string(1, name)] = cut(text, '\f');
-    const auto expanded =
-        text::expand_includes("a", [&](const std::filesystem::path& path) -> Result<std::string> {
-            const auto found = files.find(path.string());
-            if (found == files.end())
-                return fail(ErrorCode::load, "no such file");
-            return found->second;
-        });
+    const auto read = [&](const std::filesystem::path& path) -> Result<std::string> {
+        const auto found = files.find(path.string());
+        if (found == files.end())
+            return fail(ErrorCode::load, "no such file");
+        return found->second;
+    };
+    const auto expanded = text::expand_includes("a", read, "");
     if (!expanded) {
         REQUIRE(!to_string(expanded.error()).empty());
         return 0;

@@ -1,5 +1,8 @@
+#include "base/file.hpp"
+#include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help/man_page.hpp"
 #include "cli/help/pages.hpp"
 #include "cli/help/topics.hpp"
 
@@ -37,13 +40,32 @@ Result<int> help(const std::string& name) {
                                                               : fmt::format("did you mean '{}'?", nearest)));
 }
 
+/// One page a command, and that of the program.
+Result<int> write_man_pages(const CLI::App& program, const std::filesystem::path& folder) {
+    TRY(make_folder(folder));
+    std::vector<const CLI::App*> all = program.get_subcommands({});
+    all.push_back(&program);
+    for (const CLI::App* command : all) {
+        const ManPage page = man_page(*command);
+        TRY(write_file(folder / (page.name + ".1"), page.roff));
+    }
+    return 0;
+}
+
 } // namespace
 
 void add_help(CLI::App& app, Action& chosen) {
     auto topic = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "Prints a section of the manual, or the list of them");
     command->add_option("TOPIC", *topic, "A section, as in keys, recordings, directives, check");
-    command->callback([topic, &chosen] { chosen = [topic] { return help(*topic); }; });
+    auto folder = std::make_shared<std::string>();
+    command->add_option("--man", *folder, "Writes a page for man(1) on every command into that folder")
+        ->type_name("FOLDER");
+    command->callback([topic, folder, &app, &chosen] {
+        chosen = [topic, folder, &app] {
+            return folder->empty() ? help(*topic) : write_man_pages(app, *folder);
+        };
+    });
 }
 
 } // namespace tidemark::cli

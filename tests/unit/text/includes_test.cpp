@@ -13,12 +13,13 @@ using Files = std::map<std::string, std::string>;
 
 /// Expands "main.glsl" of files that are nowhere but here.
 Result<ExpandedText> expand(const Files& files, const std::string& path = "main.glsl") {
-    return expand_includes(path, [&](const std::filesystem::path& wanted) -> Result<std::string> {
+    const auto read = [&](const std::filesystem::path& wanted) -> Result<std::string> {
         const auto found = files.find(wanted.string());
         if (found == files.end())
             return fail(ErrorCode::load, "cannot read '" + wanted.string() + "': no such file");
         return found->second;
-    });
+    };
+    return expand_includes(path, read, "/library");
 }
 
 /// Each line behind the place where it was written, as `main.glsl:1|text`.
@@ -101,8 +102,23 @@ TEST(Includes, in_comments_are_not_followed) {
               "main.glsl:4|*/\n");
 }
 
+TEST(Includes, in_angle_brackets_are_files_of_the_library) {
+    const auto expanded = expand({{"scenes/main.glsl", "#include <tidemark/b.glsl> // b\nd\n"},
+                                  {"/library/b.glsl", "b\n#include \"deep/c.glsl\""},
+                                  {"/library/deep/c.glsl", "#include <tidemark/e.glsl>"},
+                                  {"/library/e.glsl", "e\n"}},
+                                 "scenes/main.glsl");
+    EXPECT_EQ(listed(expanded), "/library/b.glsl:1|b\n"
+                                "/library/e.glsl:1|e\n"
+                                "scenes/main.glsl:1| // b\n"
+                                "scenes/main.glsl:2|d\n");
+    EXPECT_EQ(listed(expand({{"main.glsl", "#include <tidemark/no.glsl>"}})),
+              "main.glsl:1: error: cannot read '/library/no.glsl': no such file");
+}
+
 TEST(Includes, of_other_forms_are_left_for_the_driver) {
-    const std::string text = "#include <no>\n#include NAME\na #include \"no\"\n#include\n#";
+    const std::string text = "#include <no>\n#include <tidemark/no\n>\n#include "
+                             "<other/tidemark/no>\n#include NAME\na #include \"no\"\n#include\n#";
     const auto expanded = expand({{"main.glsl", text}});
     ASSERT_TRUE(expanded);
     EXPECT_EQ(expanded->text.text(), text + "\n");

@@ -1,0 +1,15 @@
+// Where the program and what comes with it lie: in a build folder, and as installed.
+#pragma once
+
+#include <filesystem>
+
+namespace tidemark {
+
+/// The folder of the program that runs, links followed.
+std::filesystem::path program_folder();
+
+/// The shader library, which `#include <tidemark/…>` reads: shaders/lib beside the program, else where it
+/// is installed (which need not be there).
+std::filesystem::path library_folder();
+
+} // namespace tidemark

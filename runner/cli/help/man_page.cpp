@@ -1,0 +1,106 @@
+#include "cli/help/man_page.hpp"
+
+#include "cli/help/pages.hpp"
+#include "cli/help/topics.hpp"
+#include "cli/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace tidemark::cli {
+namespace {
+
+/// Text as roff takes it: its own signs escaped, no line a request.
+std::string plain(std::string_view text) {
+    std::string roff;
+    for (const char c : text) {
+        if ((roff.empty() || roff.back() == '\n') && (c == '.' || c == '\''))
+            roff += "\\&";
+        if (c == '\\')
+            roff += "\\e";
+        else if (c == '-')
+            roff += "\\-";
+        else
+            roff += c;
+    }
+    return roff;
+}
+
+/// "tidemark bake noise", its words joined by `glue`.
+std::string words_of(const CLI::App& command, std::string_view glue) {
+    const CLI::App* parent = command.get_parent();
+    return parent ? fmt::format("{}{}{}", words_of(*parent, glue), glue, command.get_name())
+                  : command.get_name();
+}
+
+std::string synopsis(const CLI::App& command) {
+    std::string line = fmt::format("\\fB{}\\fR", plain(words_of(command, " ")));
+    if (!command.get_subcommands({}).empty())
+        return line + " \\fICOMMAND\\fR";
+    line += " [\\fIOPTION\\fR]...";
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_positional())
+            line += fmt::format(fmt::runtime(option->get_required() ? " \\fI{}\\fR" : " [\\fI{}\\fR]"),
+                                plain(option->get_name(true)));
+    return line;
+}
+
+/// Each as --help has it: the name, the value, the meaning.
+std::string options(const CLI::App& command) {
+    const CLI::Formatter words;
+    std::string roff;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_group().empty())
+            continue;
+        const bool positional = option->get_positional() && !option->nonpositional();
+        roff += fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", plain(words.make_option_name(option, positional)),
+                            plain(words.make_option_opts(option)), plain(words.make_option_desc(option)));
+    }
+    return roff;
+}
+
+std::string commands(const CLI::App& program) {
+    std::string roff = ".SH COMMANDS\n";
+    for (const CLI::App* command : program.get_subcommands({}))
+        roff += fmt::format(".TP\n\\fB{}\\fR(1)\n{}\n", plain(words_of(*command, "-")),
+                            plain(command->get_description()));
+    return roff;
+}
+
+std::string inner_commands(const CLI::App& command) {
+    std::string roff;
+    for (const CLI::App* inner : command.get_subcommands({}))
+        roff += fmt::format(".SH {}\n{}\n.PP\n{}\n{}", plain(words_of(*inner, " ")),
+                            plain(inner->get_description()), synopsis(*inner), options(*inner));
+    return roff;
+}
+
+/// The section of the manual, less its heading, line by line.
+std::string exit_codes() {
+    for (const Topic& topic : topics_of(help_pages())) {
+        if (topic.name != "exit-codes")
+            continue;
+        const std::string text = plain_text(topic.markdown);
+        return fmt::format(".SH EXIT STATUS\n.nf\n{}.fi\n", plain(text.substr(text.find('\n') + 1)));
+    }
+    return "";
+}
+
+} // namespace
+
+ManPage man_page(const CLI::App& command) {
+    const bool whole = command.get_parent() == nullptr;
+    const std::string name = words_of(command, "-");
+    std::string roff =
+        fmt::format(".TH \"{}\" 1 \"\" \"Tidemark {}\" \"User Commands\"\n", plain(name), k_version);
+    roff += fmt::format(".SH NAME\n{} \\- {}\n", plain(name), plain(command.get_description()));
+    roff += fmt::format(".SH SYNOPSIS\n{}\n", synopsis(command));
+    roff += ".SH OPTIONS\n" + options(command);
+    roff += whole ? commands(command) : inner_commands(command);
+    roff += exit_codes();
+    roff += fmt::format(".SH SEE ALSO\n{}The whole manual: \\fBtidemark help\\fR.\n",
+                        whole ? "" : "\\fBtidemark\\fR(1). ");
+    return {name, std::move(roff)};
+}
+
+} // namespace tidemark::cli

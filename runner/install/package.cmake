@@ -1,0 +1,41 @@
+# The Debian package: `cpack` in the build folder, or `./dev package`, which tries it too.
+set(changelog ${CMAKE_CURRENT_SOURCE_DIR}/changelog)
+set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
+file(MAKE_DIRECTORY ${documents})
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${changelog} ${PROJECT_SOURCE_DIR}/LICENSE)
+
+# The changelog is in Debian's form, because dpkg's tools read it; its first line says whose it is.
+file(STRINGS ${changelog} newest LIMIT_COUNT 1)
+if(NOT newest MATCHES "^tidemark \\(${PROJECT_VERSION}\\) ")
+  message(FATAL_ERROR "runner/install/changelog does not say what is new in ${PROJECT_VERSION}")
+endif()
+file(STRINGS ${changelog} maintainer REGEX "^ -- " LIMIT_COUNT 1)
+string(REGEX REPLACE "^ -- (.*>)  .*" "\\1" maintainer "${maintainer}")
+execute_process(COMMAND gzip -9nc INPUT_FILE ${changelog}
+  OUTPUT_FILE ${documents}/changelog.gz COMMAND_ERROR_IS_FATAL ANY)
+
+# LICENSE as a field of a file of fields: indented, with a dot for an empty line.
+file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
+string(STRIP "${license}" license)
+string(REPLACE "\n\n" "\n.\n" license "${license}")
+string(REPLACE "\n" "\n " license " ${license}")
+configure_file(copyright.in ${documents}/copyright @ONLY)
+install(FILES ${documents}/copyright ${documents}/changelog.gz DESTINATION share/doc/tidemark)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "${maintainer}")
+set(CPACK_PACKAGE_DESCRIPTION "Tidemark opens a ShaderToy shader in a window and reloads it on save,
+captures the same frames each time without a display, and measures what
+other hosts leave open: how wrong a picture is for the time it took, and
+where its numbers break.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+# What program and plug-ins are linked with is found by dpkg-shlibdeps; the rest they load when it is needed.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libasound2, libgl1-mesa-dri, libsndfile1")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox")
+include(CPack)
