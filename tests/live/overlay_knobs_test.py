@@ -3,7 +3,7 @@ import re
 
 from support import png, probe
 from support.live import main, wait_for
-from support.overlay import OverlayTest, OverlayView
+from support.overlay import OverlayTest
 
 KNOBS = ["#iUniform float height = 0.5 in { 0.0, 2.0 } step 0.1",
          "#iUniform color3 deep = color3(0.25, 0.5, 1.0)",
@@ -18,18 +18,10 @@ SIZES = (("640x360", 1), ("900x600", 1), ("500x300", 2), ("400x250", 2))
 
 
 class Knobs(OverlayTest):
-    def open_controls(self, *options: str, size: str = "640x360", scale: int = 1, scene: str = SCENE) -> OverlayView:
-        self.write("a.glsl", scene)
-        view = self.open("a.glsl", "--size", size, *options, scale=scale)
-        before = view.picture()[:40 * scale]
-        view.key("Tab")
-        wait_for(lambda: view.picture()[:40 * scale] != before, "the controls")  # the bar of time comes first
-        return view
-
     def test_a_slider_keeps_its_range_and_step(self):
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):
-                view = self.open_controls(size=size, scale=scale)
+                view = self.open_controls(SCENE, size=size, scale=scale)
                 view.drag_row(HEIGHT, 0.1, 0.3)
                 told = view.wait_until_told(VALUES, lambda told: told["height"] != 0.5)
                 self.assertAlmostEqual(told["height"], round(told["height"], 1), 6)
@@ -39,7 +31,7 @@ class Knobs(OverlayTest):
                 view.close()
 
     def test_each_kind_has_its_widget(self):
-        view = self.open_controls()
+        view = self.open_controls(SCENE)
         view.click_row(ON, 0.03)
         view.wait_until_told(VALUES, lambda told: told["on"] == 0)
         view.drag_row(SHIFT, 0.1, 0.2)
@@ -50,12 +42,12 @@ class Knobs(OverlayTest):
         view.wait_until_told(VALUES, lambda told: told["red"] > 0.25)
 
     def test_events_elsewhere_are_the_scenes(self):
-        view = self.open_controls()
+        view = self.open_controls(SCENE)
         view.drag((500, 300), (450, 280))
         view.wait_until_told(VALUES, lambda told: told["mouse"] == 450)
 
     def test_a_number_is_typed(self):
-        view = self.open_controls()
+        view = self.open_controls(SCENE)
         self.screen.xdotool("keydown", "ctrl")
         view.click_row(HEIGHT, 0.3)
         self.screen.xdotool("keyup", "ctrl")
@@ -77,7 +69,7 @@ class Knobs(OverlayTest):
         wait_for(lambda: view.picture() == plain, "the picture without the panel")
 
     def test_reset_copy_and_write(self):
-        view = self.open_controls()
+        view = self.open_controls(SCENE)
         view.drag_row(HEIGHT, 0.3, 0.9)
         view.click_row(ON, 0.03)
         view.wait_until_told(VALUES, lambda told: told["height"] == 2 and told["on"] == 0)
@@ -95,7 +87,7 @@ class Knobs(OverlayTest):
         view.wait_until_told(VALUES, lambda told: told["height"] == 0.5)
 
     def test_an_edited_default_moves_what_nobody_turned(self):
-        view = self.open_controls("--set", "free=3")
+        view = self.open_controls(SCENE, "--set", "free=3")
         view.drag_row(HEIGHT, 0.3, 0.9)
         view.wait_until_told(VALUES, lambda told: told["height"] == 2 and told["free"] == 3)
         self.write("a.glsl", SCENE.replace("height = 0.5", "height = 0.7").replace("free = 12.0", "free = 13.0"))
@@ -104,7 +96,7 @@ class Knobs(OverlayTest):
         view.wait_for_words(r"^free is 13 now, as the file says: --set free=3 is over$")
 
     def test_a_thousand_moves_are_replayed_to_the_same_bytes(self):
-        view = self.open_controls("--record", "take.txt", "--fps", "30")
+        view = self.open_controls(SCENE, "--record", "take.txt", "--fps", "30")
         view.point(*view.at(40, 66))
         view.button(1, True)
         moves = [f"mousemove --window {view.window} {20 + (7 * i) % 180} 66" for i in range(1000)]

@@ -1,7 +1,7 @@
 """The rest of the window's overlay: help, definitions, pictures of passes; and that none of it is there unasked."""
 from support import probe
 from support.live import main, wait_for
-from support.overlay import OverlayTest, OverlayView
+from support.overlay import OverlayTest
 
 TOLD = {"steps": "float(STEPS)", "gain": "GAIN", "level": "level", "time": "iTime"}
 SCENE = probe.shader(TOLD, "#iUniform float level = 0.5 in { 0.0, 1.0 }\n#define STEPS 8\nconst float GAIN = 0.5;\n"
@@ -12,15 +12,6 @@ RED, GREEN = bytes((255, 0, 0)), bytes((0, 255, 0))
 
 
 class Overlay(OverlayTest):
-    def open_controls(self, scene: str, *options: str, size: str = "640x360", scale: int = 1) -> OverlayView:
-        self.write("a.glsl", scene)
-        view = self.open("a.glsl", "--size", size, *options, scale=scale)
-        top = 40 * scale
-        before = view.picture()[:top]
-        view.key("Tab")
-        wait_for(lambda: view.picture()[:top] != before, "the controls")
-        return view
-
     def test_definitions_are_fields(self):
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):

@@ -2,8 +2,8 @@
 import re
 
 from support import probe
-from support.live import main, wait_for
-from support.overlay import LOOP_FROM, LOOP_TO, PAUSE, RESTART, SPEED_BEGIN, SPEED_END, OverlayTest, OverlayView
+from support.live import main
+from support.overlay import LOOP_FROM, LOOP_TO, PAUSE, RESTART, SPEED_BEGIN, SPEED_END, OverlayTest
 
 CLOCK = {"iTime": "iTime", "iFrame": "float(iFrame)"}
 COUNTED = CLOCK | {"count": "texelFetch(iChannel0, ivec2(0), 0).r"}
@@ -12,18 +12,10 @@ SIZES = (("640x360", 1), ("900x600", 1), ("500x300", 2), ("400x250", 2))
 
 
 class Time(OverlayTest):
-    def open_bar(self, scene: str, *options: str, size: str = "640x360", scale: int = 1) -> OverlayView:
-        self.write("a.glsl", scene)
-        view = self.open("a.glsl", "--size", size, *options, scale=scale)
-        before = view.picture()[:40 * scale]  # the panel of controls is there
-        view.key("Tab")
-        wait_for(lambda: view.picture()[:40 * scale] != before, "the controls")
-        return view
-
     def test_scrub_and_pause(self):
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):
-                view = self.open_bar(probe.shader(CLOCK), size=size, scale=scale)
+                view = self.open_controls(probe.shader(CLOCK), size=size, scale=scale)
                 view.click_bar(PAUSE)
                 view.wait_for_title(" - paused at ")
                 view.drag_bar(view.scrubber(0.2), view.scrubber(0.75))
@@ -34,13 +26,13 @@ class Time(OverlayTest):
                 view.close()
 
     def test_go_to_a_number(self):
-        view = self.open_bar(probe.shader(CLOCK))
+        view = self.open_controls(probe.shader(CLOCK))
         view.click_bar(PAUSE)
         view.type_time("42.5")
         self.assertEqual(view.wait_until_told(CLOCK, lambda told: told["iTime"] == 42.5)["iFrame"], 2550)
 
     def test_speed_and_backwards(self):
-        view = self.open_bar(probe.shader(CLOCK))
+        view = self.open_controls(probe.shader(CLOCK))
         view.type_time("42.5")
         view.wait_until_told(CLOCK, lambda told: told["iTime"] > 42.5)
         view.drag_bar(150, SPEED_BEGIN)
@@ -50,7 +42,7 @@ class Time(OverlayTest):
         view.wait_until_told(CLOCK, lambda told: told["iTime"] > low + 1)
 
     def test_loop(self):
-        view = self.open_bar(probe.shader(CLOCK))
+        view = self.open_controls(probe.shader(CLOCK))
         view.click_bar(PAUSE)
         for seconds, button in (("7", LOOP_FROM), ("7.25", LOOP_TO)):
             view.type_time(seconds)
@@ -64,7 +56,7 @@ class Time(OverlayTest):
 
     def test_feedback_is_stepped_to(self):
         self.write("count.glsl", COUNT.format(""))
-        view = self.open_bar(probe.shader(COUNTED, '#iChannel0 "count.glsl"'))
+        view = self.open_controls(probe.shader(COUNTED, '#iChannel0 "count.glsl"'))
         view.click_bar(PAUSE)
         for seconds in ("5", "3", "0"):
             view.type_time(seconds)
@@ -74,7 +66,7 @@ class Time(OverlayTest):
     def test_stepping_can_be_given_up(self):
         heavy = "; for (int i = 0; i < 4000; ++i) c.g += sin(c.r + float(i))"
         self.write("count.glsl", COUNT.format(heavy))
-        view = self.open_bar(probe.shader(COUNTED, '#iChannel0 "count.glsl"'), size="400x250")
+        view = self.open_controls(probe.shader(COUNTED, '#iChannel0 "count.glsl"'), size="400x250")
         view.type_time("4000")
         view.wait_for_title("stepping to frame ")
         view.key("Escape")
@@ -83,7 +75,7 @@ class Time(OverlayTest):
         self.assertEqual(told["count"], told["iFrame"] + 1)
 
     def test_a_recording_ends_where_time_goes_back_to(self):
-        view = self.open_bar("#iUniform float level = 0.5 in { 0.0, 1.0 }\n" + probe.shader(CLOCK), "--record", "take.txt")
+        view = self.open_controls("#iUniform float level = 0.5 in { 0.0, 1.0 }\n" + probe.shader(CLOCK), "--record", "take.txt")
         view.type_time("100")
         view.wait_until_told(CLOCK, lambda told: told["iFrame"] >= 6000)
         view.drag_row(1, 0.1, 0.4)

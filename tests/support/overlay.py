@@ -76,6 +76,16 @@ class OverlayView(View):
         place = self.place()
         return self.screen.rows(place["X"], place["Y"], place["WIDTH"], place["HEIGHT"] - 1)
 
+    def show_controls(self) -> None:
+        """Only their title's right part is looked at: shaders tell numbers on the left of every row."""
+        def title() -> list[bytes]:
+            rows = self.picture()[MARGIN * self.scale:(MARGIN + TITLE) * self.scale]
+            return [row[3 * PANEL_WIDTH // 2 * self.scale:3 * PANEL_WIDTH * self.scale] for row in rows]
+
+        before = title()
+        self.key("Tab")
+        wait_for(lambda: self.running() and title() != before, "the controls")
+
     def wait_for_change(self, before: list[bytes]) -> None:
         wait_for(lambda: self.running() and self.picture() != before, "another picture")
 
@@ -97,3 +107,10 @@ class OverlayTest(LiveTest):
         opened.scale = scale
         self.addCleanup(opened.close)
         return opened
+
+    def open_controls(self, text: str, *options: str, size: str = "640x360", scale: int = 1) -> OverlayView:
+        """A view of `a.glsl` with that text, and the panel of controls."""
+        self.write("a.glsl", text)
+        view = self.open("a.glsl", "--size", size, *options, scale=scale)
+        view.show_controls()
+        return view
