@@ -180,11 +180,7 @@ private:
                                         size_t offset) {
         if (operands.size() <= offset)
             return {access.first, access.first};
-        const auto [low, high] = system_.range(values_[operands[offset]]);
-        const auto inside = [&](int64_t at) {
-            return access.first + uint32_t(std::clamp<int64_t>(at, 0, access.size - 1));
-        };
-        return {inside(low), inside(high)};
+        return access.cells(system_.range(values_[operands[offset]]));
     }
     Number load(const Instruction& instruction, std::span<const Value> operands) {
         const auto [low, high] = cells(function_->accesses[instruction.immediate], operands, 0);

@@ -46,7 +46,7 @@ public:
 
 private:
     double near() {
-        const auto distance = slice_.distance(point_at(slice_.start()), Care::close);
+        const auto distance = slice_.distance(place_at(slice_.start()), Care::close);
         const bool known = distance && distance->low > 0;
         return std::min(k_near_part * length_, known ? distance->low : k_infinity);
     }
@@ -79,7 +79,7 @@ private:
     /// By the mean value theorem: the field falls no faster than the lowest slope, and as fast as the
     /// highest.
     Look by_slope(const Interval& cell, const Interval& slope) {
-        const auto here = slice_.distance(point_at(cell.low), Care::thorough);
+        const auto here = slice_.distance(place_at(cell.low), Care::thorough);
         if (!here || here->partial || !(here->low > 0))
             return {};
         if (slope.low >= 0)
@@ -100,15 +100,12 @@ private:
         return look.free > narrowest(cell.low) ? std::clamp(2 * look.free, width / 8, width / 2) : width / 4;
     }
 
-    /// Not one number: those are floats, and what floats make of them is rounded.
-    static Interval point_at(double at) { return {at, std::nextafter(at, k_infinity)}; }
-
     /// Somewhere from here on it is surely below the threshold, or that is not known.
     FirstHit at_narrow(const Interval& cell) {
         double reach = cell.width();
         for (int i = 0; i < k_doublings; ++i, reach *= 2) {
             const double end = std::min(cell.low + reach, last_);
-            if (slice_.is_hit(slice_.distance(point_at(end), Care::thorough)))
+            if (slice_.is_hit(slice_.distance(place_at(end), Care::thorough)))
                 return answer(FirstHit::Verdict::hit, {cell.low, end}, FirstHit::Reason::none);
         }
         const auto all = slice_.distance(cell, Care::thorough);

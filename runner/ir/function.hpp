@@ -4,9 +4,11 @@
 
 #include "ir/source_names.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tidemark::ir {
@@ -117,6 +119,14 @@ struct Instruction {
 struct Access {
     uint32_t first = 0; ///< cell
     uint32_t size = 1;  ///< an offset is clamped to it
+
+    /// The first and the last cell that an offset within those bounds may mean.
+    std::pair<uint32_t, uint32_t> cells(const std::pair<int64_t, int64_t>& offset) const {
+        const auto inside = [this](int64_t at) {
+            return first + uint32_t(std::clamp<int64_t>(at, 0, int64_t{size} - 1));
+        };
+        return {inside(offset.first), inside(offset.second)};
+    }
 };
 
 /// A variable that lives in memory.

@@ -39,6 +39,11 @@ enum class Care { quick, close, thorough };
 /// What counts as hit: where the loop's own test holds, or where the distance itself is below 0.
 enum class Surface { threshold, zero };
 
+/// A place on a ray that is not one number: those are floats, and what floats make of them is rounded.
+inline Interval place_at(double parameter) {
+    return {parameter, std::nextafter(parameter, k_infinity)};
+}
+
 /// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry.
 class MarchSlice {
 public:

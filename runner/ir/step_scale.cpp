@@ -83,8 +83,8 @@ private:
     }
 
     void sample(double at) {
-        const auto distance = slice_.distance({at, std::nextafter(at, k_infinity)}, Care::close);
-        const auto above = slice_.above_threshold({at, std::nextafter(at, k_infinity)}, Care::close);
+        const auto distance = slice_.distance(place_at(at), Care::close);
+        const auto above = slice_.above_threshold(place_at(at), Care::close);
         if (!distance || !above || distance->partial || !(above->low > 0) || !(distance->low > 0))
             return;
         const double needed = (hit_.high - at) / distance->low;

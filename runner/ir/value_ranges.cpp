@@ -429,11 +429,7 @@ private:
         const Access& access = function_.accesses[instruction.immediate];
         if (operands.size() <= offset)
             return {access.first, access.first};
-        const auto [low, high] = IntervalSystem::range(values_[operands[offset]]);
-        const auto inside = [&](int64_t at) {
-            return access.first + uint32_t(std::clamp<int64_t>(at, 0, access.size - 1));
-        };
-        return {inside(low), inside(high)};
+        return access.cells(IntervalSystem::range(values_[operands[offset]]));
     }
 
     void load(Value value, const Instruction& instruction, std::span<const Value> operands) {

@@ -128,8 +128,7 @@ constexpr double k_rounded = 1.001;
 void add_own(ir::MarchSlice& slice, const ir::March& march, std::vector<double>& scales) {
     for (size_t i = 0; i + 1 < march.turns.size(); ++i) {
         const double at = slice.parameter(march.turns[i]);
-        const auto distance =
-            slice.distance(ir::Interval{at, std::nextafter(at, ir::k_infinity)}, ir::Care::close);
+        const auto distance = slice.distance(ir::place_at(at), ir::Care::close);
         if (distance && distance->low > 0)
             scales.push_back((slice.parameter(march.turns[i + 1]) - at) * slice.unit() / distance->low);
     }
@@ -176,9 +175,9 @@ Result<Scales> scales_of(ProbeBench& bench, const PassFunction& function) {
     for (const double moment : k_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
-        const MarchRays rays({function, renderer, image, render::inputs_of(state)}, ir::Surface::zero);
+        const MarchRays rays({function, renderer, image, render::inputs_of(state)});
         look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) -> uint64_t {
-            auto ray = rays.enter(pixel);
+            auto ray = rays.enter(pixel, ir::Surface::zero);
             const bool marches = ray && ray->slice && !ray->march.turns.empty();
             return marches ? add(*ray, pixel, state, scales) : 0;
         });

@@ -6,15 +6,15 @@
 
 namespace tidemark::lab {
 
-MarchRays::MarchRays(DrawnPass drawn, ir::Surface surface)
-    : drawn_(std::move(drawn)), surface_(surface), textures_(textures_of(drawn_.renderer, drawn_.pass)),
+MarchRays::MarchRays(DrawnPass drawn)
+    : drawn_(std::move(drawn)), textures_(textures_of(drawn_.renderer, drawn_.pass)),
       floats_(drawn_.function.frame<float>(drawn_.renderer, drawn_.pass, drawn_.inputs)),
       doubles_(drawn_.function.frame<double>(drawn_.renderer, drawn_.pass, drawn_.inputs)) {
     floats_.textures = ir::textures_in<ir::Point<float>>(textures_);
     doubles_.textures = ir::textures_in<ir::Point<double>>(textures_);
 }
 
-std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel) const {
+std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel, ir::Surface surface) const {
     const PassFunction& function = drawn_.function;
     ir::FloatEvaluator in_float = floats_;
     ir::PointEvaluator<double> in_double = doubles_;
@@ -33,7 +33,7 @@ std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel) const {
     ray.march = ir::follow(in_float, function.function(), loop);
     if (ir::is_faithful(loop, entered, ray.march))
         ray.slice.emplace(function.function(), loop, in_double, ir::textures_in<ir::Interval>(textures_),
-                          surface_);
+                          surface);
     return ray;
 }
 

@@ -28,7 +28,7 @@ struct MarchRay {
 
 class MarchRays {
 public:
-    MarchRays(DrawnPass drawn, ir::Surface surface);
+    explicit MarchRays(DrawnPass drawn);
     MarchRays(const MarchRays&) = delete;
     MarchRays& operator=(const MarchRays&) = delete;
 
@@ -36,11 +36,10 @@ public:
     const PassFunction& function() const { return drawn_.function; }
 
     /// Nothing where it enters no loop. Any number of threads may ask.
-    std::optional<MarchRay> enter(glm::ivec2 pixel) const;
+    std::optional<MarchRay> enter(glm::ivec2 pixel, ir::Surface surface) const;
 
 private:
     DrawnPass drawn_;
-    ir::Surface surface_;
     ir::TextureSet textures_;
     ir::FloatEvaluator floats_;
     ir::PointEvaluator<double> doubles_;

@@ -20,9 +20,9 @@ constexpr size_t k_pilot = 64;
 constexpr ir::Interval k_miss{-1, -1};
 
 /// The interval of the first hit; of a ray that has none k_miss; nothing where it is not known.
-std::optional<ir::Interval> hit_of(const MarchRays& rays, size_t number) {
+std::optional<ir::Interval> hit_of(const MarchRays& rays, size_t number, ir::Surface surface) {
     const int width = rays.extent().width;
-    auto ray = rays.enter({int(number) % width, int(number) / width});
+    auto ray = rays.enter({int(number) % width, int(number) / width}, surface);
     if (!ray || (ray->slice && ray->march.turns.empty()))
         return k_miss;
     if (!ray->slice)
@@ -42,26 +42,30 @@ std::optional<ir::Interval> hit_of(const MarchRays& rays, size_t number) {
 using Found = std::vector<std::optional<ir::Interval>>;
 
 /// The first few rays, and how many seconds one takes.
-double pilot(const MarchRays& rays, Found& found) {
-    const size_t pixels = rays.extent().pixels();
-    const auto start = std::chrono::steady_clock::now();
-    while (found.size() < std::min(k_pilot, pixels))
-        found.push_back(hit_of(rays, spread(found.size(), pixels)));
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-           double(found.size());
-}
+struct Pilot {
+    ir::Surface surface;
+    Found found{};
+    double seconds = 0;
 
-size_t hits_in(const Found& found) {
-    return size_t(
-        std::ranges::count_if(found, [](const auto& each) { return each && each->low != k_miss.low; }));
-}
+    Pilot(const MarchRays& rays, ir::Surface which) : surface(which) {
+        const size_t pixels = rays.extent().pixels();
+        const auto start = std::chrono::steady_clock::now();
+        while (found.size() < std::min(k_pilot, pixels))
+            found.push_back(hit_of(rays, spread(found.size(), pixels), surface));
+        const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+        seconds = all.count() / double(found.size());
+    }
 
-/// Zeros, unless most of what falls below the threshold has none.
-ir::Surface surface_of(const DrawnPass& drawn) {
-    Found zeros, places;
-    pilot(MarchRays(drawn, ir::Surface::zero), zeros);
-    pilot(MarchRays(drawn, ir::Surface::threshold), places);
-    return 2 * hits_in(zeros) < hits_in(places) ? ir::Surface::threshold : ir::Surface::zero;
+    size_t hits() const {
+        return size_t(
+            std::ranges::count_if(found, [](const auto& each) { return each && each->low != k_miss.low; }));
+    }
+};
+
+/// Of zeros, unless most of what falls below the threshold has none.
+Pilot pilot_of(const MarchRays& rays) {
+    Pilot zeros(rays, ir::Surface::zero), places(rays, ir::Surface::threshold);
+    return 2 * zeros.hits() < places.hits() ? places : zeros;
 }
 
 TrueHits truth_of(const Found& found, size_t pixels, ir::Surface surface) {
@@ -87,19 +91,18 @@ TrueHits truth_of(const Found& found, size_t pixels, ir::Surface surface) {
 } // namespace
 
 std::optional<TrueHits> true_hits(const DrawnPass& drawn, double seconds, const KeepGoing& keep_going) {
-    const ir::Surface surface = surface_of(drawn);
-    const MarchRays rays(drawn, surface);
+    const MarchRays rays(drawn);
     const size_t pixels = rays.extent().pixels();
-    Found found;
-    const double one = pilot(rays, found);
-    const double affordable = seconds * std::max(1u, std::thread::hardware_concurrency()) / one;
+    Pilot pilot = pilot_of(rays);
+    Found& found = pilot.found;
+    const double affordable = seconds * std::max(1u, std::thread::hardware_concurrency()) / pilot.seconds;
     const auto every = size_t(std::ceil(std::max(1.0, double(pixels) / affordable)));
     const size_t first = found.size();
     found.resize(std::max(first, pixels / every));
     const bool complete = on_all_cores(found.size() - first, keep_going, [&](size_t i) {
-        found[first + i] = hit_of(rays, spread(first + i, pixels));
+        found[first + i] = hit_of(rays, spread(first + i, pixels), pilot.surface);
     });
-    return complete ? std::optional(truth_of(found, pixels, surface)) : std::nullopt;
+    return complete ? std::optional(truth_of(found, pixels, pilot.surface)) : std::nullopt;
 }
 
 } // namespace tidemark::lab
