@@ -34,7 +34,7 @@ ROOMS = {
     "live": {"": ["plugin"], "plugin": [""]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
-    "lab": {"": [], "march": [""], "study": ["", "march"], "trace": [], "pixel": ["march"],
+    "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "trace": [], "pixel": ["march"],
             "check": ["", "march", "trace"]},
     "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""]},
 }

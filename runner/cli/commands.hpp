@@ -31,6 +31,7 @@ void add_compare(CLI::App& app, Action& chosen);
 void add_study(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);
 void add_help(CLI::App& app, Action& chosen);
+void add_tune(CLI::App& app, Action& chosen);
 void add_trace(CLI::App& app, Action& chosen);
 void add_view(CLI::App& app, Action& chosen);
 

@@ -104,6 +104,20 @@ auto texts_of(AScene& scene) {
     return texts;
 }
 
+/// What gives NAME that value wherever the tokens define it; whatever else they define goes to `others`.
+std::vector<text::Edit> edits_of(const std::vector<Token>& tokens, std::string_view name,
+                                 std::string_view value, std::vector<std::string>& others) {
+    std::vector<text::Edit> edits;
+    for (const Definition& definition : find_definitions(tokens)) {
+        if (definition.name == name)
+            edits.push_back(
+                {definition.begin, definition.end, (definition.separate ? " " : "") + std::string(value)});
+        else if (std::find(others.begin(), others.end(), definition.name) == others.end())
+            others.emplace_back(definition.name);
+    }
+    return edits;
+}
+
 constexpr int k_longest_chain = 32; ///< of names that stand for names, which may go round
 
 std::optional<std::string> value_of(const std::vector<NamedText>& definitions, std::string_view name) {
@@ -169,21 +183,20 @@ Result<void> override_definition(scene::Scene& scene, std::string_view setting) 
     std::vector<std::string> names;
     bool replaced = false;
     for (text::MappedText* mapped : texts_of(scene)) {
-        const auto tokens = text::tokenize(mapped->text());
-        std::vector<text::Edit> edits;
-        for (const Definition& definition : find_definitions(tokens)) {
-            if (definition.name == name)
-                edits.push_back({definition.begin, definition.end,
-                                 (definition.separate ? " " : "") + std::string(value)});
-            else if (std::find(names.begin(), names.end(), definition.name) == names.end())
-                names.emplace_back(definition.name);
-        }
+        const auto edits = edits_of(text::tokenize(mapped->text()), name, value, names);
         replaced = replaced || !edits.empty();
         mapped->apply(edits);
     }
     if (!replaced)
         return fail(no_such_definition(name, std::move(names)));
     return {};
+}
+
+void override_definition(std::string& text, const scene::Setting& setting) {
+    std::vector<std::string> others;
+    const auto edits = edits_of(text::tokenize(text), setting.name, setting.value, others);
+    for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
+        text.replace(edit->begin, edit->end - edit->begin, edit->replacement);
 }
 
 } // namespace tidemark::glsl

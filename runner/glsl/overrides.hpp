@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
+#include "scene/setting.hpp"
 
 #include <optional>
 #include <string>
@@ -31,5 +32,8 @@ std::optional<std::string> definition_of(const scene::Scene& scene, std::string_
 /// Rewrites every definition of NAME in Common and every pass. The error (ErrorCode::usage) names the nearest
 /// definition there is. Macros with parameters and values over several lines are left alone.
 Result<void> override_definition(scene::Scene& scene, std::string_view setting);
+
+/// The same in the text of one file, if it defines NAME.
+void override_definition(std::string& text, const scene::Setting& setting);
 
 } // namespace tidemark::glsl

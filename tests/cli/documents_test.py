@@ -19,7 +19,7 @@ DIRECTIVES = ROOT / "runner" / "scene" / "README.md"
 ROOMS = ROOT / "runner" / "README.md"
 HELP_PAGES = [ROOT / name / "README.md" for name in (
     "runner/cli", "runner/cli/capture", "runner/cli/view", "runner/scene", "runner/lab", "runner/lab/check",
-    "runner/lab/study", "runner/lab/pixel", "shaders")]
+    "runner/lab/study", "runner/lab/tune", "runner/lab/pixel", "shaders")]
 
 # Commands of the pages that are not run: they open a window, or take what no test machine can give.
 NOT_RUN = (
@@ -27,11 +27,12 @@ NOT_RUN = (
     r"tidemark view ",
 )
 # Commands whose words are times, which differ from run to run.
-NOT_COMPARED = (r"tidemark study ",)
+NOT_COMPARED = (r"tidemark (study|tune) ",)
 # Options that make a command of a page small, where it has none of its own.
 SMALL = {
     "capture": ("--size", "64x36"),
     "study": ("--size", "32x18", "--budget", "1"),
+    "tune": ("--size", "32x18", "--for", "4"),
 }
 PATIENT = ("--budget", "900")  # a busy machine cuts no probe
 SHORTER = ((r"\b0-299\b", "0-2"), (r"\b30000x20000\b", "300x200"))

@@ -1,6 +1,6 @@
 // What rays met, of scenes whose hits are known: steps that were too long, and too many of them.
 #include "base/try.hpp"
-#include "lab/check/defined_numbers.hpp"
+#include "lab/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
 

@@ -3,7 +3,7 @@
 // camera_position.
 #include "base/try.hpp"
 #include "image/census.hpp"
-#include "lab/check/defined_numbers.hpp"
+#include "lab/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
 

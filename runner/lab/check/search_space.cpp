@@ -1,6 +1,6 @@
 #include "lab/check/search_space.hpp"
 
-#include "lab/check/defined_numbers.hpp"
+#include "lab/defined_numbers.hpp"
 
 #include <algorithm>
 #include <cmath>

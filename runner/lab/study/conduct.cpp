@@ -3,7 +3,7 @@
 #include "base/try.hpp"
 #include "gl/capabilities.hpp"
 #include "glsl/hit.hpp"
-#include "glsl/overrides.hpp"
+#include "lab/own_numbers.hpp"
 #include "lab/study/curves.hpp"
 #include "lab/study/outcome.hpp"
 #include "lab/study/stricter.hpp"
@@ -16,18 +16,6 @@
 
 namespace tidemark::lab {
 namespace {
-
-/// The scene's own numbers by name, but those of the files that it includes: definitions, then knobs.
-std::vector<Setting> numbers_of(const scene::Scene& scene) {
-    const bool bare = scene.image().bare_file;
-    std::vector<Setting> numbers;
-    for (const glsl::NamedText& definition : glsl::definitions_of(scene))
-        if (number_of(definition.text) && (!bare || definition.file == scene.file.string()))
-            numbers.push_back({definition.name, definition.text});
-    for (const scene::Knob& knob : scene.knobs)
-        numbers.push_back({knob.name, scene::to_string(knob)});
-    return numbers;
-}
 
 class Conductor {
 public:
@@ -91,7 +79,7 @@ private:
         const std::vector<std::string> names = set_names(set());
         for (const std::string& name : names)
             set().scene_values.push_back({name, value_of(scene_, name)});
-        set().held = numbers_of(scene_);
+        set().held = own_numbers(scene_);
         std::erase_if(set().held, [&](const Setting& setting) {
             return std::ranges::find(names, setting.name) != names.end();
         });
@@ -126,6 +114,10 @@ private:
 
     /// What rays really meet, as far as the text proves it.
     Result<void> prove_hits() {
+        if (!(study().proof_seconds > 0)) {
+            why_no_proof_ = "none was asked for";
+            return {};
+        }
         watch_.begin("rays proved", 1);
         auto proved = TRY(proved_hits(scene_, study(), [this] { return going(); }));
         watch_.advance();

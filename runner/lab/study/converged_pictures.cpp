@@ -298,7 +298,7 @@ private:
                 std::ranges::count_if(view.distance, [](double distance) { return std::isnan(distance); }));
         refuse_blind(truth.standard, blind);
         refuse_blind(truth.hit_standard, blind_hits);
-        truth.settings = std::move(best.settings);
+        truth.settings = truth.standard.settings = std::move(best.settings);
         truth.views = std::move(best.pictures);
         truth.blind = std::move(blind_);
         truth.hits = std::move(best.hits);

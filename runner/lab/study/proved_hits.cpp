@@ -11,9 +11,6 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of each core, for all views.
-constexpr double k_seconds = 20;
-
 ProvedHits none(std::string why) {
     return {.why_not = std::move(why)};
 }
@@ -61,7 +58,7 @@ Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, co
         const render::FrameState state = state_of(view, study.extent);
         render::FrameStepper(renderer, state).draw(state.frame);
         auto hits = true_hits({*function, renderer, image, inputs_of(state)},
-                              k_seconds / double(study.views.size()), keep_going);
+                              study.proof_seconds / double(study.views.size()), keep_going);
         if (!hits)
             return none("interrupted");
         if (double(hits->unknown) > k_most_blind * double(hits->looked_at))

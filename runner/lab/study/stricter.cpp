@@ -29,7 +29,8 @@ std::string float_text(double number) {
 
 constexpr double k_largest_int = 1 << 30;
 
-/// A number times a factor, of the kind it is; nothing where a whole number would leave 1 to 2^30.
+} // namespace
+
 std::optional<std::string> scaled(const std::string& text, double factor) {
     const auto number = number_of(text);
     if (!number)
@@ -41,6 +42,8 @@ std::optional<std::string> scaled(const std::string& text, double factor) {
         return std::nullopt;
     return fmt::format("{}", std::llround(value));
 }
+
+namespace {
 
 /// From one value of the axis to the next; nothing for texts, a single value, a change of sign.
 std::optional<double> ratio_of(const Axis& axis) {
@@ -68,8 +71,8 @@ std::optional<std::string> beyond(const Axis& axis, int steps) {
 }
 
 std::vector<Axis> axes_of(const Study& study) {
-    if (study.series.empty())
-        return {};
+    if (!study.axes.empty() || study.series.empty())
+        return study.axes;
     std::vector<Axis> axes;
     for (const Setting& fixed : study.series.back().settings) {
         Axis axis{fixed.name, {}};

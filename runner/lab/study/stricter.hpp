@@ -12,6 +12,9 @@ namespace tidemark::lab {
 /// A value that is a plain, finite number.
 std::optional<double> number_of(const std::string& text);
 
+/// A number times a factor, of the kind it is; nothing where a whole number would leave 1 to 2^30.
+std::optional<std::string> scaled(const std::string& text, double factor);
+
 /// The axis continued by so many values: in the ratio of its last two, at least a factor of two. Nothing for
 /// texts that are no numbers, a single value, and whole numbers that would come below 1. Below 0: so many
 /// values back.

@@ -45,12 +45,14 @@ struct Study {
     glsl::Precision precision = glsl::Precision::single; ///< that the points are drawn in
     std::vector<View> views;
     std::vector<Series> series;
+    std::vector<Axis> axes; ///< every knob from coarse to strict; empty: the series tell
     std::vector<Setting>
         reference; ///< empty: the strictest values of the axes, made stricter until nothing moves
     std::vector<ErrorSource> sources;
     std::vector<Setting> model; ///< what the scene would be without its approximations of what it shows
     std::vector<std::string> omissions; ///< what was left out, and why
     Promise promise;
+    double proof_seconds = 20; ///< of each core, for where rays really end; 0: that is not asked
 };
 
 /// One point of a diagram: a solver and its settings.

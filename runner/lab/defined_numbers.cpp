@@ -1,4 +1,4 @@
-#include "lab/check/defined_numbers.hpp"
+#include "lab/defined_numbers.hpp"
 
 #include "glsl/overrides.hpp"
 #include "text/tokens.hpp"

@@ -1,0 +1,91 @@
+#include "cli/changed_files.hpp"
+
+#include "base/file.hpp"
+#include "base/try.hpp"
+#include "glsl/overrides.hpp"
+#include "scene/knob_defaults.hpp"
+#include "scene/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace tidemark::cli {
+namespace {
+
+/// What one file would get.
+struct Changes {
+    std::vector<scene::Knob> knobs;
+    std::vector<scene::Setting> definitions;
+};
+
+Result<std::map<std::string, Changes>> changes_by_file(scene::Scene scene,
+                                                       const std::vector<scene::Setting>& settings) {
+    std::map<std::string, Changes> files;
+    const auto definitions = glsl::definitions_of(scene);
+    for (const scene::Setting& setting : settings) {
+        const auto knob = std::ranges::find(scene.knobs, setting.name, &scene::Knob::name);
+        if (knob != scene.knobs.end()) {
+            TRY(scene::override_knob(scene, setting.name + "=" + setting.value));
+            files[knob->where.file].knobs.push_back(*knob);
+            continue;
+        }
+        const auto defined = std::ranges::find(definitions, setting.name, &glsl::NamedText::name);
+        if (defined != definitions.end())
+            files[defined->file].definitions.push_back(setting);
+    }
+    return files;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+    std::vector<std::string_view> lines;
+    while (!text.empty()) {
+        const size_t end = text.find('\n');
+        lines.push_back(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    return lines;
+}
+
+} // namespace
+
+Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
+                                               const std::vector<scene::Setting>& settings) {
+    if (scene.file.extension() == ".json")
+        return fail(ErrorCode::write,
+                    fmt::format("'{}' is no text of its own: `tidemark import` makes files of "
+                                "it that can be changed",
+                                scene.file.string()));
+    std::vector<ChangedFile> changed;
+    for (const auto& [file, changes] : TRY(changes_by_file(scene, settings))) {
+        const std::string text = TRY(read_text_file(file));
+        std::string after = TRY(scene::with_defaults(text, changes.knobs));
+        for (const scene::Setting& setting : changes.definitions)
+            glsl::override_definition(after, setting);
+        if (after != text)
+            changed.push_back({file, text, std::move(after)});
+    }
+    return changed;
+}
+
+std::string difference(const ChangedFile& file) {
+    std::string text = fmt::format("--- {}\n+++ {}\n", file.file, file.file);
+    const auto before = lines_of(file.before), after = lines_of(file.after);
+    for (size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+        if (before[i] != after[i])
+            text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", i + 1, before[i], after[i]);
+    return text;
+}
+
+Result<void> write_files(const std::vector<ChangedFile>& files) {
+    for (const ChangedFile& file : files)
+        if (TRY(read_text_file(file.file)) != file.before)
+            return fail(ErrorCode::write,
+                        fmt::format("'{}' was changed meanwhile: nothing is written", file.file));
+    for (const ChangedFile& file : files)
+        TRY(write_file(OutputPath::typed(file.file), file.after));
+    return {};
+}
+
+} // namespace tidemark::cli

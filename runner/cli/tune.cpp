@@ -1,0 +1,188 @@
+#include "lab/tune/tune.hpp"
+
+#include "base/file.hpp"
+#include "base/try.hpp"
+#include "cli/changed_files.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/json_dump.hpp"
+#include "cli/options.hpp"
+#include "cli/output_name.hpp"
+#include "cli/study_support.hpp"
+#include "lab/study/report.hpp"
+#include "lab/study/report_data.hpp"
+#include "platform/headless_context.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+struct TuneOptions {
+    SceneRequest scene;
+    std::string most_error;
+    std::optional<double> most_milliseconds;
+    std::vector<std::string> vary;
+    std::vector<std::string> keep;
+    std::string views;
+    std::string size;
+    double seconds = 60;
+    std::string output;
+    bool write = false;
+    bool json = false;
+    std::string device = "auto";
+};
+
+Result<lab::Goal> goal_of(const TuneOptions& options) {
+    lab::Goal goal;
+    if (!options.most_error.empty())
+        goal = TRY(lab::parse_goal(options.most_error));
+    goal.most_milliseconds = options.most_milliseconds;
+    if (goal.most_error && goal.most_milliseconds)
+        return fail(ErrorCode::usage, "--max-error and --max-time: give one of them");
+    if (goal.most_milliseconds && !(*goal.most_milliseconds > 0))
+        return fail(ErrorCode::usage, "--max-time: give milliseconds above 0");
+    return goal;
+}
+
+/// Found in the text, but for those that are to be kept; a person's own values instead of ours.
+Result<std::vector<lab::QualitySetting>> settings_of(const TuneOptions& options, const scene::Scene& scene) {
+    lab::QualitySettings settings = lab::quality_settings(scene, lab::march_test(scene));
+    for (const std::string& text : options.vary) {
+        const lab::Axis axis = TRY(lab::parse_axis(text, "--vary"));
+        TRY(lab::with(scene, {{axis.name, axis.values.front()}}));
+        std::erase_if(settings.found, [&](const auto& each) { return each.axis.name == axis.name; });
+        settings.found.push_back(lab::quality_setting(scene, axis));
+    }
+    std::erase_if(settings.found, [&](const auto& each) {
+        return std::ranges::find(options.keep, each.axis.name) != options.keep.end();
+    });
+    for (const lab::QualitySetting& each : settings.found)
+        say(fmt::format("turns {} ({}): {}", each.axis.name, each.why, fmt::join(each.axis.values, ", ")));
+    for (const std::string& name : settings.left)
+        say(fmt::format("leaves {}, which may be a part of the picture (--vary {}=… turns it)", name, name));
+    if (settings.found.empty())
+        return fail(ErrorCode::usage,
+                    "no number of this scene is known to buy exactness with time: name one with "
+                    "--vary NAME=a,b,c, from the coarsest to the strictest");
+    return std::move(settings.found);
+}
+
+Result<lab::TuneRequest> request_of(const TuneOptions& options, const scene::Scene& scene) {
+    lab::TuneRequest request;
+    request.goal = TRY(goal_of(options));
+    request.views = options.views.empty() ? lab::default_views() : TRY(lab::parse_views(options.views));
+    if (!options.size.empty())
+        request.extent = TRY(parse_size(options.size));
+    if (!(options.seconds > 0))
+        return fail(ErrorCode::usage, "--for: give a number of seconds above 0");
+    request.seconds = options.seconds;
+    request.settings = TRY(settings_of(options, scene));
+    return request;
+}
+
+/// What would change in the files, and that it did with --write.
+Result<std::vector<ChangedFile>> offer(const TuneOptions& options, const scene::Scene& scene,
+                                       const lab::Tuned& tuned) {
+    auto files = with_settings(scene, tuned.chosen);
+    if (!files && options.write)
+        return files;
+    if (!files) {
+        say(to_string(files.error()));
+        return std::vector<ChangedFile>{};
+    }
+    for (const ChangedFile& file : *files)
+        say(difference(file));
+    if (options.write)
+        TRY(write_files(*files));
+    return files;
+}
+
+Result<void> put_json(const lab::Tuned& tuned, const std::vector<ChangedFile>& files) {
+    Json chosen = Json::object(), diff = Json::array();
+    for (const lab::Setting& setting : tuned.chosen)
+        chosen[setting.name] = setting.value;
+    for (const ChangedFile& file : files)
+        diff.push_back(difference(file));
+    return put(dump(Json{{"schema", "tidemark tune 1"},
+                         {"chosen", std::move(chosen)},
+                         {"sentences", tuned.sentences},
+                         {"difference", std::move(diff)},
+                         {"study", Json::parse(lab::to_json(tuned.findings.set))}}));
+}
+
+Result<int> tune(const TuneOptions& options) {
+    Interrupt interrupt;
+    const scene::Scene scene = TRY(load(options.scene));
+    const OutputPath folder =
+        OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-tune"))
+            .sparing(files_read(scene));
+    const auto context = TRY(platform::HeadlessContext::create(options.device));
+    const lab::TuneRequest request = TRY(request_of(options, scene));
+    TRY(prepare_report(folder));
+    StudyWatcher watcher(interrupt);
+    auto tuned = lab::tune(scene, request, watcher.watch(), circumstances_now());
+    watcher.finish();
+    if (!tuned && interrupt.requested())
+        return Interrupt::k_exit_code;
+    lab::Tuned found = TRY(std::move(tuned));
+    const OutputPath place = report_folder(folder, found.findings.set.circumstances.complete);
+    TRY(make_folder(place));
+    TRY(lab::write_report(place, found.findings));
+    for (const std::string& sentence : found.sentences)
+        say(sentence);
+    const auto files = TRY(offer(options, scene, found));
+    say(fmt::format("wrote {}", (place.path() / "report.html").string()));
+    if (options.json)
+        TRY(put_json(found, files));
+    return interrupt.requested() ? Interrupt::k_exit_code : 0;
+}
+
+} // namespace
+
+void add_tune(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<TuneOptions>();
+    CLI::App* command = app.add_subcommand(
+        "tune", "Finds the fastest settings that keep an error, or the most exact that keep a time");
+    add_scene_options(*command, options->scene);
+    command
+        ->add_option("--max-error", options->most_error,
+                     "What may be wrong: rmse=0.01, psnr=40dB, flip=0.02 or wrong=0.05% [as much as now]")
+        ->type_name("MEASURE=V");
+    command
+        ->add_option("--max-time", options->most_milliseconds,
+                     "The most exact within so many milliseconds a frame")
+        ->type_name("MS");
+    repeatable(
+        command
+            ->add_option("--vary", options->vary,
+                         "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
+            ->type_name("NAME=a,b,c"));
+    repeatable(
+        command->add_option("--keep", options->keep, "A number that stays as it is")->type_name("NAME"));
+    command
+        ->add_option("--views", options->views,
+                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4 [1;10]")
+        ->type_name("LIST");
+    command->add_option("--size", options->size, "Resolution in pixels [640x360]")->type_name("WxH");
+    command->add_option("--for", options->seconds, "Seconds for the search and the timing, compiling aside")
+        ->type_name("S")
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "Folder for the report [SCENE-tune]")
+        ->type_name("FOLDER");
+    command->add_flag("--write", options->write, "Writes what was chosen into the scene's files");
+    command
+        ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "The outcome and its study on standard output, too");
+    command->callback([options, &chosen] { chosen = [options] { return tune(*options); }; });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,155 @@
+#include "lab/tune/tune.hpp"
+
+#include "base/try.hpp"
+#include "lab/march/pass_function.hpp"
+#include "lab/study/verdict.hpp"
+#include "lab/tune/candidates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+namespace {
+
+/// Of the longer side of the pictures that are searched.
+constexpr int k_small = 160;
+/// Parts of the seconds there are.
+constexpr double k_explore_timing = 0.25, k_last_timing = 0.3, k_proof = 0.05;
+
+Extent small_of(Extent extent) {
+    const int longer = std::max(extent.width, extent.height);
+    if (longer <= k_small)
+        return extent;
+    const auto side = [&](int length) { return std::max(1, length * k_small / longer); };
+    return {side(extent.width), side(extent.height)};
+}
+
+/// A moment that no search has seen.
+View unseen(const std::vector<View>& views) {
+    View view = views.back();
+    const double seconds = view.state.seconds() + 2.7;
+    view.state = render::at_time(seconds);
+    view.name = fmt::format("t={:g}, not searched", seconds);
+    return view;
+}
+
+std::string cost_and_error(Measure measure, const WorkPrecision& point) {
+    const TimeSummary& time = point.all.time();
+    const std::string work =
+        point.all.hits ? fmt::format(", {:.1f} field evaluations a pixel", point.all.hits->evaluations) : "";
+    return fmt::format("{} ms [{}, {}], {} {}{}", figure(time.median), figure(time.confidence.low),
+                       figure(time.confidence.high), to_string(Goal{measure}),
+                       figure(error_by(measure, point.all)), work);
+}
+
+class Tuner {
+public:
+    Tuner(const scene::Scene& scene, TuneRequest request, const Watch& watch, const Circumstances& facts)
+        : scene_(scene), request_(std::move(request)), watch_(watch), facts_(facts) {}
+
+    Result<Tuned> run() {
+        const WorkPrecisionSet explored = TRY(explore());
+        const auto found = candidates(explored, request_.settings, request_.goal, milliseconds(explored));
+        Study last = study_of(found, request_.settings);
+        last.reference = explored.picture_standard.settings;
+        last.extent = request_.extent;
+        last.views = request_.views;
+        last.views.push_back(unseen(request_.views));
+        Tuned tuned{.findings = TRY(measure(std::move(last), k_last_timing, 30))};
+        TRY(judge(tuned));
+        return tuned;
+    }
+
+private:
+    Result<Findings> measure(Study study, double part, size_t rounds) {
+        study.proof_seconds = request_.goal.measure == Measure::wrong ? k_proof * request_.seconds : 0;
+        return conduct(scene_, study, {2, rounds, part * request_.seconds}, watch_, facts_);
+    }
+
+    /// Where the truth does not converge in all settings at once, in those of the march alone.
+    Result<WorkPrecisionSet> explore() {
+        for (;;) {
+            Study study = study_of(single_values(request_.settings), request_.settings);
+            study.extent = small_of(request_.extent);
+            study.views = request_.views;
+            WorkPrecisionSet set = TRY(measure(std::move(study), k_explore_timing, 9)).set;
+            const double own = error_by(request_.goal.measure, set.points.front().all);
+            const std::string blur =
+                blur_of(set, request_.goal.measure, request_.goal.most_error.value_or(own));
+            if (blur.empty())
+                return set;
+            const size_t before = request_.settings.size();
+            std::erase_if(request_.settings, [](const QualitySetting& each) { return !each.march; });
+            if (request_.settings.empty() || request_.settings.size() == before || !watch_.keep_going())
+                return fail(ErrorCode::check_failed, "cannot say: " + blur);
+            sentences_.push_back(
+                "only the march's own settings were turned: with the others there is no truth (" + blur +
+                ")");
+        }
+    }
+
+    /// A guess of what the scene as it is takes at full size.
+    double milliseconds(const WorkPrecisionSet& explored) const {
+        return explored.points.front().all.time().median * double(request_.extent.pixels()) /
+               double(explored.study.extent.pixels());
+    }
+
+    Result<void> judge(Tuned& tuned) {
+        const WorkPrecisionSet& set = tuned.findings.set;
+        const WorkPrecision& own = set.points.front();
+        Goal goal = request_.goal;
+        const double most = goal.most_error.value_or(error_by(goal.measure, own.all));
+        if (const std::string blur = blur_of(set, goal.measure, most); !blur.empty())
+            return fail(ErrorCode::check_failed, "cannot say: " + blur);
+        sentences_.push_back("as it is: " + cost_and_error(goal.measure, own));
+        const WorkPrecision* best = best_by(set, goal);
+        if (!goal.most_milliseconds)
+            goal.most_error = most;
+        if (!best)
+            sentences_.push_back("nothing that was measured keeps " + to_string(goal));
+        else if (best == &own || !is_better(*best, own, most))
+            sentences_.push_back("nothing that was measured is better beyond noise and keeps " +
+                                 to_string(goal));
+        else {
+            tuned.chosen = best->point.settings;
+            sentences_.push_back("chosen: " + best->point.label + ": " + cost_and_error(goal.measure, *best));
+            if (const auto gain = speedup(own, *best))
+                sentences_.push_back(fmt::format("{:.2f} x [{:.2f}, {:.2f}] as fast as it is", gain->ratio,
+                                                 gain->confidence.low, gain->confidence.high));
+        }
+        tuned.sentences = std::move(sentences_);
+        return {};
+    }
+
+    /// Faster, where the scene as it is keeps the error, too; more exact, where it keeps the time.
+    bool is_better(const WorkPrecision& best, const WorkPrecision& own, double most) const {
+        const Measure measure = request_.goal.measure;
+        if (const auto& time = request_.goal.most_milliseconds)
+            return own.all.time().median > *time || error_by(measure, best.all) < error_by(measure, own.all);
+        const auto gain = speedup(own, best);
+        return error_by(measure, own.all) > most || (gain && gain->confidence.low > 1);
+    }
+
+    const scene::Scene& scene_;
+    TuneRequest request_;
+    const Watch& watch_;
+    const Circumstances& facts_;
+    std::vector<std::string> sentences_;
+};
+
+} // namespace
+
+Result<Tuned> tune(const scene::Scene& scene, TuneRequest request, const Watch& watch,
+                   const Circumstances& circumstances) {
+    return Tuner(scene, std::move(request), watch, circumstances).run();
+}
+
+std::optional<SourceLocation> march_test(const scene::Scene& scene) {
+    const auto function = PassFunction::create(scene, scene.image());
+    if (!function || function->loops().empty())
+        return std::nullopt;
+    return function->locate(function->loops().front().line);
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,95 @@
+"""`tune`: the settings of scenes whose error and cost are known; what is offered, written, refused."""
+import json
+import re
+
+from support.program import ProgramTest, main
+
+# Riemann's sum, at a cost that a person could measure: its error falls with the steps, its time grows with them.
+SUM = """#define STEPS 1024
+#define SIDES 3
+void mainImage(out vec4 c, in vec2 p) {
+    float sum = 0.0;
+    for (int i = 0; i < STEPS; ++i) sum += exp(-3.0 * (float(i) + 0.5) / float(STEPS)) * (0.5 + 0.5 * sin(p.x));
+    for (int i = 0; i < SIDES; ++i) sum += 0.0;
+    c = vec4(vec3(sum / float(STEPS) * p.x / iResolution.x), 1.0);
+}
+"""
+QUICK = ("--size", "48x27", "--for", "3")
+
+
+class Tune(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("sum.glsl", SUM)
+
+    def tune(self, *arguments: str) -> tuple[dict, str]:
+        done = self.succeed("tune", "sum.glsl", "--json", *QUICK, *arguments)
+        return json.loads(done.stdout), done.stderr
+
+    def test_fewer_steps_are_offered_where_an_error_is_allowed(self):
+        found, said = self.tune("--max-error", "psnr=50dB")
+        self.assertIn("turns STEPS (bounds the loop at sum.glsl:5): 256, ", said)
+        self.assertIn("leaves SIDES", said)
+        self.assertLess(int(found["chosen"]["STEPS"]), 1024)
+        self.assertIn("-#define STEPS 1024\n+#define STEPS ", found["difference"][0])
+        self.assertEqual((self.folder / "sum.glsl").read_text(), SUM)
+        self.assertTrue((self.folder / "sum-tune" / "report.html").exists())
+        names = list(found["study"]["points"][0]["views"])
+        self.assertEqual(len(names), 3)
+        self.assertIn("not searched", names[-1])
+
+    def test_what_was_chosen_is_written(self):
+        found, _ = self.tune("--max-error", "psnr=50dB", "--write", "-o", "report")
+        steps = found["chosen"]["STEPS"]
+        self.assertEqual((self.folder / "sum.glsl").read_text(), SUM.replace("STEPS 1024", f"STEPS {steps}"))
+
+    def test_a_knob_is_written_into_its_line(self):
+        self.write("sum.glsl", SUM.replace("#define STEPS 1024", "#iUniform int STEPS = 1024 in { 1, 9999 }"))
+        found, _ = self.tune("--max-error", "psnr=50dB", "--write")
+        self.assertIn(f"#iUniform int STEPS = {found['chosen']['STEPS']} in {{ 1, 9999 }}\n",
+                      (self.folder / "sum.glsl").read_text())
+
+    def test_the_most_exact_within_a_time(self):
+        self.write("sum.glsl", SUM.replace("STEPS 1024", "STEPS 16"))
+        found, said = self.tune("--max-time", "100000")
+        self.assertGreater(int(found["chosen"]["STEPS"]), 16, said)
+
+    def test_own_values_instead_of_ours(self):
+        found, said = self.tune("--max-error", "psnr=50dB", "--vary", "STEPS=128,256,512,1024")
+        self.assertIn("turns STEPS (--vary): 128, 256, 512, 1024", said)
+        self.assertEqual(found["chosen"]["STEPS"], "128")
+
+    def test_what_is_kept_or_unknown_is_refused(self):
+        for arguments, words in (
+                (("--keep", "STEPS"), "no number of this scene is known to buy exactness with time"),
+                (("--vary", "STEP=1,2"), "did you mean 'STEPS'"),
+                (("--max-error", "ssim=1"), "give rmse=0.01, psnr=40dB"),
+                (("--max-error", "rmse=1", "--max-time", "5"), "give one of them"),
+                (("--for", "0"), "seconds above 0")):
+            with self.subTest(arguments=arguments):
+                done = self.run_program("tune", "sum.glsl", *QUICK, *arguments)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(words, done.stderr)
+
+    def test_no_truth_is_no_verdict(self):
+        """A loop whose sum grows without end converges to nothing."""
+        self.write("sum.glsl", "#define STEPS 64\nvoid mainImage(out vec4 c, in vec2 p) {\n    float sum = 0.0;\n"
+                               "    for (int i = 0; i < STEPS; ++i) sum += p.x;\n    c = vec4(sum);\n}\n")
+        done = self.run_program("tune", "sum.glsl", *QUICK)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot say: ", done.stderr)
+        self.assertNotIn("chosen", done.stderr)
+
+    def test_a_project_s_json_is_not_written(self):
+        code = SUM.replace("\n", "\\n")
+        self.write("sum.json", '{"Shader": {"info": {"name": "sum"}, "renderpass": [{"type": "image", "name": "Image", '
+                               f'"inputs": [], "outputs": [], "code": "{code}"}}]}}}}')
+        done = self.run_program("tune", "sum.json", *QUICK, "--max-error", "psnr=50dB", "--write")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("tidemark import", done.stderr)
+        done = self.succeed("tune", "sum.json", *QUICK, "--max-error", "psnr=50dB")
+        self.assertRegex(done.stderr, re.compile("^chosen: STEPS = ", re.MULTILINE))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,190 @@
+// What `tune` turns, what it measures next, and what it chooses.
+#include "lab/tune/candidates.hpp"
+#include "lab/tune/goal.hpp"
+#include "lab/tune/quality_settings.hpp"
+#include "support/scene_of.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// ---- What is turned -------------------------------------------------------------------------------------
+
+/// `lines` begin at line 1 of the file.
+QualitySettings found_in(const std::string& lines, std::optional<int> march = {}) {
+    const scene::Scene scene = scene_of(lines);
+    std::optional<SourceLocation> where;
+    if (march)
+        where = scene.image().text.lines().locate(*march);
+    return quality_settings(scene, where);
+}
+
+std::vector<std::string> names(const QualitySettings& settings) {
+    std::vector<std::string> names;
+    for (const QualitySetting& each : settings.found)
+        names.push_back(each.axis.name);
+    return names;
+}
+
+TEST(QualitySettings, of_a_march_are_known_by_their_use) {
+    const auto settings = found_in("#define N 64\n#define NEAR 0.001\n#define BALLS 7\n"
+                                   "float f() {\n"
+                                   "    float t = 0.0;\n"
+                                   "    for (int i = 0; i < N; i++) {\n"
+                                   "        float d = g(t);\n"
+                                   "        if (d < NEAR) break;\n"
+                                   "        t += d;\n"
+                                   "    }\n"
+                                   "    for (int i = 0; i < BALLS; i++) t += 1.0;\n"
+                                   "    return t;\n"
+                                   "}\n",
+                                   8);
+    EXPECT_THAT(names(settings), ElementsAre("N", "NEAR"));
+    EXPECT_THAT(settings.left, ElementsAre("BALLS"));
+    EXPECT_THAT(settings.found[0].axis.values, ElementsAre("16", "24", "32", "48", "64", "96", "128"));
+    EXPECT_EQ(settings.found[0].own, 4U);
+    EXPECT_THAT(settings.found[0].why, HasSubstr("bounds the march at "));
+    EXPECT_TRUE(settings.found[1].march);
+    EXPECT_EQ(settings.found[1].axis.values.front(), "0.032");
+    EXPECT_EQ(settings.found[1].axis.values[settings.found[1].own], "0.001");
+}
+
+TEST(QualitySettings, elsewhere_are_known_by_their_names_too) {
+    const auto settings =
+        found_in("#define OCTAVES 5\nconst float EPSILON = 0.01;\n#define LINE 0.02\n#define STEP_SCALE 0.7\n"
+                 "#define FOG 0.5\n"
+                 "float f(float t) {\n"
+                 "    for (int i = 0; i < OCTAVES; i++) t *= 2.0;\n"
+                 "    if (t < EPSILON || t < LINE) return 0.0;\n"
+                 "    return t * STEP_SCALE + FOG * t;\n"
+                 "}\n");
+    EXPECT_THAT(names(settings), ElementsAre("OCTAVES", "EPSILON", "STEP_SCALE"));
+    EXPECT_THAT(settings.found[0].axis.values, ElementsAre("1", "2", "3", "4", "5", "8", "10"));
+    EXPECT_FALSE(settings.found[0].march);
+}
+
+TEST(QualitySettings, are_no_texts_and_no_numbers_out_of_range) {
+    EXPECT_THAT(
+        names(found_in("#define STEPS (2 * 32)\n#define EPS 4.0\n#define MAX_STEPS 0\n"
+                       "float f(float t) { for (int i = 0; i < STEPS && i < MAX_STEPS; i++) t *= 2.0;\n"
+                       "if (t < EPS) return 1.0; return t; }\n")),
+        IsEmpty());
+}
+
+TEST(QualitySettings, take_a_person_s_values) {
+    const scene::Scene scene = scene_of("#define STEPS 64\n");
+    const QualitySetting own = quality_setting(scene, {"STEPS", {"32", "64", "128"}});
+    EXPECT_EQ(own.own, 1U);
+    const QualitySetting other = quality_setting(scene, {"STEPS", {"32", "48"}});
+    EXPECT_THAT(single_values({other}),
+                ElementsAre(ElementsAre(Setting{"STEPS", "32"}), ElementsAre(Setting{"STEPS", "48"})));
+}
+
+// ---- What is wanted -------------------------------------------------------------------------------------
+
+TEST(Goal, is_a_measure_and_a_number) {
+    EXPECT_EQ(parse_goal("rmse=0.01")->most_error, 0.01);
+    EXPECT_NEAR(*parse_goal("psnr=40dB")->most_error, 0.01, 1e-15);
+    EXPECT_NEAR(*parse_goal("psnr=40")->most_error, 0.01, 1e-15);
+    EXPECT_EQ(parse_goal("flip=0.02")->measure, Measure::flip);
+    EXPECT_EQ(parse_goal("wrong=0.05%")->most_error, 0.05);
+    EXPECT_EQ(to_string(*parse_goal("wrong=0.05%")), "wrong rays <= 0.05 %");
+    for (const char* bad :
+         {"", "rmse", "rmse=", "rmse=x", "rmse=0", "rmse=-1", "rmse=nan", "rmse=0.1dB", "ssim=1"})
+        EXPECT_EQ(parse_goal(bad).error().code, ErrorCode::usage) << bad;
+}
+
+// ---- What is measured next, and chosen ------------------------------------------------------------------
+
+/// A study whose first point is the scene as it is.
+struct Explored {
+    WorkPrecisionSet set;
+
+    Explored() { add({}, 10, 0.01); }
+    WorkPrecision& add(std::vector<Setting> settings, double milliseconds, double rmse) {
+        WorkPrecision& point = set.points.emplace_back();
+        point.point = {0, to_string(settings), "", std::move(settings)};
+        point.wall = {std::vector<double>(30, milliseconds)};
+        point.all.picture.samples.rmse = rmse;
+        point.all.wall = summary_of(point.wall.front());
+        point.views = {point.all};
+        return point;
+    }
+};
+
+QualitySetting setting(const std::string& name, std::vector<std::string> values, size_t own) {
+    return {.axis = {name, std::move(values)}, .own = own};
+}
+
+TEST(Candidates, combine_what_saves_time_within_the_error) {
+    Explored explored;
+    explored.set.study = {};
+    explored.add({{"A", "1"}}, 5, 0.02);
+    explored.add({{"A", "4"}}, 20, 0.001);
+    explored.add({{"B", "1"}}, 8, 0.0101);
+    const std::vector<QualitySetting> settings{setting("A", {"1", "2", "4"}, 1), setting("B", {"1", "2"}, 1)};
+    const auto found = candidates(explored.set, settings, {Measure::rmse, 0.021, {}}, 10);
+    ASSERT_FALSE(found.empty());
+    EXPECT_THAT(found.front(), testing::UnorderedElementsAre(Setting{"A", "1"}, Setting{"B", "1"}));
+    for (const auto& each : found)
+        EXPECT_NE(each, (std::vector<Setting>{{"A", "4"}, {"B", "1"}, {"A", "1"}}));
+}
+
+TEST(Candidates, of_a_time_are_around_it) {
+    Explored explored;
+    explored.add({{"A", "4"}}, 20, 0.001);
+    explored.add({{"A", "8"}}, 40, 0.0001);
+    const auto found =
+        candidates(explored.set, {setting("A", {"2", "4", "8"}, 0)}, {Measure::rmse, {}, 25.0}, 10);
+    EXPECT_THAT(found, testing::Contains(ElementsAre(Setting{"A", "4"})));
+}
+
+TEST(BestBy, keeps_the_error_even_if_the_truth_s_own_is_against_it) {
+    Explored explored;
+    explored.set.picture_standard.uncertainty = 0.001;
+    explored.add({{"A", "1"}}, 4, 0.0195);
+    explored.add({{"A", "2"}}, 5, 0.0185);
+    explored.add({{"A", "3"}}, 6, 0.0150);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.02, {}}), &explored.set.points[2]);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.001, {}}), nullptr);
+    EXPECT_EQ(best_by(explored.set, {}), &explored.set.points[0]);
+    explored.set.points[3].all.picture.samples.rmse = 0.009;
+    EXPECT_EQ(best_by(explored.set, {}), &explored.set.points[3]);
+}
+
+TEST(BestBy, of_a_time_is_the_most_exact_within_it) {
+    Explored explored;
+    explored.add({{"A", "1"}}, 4, 0.02);
+    explored.add({{"A", "4"}}, 15, 0.001);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 12.0}), &explored.set.points[0]);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 16.0}), &explored.set.points[2]);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 1.0}), nullptr);
+}
+
+TEST(BestBy, says_nothing_of_points_without_an_error) {
+    Explored explored;
+    explored.set.picture_standard.uncertainty = 0;
+    explored.add({{"A", "1"}}, 4, std::nan(""));
+    explored.add({{"A", "2"}}, 4, 0.001).idle = true;
+    explored.add({{"A", "3"}}, 4, 0.001).failure = "does not compile";
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.02, {}}), &explored.set.points[0]);
+}
+
+TEST(Blur, is_a_truth_that_cannot_tell) {
+    Explored explored;
+    EXPECT_THAT(blur_of(explored.set, Measure::rmse, 0.01), HasSubstr("unknown"));
+    explored.set.picture_standard.uncertainty = 0.002;
+    EXPECT_THAT(blur_of(explored.set, Measure::rmse, 0.01), HasSubstr("a tenth"));
+    EXPECT_EQ(blur_of(explored.set, Measure::rmse, 0.02), "");
+    EXPECT_THAT(blur_of(explored.set, Measure::wrong, 0.05), HasSubstr("no truth about where"));
+}
+
+} // namespace
+} // namespace tidemark::lab
