@@ -1,8 +1,8 @@
 // What rays met, of scenes whose hits are known: steps that were too long, and too many of them.
 #include "base/try.hpp"
-#include "lab/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
+#include "lab/defined_numbers.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 // camera_position.
 #include "base/try.hpp"
 #include "image/census.hpp"
-#include "lab/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
+#include "lab/defined_numbers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // What floats lose of the rays of scenes whose hits are known, held against the same scene in doubles: as
 // time goes on, near the surface, far out on the lattice of a noise, in waves that fold over.
 #include "base/try.hpp"
-#include "lab/defined_numbers.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
+#include "lab/defined_numbers.hpp"
 
 #include <fmt/format.h>
 

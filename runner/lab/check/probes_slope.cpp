@@ -1,9 +1,9 @@
 // Slopes from differences of the field, as normals are made: of scenes with mainHit whose field is the
 // march_field of shaders/lib/march.glsl.
-#include "lab/defined_numbers.hpp"
 #include "lab/check/field_bench.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
+#include "lab/defined_numbers.hpp"
 #include "lab/statistics.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 // What becomes of a scene as its clock runs: rounding, cuts, and random numbers that hang on roundings.
 #include "base/try.hpp"
 #include "image/compare/metrics.hpp"
-#include "lab/defined_numbers.hpp"
 #include "lab/check/picture_gap.hpp"
 #include "lab/check/probe_text.hpp"
 #include "lab/check/probes.hpp"
+#include "lab/defined_numbers.hpp"
 
 #include <fmt/format.h>
 
