@@ -1,0 +1,251 @@
+
+// ---- The figure: a scene on a page
+
+const FPS = 60; // of a moment that is asked for
+
+// `time=2.5&frame=3&size=640x360&paused`: where to begin, and whether to stay there.
+function readMoment(text) {
+    const words = new URLSearchParams(text), number = name => words.has(name) ? Number(words.get(name)) : undefined;
+    const time = number("time"), size = /^(\d+)x(\d+)$/.exec(words.get("size") ?? "");
+    const frame = number("frame") ?? (time === undefined ? undefined : Math.max(0, Math.floor(time * FPS)));
+    return {frame, time: time ?? (frame === undefined ? undefined : frame / FPS), paused: words.has("paused"),
+            size: size && [Number(size[1]), Number(size[2])]};
+}
+
+// iDate of a moment that is asked for: noon of 2024-01-01, and the time on top of it.
+const dateAt = time => [2024, 0, 1 + Math.floor((43200 + time) / 86400), (43200 + time) % 86400];
+
+class Figure {
+    mouse = new Mouse();
+    keyboard = new Keyboard();
+    camera = new OrbitCamera();
+    clock = new Clock();
+    needsFrame = true; // although time stands still
+    isVisible = true;
+
+    constructor(div) {
+        this.div = div;
+        this.scene = JSON.parse(div.querySelector("script[type='application/json']").textContent);
+        this.asked = readMoment(div.dataset.moment ?? location.hash.slice(1));
+        this.canvas = element("canvas", {tabIndex: 0, ariaLabel: this.scene.name});
+        this.message = element("pre", {className: "tidemark-message", textContent: "compiling …"});
+        div.append(this.canvas, this.message);
+    }
+
+    // `data-state` of the <div> says where it stands: loading, running, failed.
+    async start() {
+        this.div.dataset.state = "loading";
+        try {
+            await this.#prepare();
+            await this.#begin();
+        } catch (error) {
+            this.fail(error instanceof SceneError ? error.message : `${error}`);
+        }
+    }
+
+    fail(message) {
+        this.div.dataset.state = "failed";
+        this.message.textContent = message;
+        this.message.hidden = false;
+    }
+
+    async #prepare() {
+        const gl = this.canvas.getContext("webgl2", {alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true});
+        if (!gl)
+            throw new SceneError("This browser has no WebGL 2: it cannot draw the scene.");
+        if (!gl.getExtension("EXT_color_buffer_float"))
+            throw new SceneError("This browser's WebGL draws no floats: it cannot draw the scene.");
+        gl.getExtension("OES_texture_float_linear");
+        gl.getExtension("EXT_float_blend");
+        gl.disable(gl.DITHER);
+        this.canvas.addEventListener("webglcontextlost", () => this.fail("The graphics driver gave up. Load the page anew."));
+        const textures = await InputTextures.load(gl, this.scene);
+        this.renderer = await Renderer.create(gl, this.scene, textures);
+        this.player = new Player(await SoundPass.create(gl, this.scene, textures), textures.inputs.filter(input => input.sound));
+        this.videos = textures.all.filter(texture => texture.video);
+    }
+
+    async #begin() {
+        this.bar = new TimeBar({restart: () => this.restart(), togglePause: () => this.togglePause(),
+                                seek: time => this.seek(time), toggleSound: () => this.toggleSound(),
+                                toggleFullScreen: () => this.toggleFullScreen()}, this.player.hasSound);
+        this.panel = knobPanel(this.scene.knobs, () => { this.needsFrame = true; });
+        this.div.append(this.bar.element, this.panel);
+        listen(this);
+        this.#fit();
+        new ResizeObserver(() => this.#fit()).observe(this.canvas);
+        new IntersectionObserver(([entry]) => { this.isVisible = entry.isIntersecting; }).observe(this.canvas);
+        await this.#goTo(this.asked);
+        this.message.hidden = true;
+        this.div.dataset.state = "running";
+        requestAnimationFrame(() => this.#tick());
+    }
+
+    now() { return performance.now() / 1000; }
+
+    // As many pixels as the screen has where the picture stands, unless a size is asked for.
+    #fit() {
+        const {width, height} = this.canvas.getBoundingClientRect(), scale = devicePixelRatio;
+        const size = this.asked.size ?? [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
+        if (String(size) === String(this.renderer.size))
+            return;
+        [this.canvas.width, this.canvas.height] = size;
+        this.renderer.resize(...size);
+        this.needsFrame = true;
+    }
+
+    #draw(moment) {
+        const {mouse, keyboard, camera, scene: {knobs}} = this;
+        this.renderer.draw({...moment, mouse, keyboard, camera, knobs});
+        this.bar.show(moment, this.clock.paused, this.player.playing);
+        mouse.frameDrawn();
+        keyboard.frameDrawn();
+        this.needsFrame = false;
+    }
+
+    // Draws all frames on the way where the scene remembers, a few at a time: a page must answer meanwhile.
+    async #goTo({frame, time, paused}) {
+        const isAsked = frame !== undefined, last = frame ?? 0, end = time ?? 0;
+        this.clock.pause(paused, this.now());
+        for (let i = this.renderer.hasFeedback ? 0 : last; isAsked && i <= last; ++i) {
+            const at = end - (last - i) / FPS;
+            if (i === last)
+                await Promise.all(this.videos.map(video => video.seek(at)));
+            this.#draw({frame: i, time: at, delta: 1 / FPS, rate: FPS, date: dateAt(at)});
+            if (i % 8 === 7)
+                await new Promise(resolve => setTimeout(resolve));
+        }
+        this.clock.seek(end, isAsked ? last + 1 : 0, this.now());
+        this.needsFrame = !isAsked;
+        this.#playOn();
+    }
+
+    #tick() {
+        if (this.div.dataset.state === "failed")
+            return;
+        if (!this.isVisible)
+            this.clock.rest();
+        else if (!this.clock.paused || this.needsFrame) {
+            const now = this.now(), moment = {...this.clock.nextFrame(now), date: dateOf(new Date())};
+            this.#draw(moment);
+            this.player.pump({...moment, mouse: this.mouse, camera: this.camera, knobs: this.scene.knobs});
+        }
+        requestAnimationFrame(() => this.#tick());
+    }
+
+    // Sound and videos as the clock says.
+    #playOn() {
+        const {paused} = this.clock;
+        if (paused)
+            this.player.stop();
+        else
+            this.player.start(this.clock.timeAt(this.now()));
+        for (const {video} of this.videos)
+            paused ? video.pause() : video.play();
+    }
+
+    restart() {
+        this.renderer.restart();
+        this.seek(0, 0);
+    }
+
+    // Buffers go on from where they are.
+    seek(time, frame = Math.floor(time * FPS)) {
+        this.clock.seek(time, frame, this.now());
+        this.needsFrame = true;
+        this.#playOn();
+    }
+
+    togglePause() {
+        this.clock.pause(!this.clock.paused, this.now());
+        this.needsFrame = true;
+        this.#playOn();
+    }
+
+    toggleSound() {
+        if (this.player.isOn)
+            this.player.turnOff();
+        else
+            this.player.turnOn();
+        this.#playOn();
+        this.needsFrame = true;
+    }
+
+    toggleFullScreen() {
+        if (document.fullscreenElement)
+            document.exitFullscreen();
+        else
+            this.div.requestFullscreen();
+    }
+}
+
+// ---- Mouse and keyboard of the figure
+
+function listen(figure) {
+    const {canvas, mouse, camera, keyboard, renderer} = figure;
+    const turns = renderer.uses("iCamera", "iViewMatrix");
+    const at = event => {
+        const box = canvas.getBoundingClientRect(), scale = canvas.height / box.height;
+        return [(event.clientX - box.left) * canvas.width / box.width, canvas.height - (event.clientY - box.top) * scale];
+    };
+    let last = null; // of a drag
+    canvas.onpointerdown = event => {
+        canvas.setPointerCapture(event.pointerId);
+        last = at(event);
+        if (event.button === 0)
+            mouse.press(...last);
+        mouse.right ||= event.button === 2;
+        figure.needsFrame = true;
+        canvas.focus({preventScroll: true});
+    };
+    canvas.onpointermove = event => {
+        if (!last)
+            return;
+        const here = at(event), by = [here[0] - last[0], here[1] - last[1]];
+        mouse.move(...here);
+        if (turns && event.buttons & 4)
+            camera.pan(...by, canvas.height);
+        else if (turns && event.buttons & 1)
+            camera.turn(...by, canvas.height);
+        last = here;
+        figure.needsFrame = true;
+    };
+    canvas.onpointerup = canvas.onpointercancel = event => {
+        if (event.button !== 2)
+            mouse.release();
+        mouse.right &&= event.button !== 2;
+        last = event.buttons ? last : null;
+        figure.needsFrame = true;
+    };
+    if (turns)
+        canvas.addEventListener("wheel", event => {
+            event.preventDefault();
+            camera.zoom(-Math.sign(event.deltaY));
+            figure.needsFrame = true;
+        }, {passive: false});
+    if (turns || renderer.uses("iMouse", "iMouseButton", "mouse"))
+        Object.assign(canvas.style, {touchAction: "none"}); // a finger drags in the picture instead of the page
+    canvas.oncontextmenu = event => { if (renderer.uses("iMouseButton")) event.preventDefault(); };
+    listenToKeys(figure);
+}
+
+// A scene that reads the keyboard gets all keys but those that leave the figure; of others the space bar pauses.
+function listenToKeys(figure) {
+    const {canvas, keyboard, renderer: {readsKeyboard}} = figure;
+    canvas.onkeydown = event => {
+        if (event.ctrlKey || event.altKey || event.metaKey || ["Tab", "Escape"].includes(event.key))
+            return;
+        if (readsKeyboard)
+            keyboard.press(event.keyCode);
+        else if (event.key === " " && !event.repeat)
+            figure.togglePause();
+        if (readsKeyboard || event.key === " ")
+            event.preventDefault();
+        figure.needsFrame ||= readsKeyboard;
+    };
+    canvas.onkeyup = event => {
+        keyboard.release(event.keyCode);
+        figure.needsFrame ||= readsKeyboard;
+    };
+    canvas.onblur = () => keyboard.releaseAll();
+}
