@@ -7,21 +7,37 @@ function element(name, attributes = {}, ...children) {
     return made;
 }
 
-function button(label, symbol, act) {
-    return element("button", {type: "button", title: label, ariaLabel: label, textContent: symbol, onclick: act});
+// Drawn, for not every machine has letters of that kind.
+const ICONS = {
+    restart: "M3 3h2v10H3zM13 3v10L6 8z", play: "M4 2l9 6-9 6z", pause: "M4 3h3v10H4zM9 3h3v10H9z",
+    full: "M2 2h5v2H4v3H2zM9 2h5v5h-2V4H9zM2 9h2v3h3v2H2zM12 9h2v5H9v-2h3z",
+    silent: "M2 6h3l4-4v12l-4-4H2zM11 6l4 4-1 1-4-4zM14 5l1 1-4 4-1-1z",
+    audible: "M2 6h3l4-4v12l-4-4H2zM11 5c2 1 2 5 0 6zM12 2c5 2 5 10 0 12v-1c3-3 3-7 0-10z",
+};
+
+function label(of, text, icon) {
+    if (of.title !== text)
+        Object.assign(of, {title: text, ariaLabel: text,
+                           innerHTML: `<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${ICONS[icon]}"/></svg>`});
+}
+
+function button(text, icon, act) {
+    const made = element("button", {type: "button", onclick: act});
+    label(made, text, icon);
+    return made;
 }
 
 // The bar under the picture: restart, pause, time, sound, full screen.
 class TimeBar {
     constructor({restart, togglePause, seek, toggleSound, toggleFullScreen}, hasSound) {
-        this.pause = button("Pause", "⏸", togglePause);
+        this.pause = button("Pause", "pause", togglePause);
         this.time = element("input", {type: "range", className: "tidemark-time", min: 0, max: 10, step: "any", value: 0,
                                       ariaLabel: "Time", oninput: () => seek(Number(this.time.value))});
         this.clock = element("output", {className: "tidemark-clock"});
-        this.sound = button("Sound on", "🔇", toggleSound);
+        this.sound = button("Sound on", "silent", toggleSound);
         this.sound.hidden = !hasSound;
-        this.element = element("div", {className: "tidemark-bar"}, button("Restart", "⏮", restart), this.pause, this.time,
-                               this.clock, this.sound, button("Full screen", "⛶", toggleFullScreen));
+        this.element = element("div", {className: "tidemark-bar"}, button("Restart", "restart", restart), this.pause, this.time,
+                               this.clock, this.sound, button("Full screen", "full", toggleFullScreen));
     }
 
     show({time, frame, rate}, paused, audible) {
@@ -29,13 +45,8 @@ class TimeBar {
             this.time.max = 2 * this.time.max; // the bar doubles as time comes near
         this.time.value = time;
         this.clock.textContent = `${time.toFixed(2)} s · frame ${frame} · ${rate.toFixed(0)} fps`;
-        this.#label(this.pause, paused ? "Play" : "Pause", paused ? "▶" : "⏸");
-        this.#label(this.sound, audible ? "Sound off" : "Sound on", audible ? "🔊" : "🔇");
-    }
-
-    #label(of, label, symbol) {
-        if (of.title !== label)
-            Object.assign(of, {title: label, ariaLabel: label, textContent: symbol});
+        label(this.pause, paused ? "Play" : "Pause", paused ? "play" : "pause");
+        label(this.sound, audible ? "Sound off" : "Sound on", audible ? "audible" : "silent");
     }
 }
 

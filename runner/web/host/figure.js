@@ -24,7 +24,7 @@ class Figure {
     isVisible = true;
 
     constructor(div) {
-        this.div = div;
+        this.div = Object.assign(div, {tidemark: this}); // for scripts of the page around
         this.scene = JSON.parse(div.querySelector("script[type='application/json']").textContent);
         this.asked = readMoment(div.dataset.moment ?? location.hash.slice(1));
         this.canvas = element("canvas", {tabIndex: 0, ariaLabel: this.scene.name});
