@@ -2,6 +2,8 @@
 import base64
 import json
 import re
+import shutil
+import subprocess
 import sys
 
 from support import browser, png
@@ -82,6 +84,20 @@ class Pictures(Page):
                                  f"{width}x{height}")
                 asked += 1
         self.assertGreater(asked, 40)
+
+    def test_of_files(self):
+        """What the browser decodes, and 16 bits, which only we do."""
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is not installed")
+        for name, source, *how in (("photo.jpg", "testsrc2=size=64x48", "-frames:v", "1"),
+                                   ("wide.png", "testsrc2=size=64x48", "-frames:v", "1", "-pix_fmt", "rgb48be"),
+                                   ("film.webm", "testsrc=size=64x48:rate=30:duration=3", "-c:v", "libvpx-vp9", "-lossless", "1")):
+            with self.subTest(name=name):
+                subprocess.run(["ffmpeg", "-loglevel", "error", "-f", "lavfi", "-i", source, *how, name], cwd=self.folder, check=True)
+                self.write("file.glsl", f'#iChannel0 "{name}"\n#iChannel0::MinFilter "LinearMipMapLinear"\n'
+                           "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / iResolution.xy); }\n")
+                self.export("file.glsl")
+                self.assert_same("file.glsl", "time=1.2&size=32x24", "--time", "1.2", "--size", "32x24")
 
 
 MOUSE = "void mainImage(out vec4 c, in vec2 p) { vec4 m = iMouse; c = vec4(m.x / 64.0, m.y / 36.0, m.z > 0.0, m.w > 0.0); }\n"
@@ -192,6 +208,25 @@ class Behaviour(Page):
                                         f" date: [0, 0, 0, 0], knobs: []}}); const i = 2 * ({first} - {row});"
                                         f" return [s[i], s[i + 1]]; }})({FIGURE})")
             self.assertEqual(got, [left, right], first)
+
+    def test_the_sound_is_heard_without_gaps(self):
+        self.write("tone/image.glsl", MOUSE)
+        self.write("tone/sound.glsl", "vec2 mainSound(int samp, float time) { return vec2(fract(time), 0.0); }\n")
+        self.export("tone")
+        self.open("size=64x36")
+        self.browser.evaluate("""window.heard = []; const start = AudioBufferSourceNode.prototype.start;
+            AudioBufferSourceNode.prototype.start = function(at, offset) {
+                heard.push({at, offset, length: this.buffer.duration, first: this.buffer.getChannelData(0)[0]});
+                return start.call(this, at, offset);
+            }; 0""")
+        x, y, width, height = self.browser.evaluate("(({left, top, width, height}) => [left, top, width, height])"
+                                                    "(document.querySelector('[title=\"Sound on\"]').getBoundingClientRect())")
+        for kind, buttons in (("mousePressed", 1), ("mouseReleased", 0)):
+            self.browser.mouse(kind, x + width / 2, y + height / 2, button="left", buttons=buttons, clickCount=1)
+        heard = self.browser.wait_for("heard.length >= 3 && heard.slice(0, 3)")
+        for one, next_one in zip(heard[1:], heard[2:]):
+            self.assertAlmostEqual(one["at"] - one["offset"] + one["length"], next_one["at"] - next_one["offset"], 4)
+            self.assertAlmostEqual((one["first"] + one["length"]) % 1, next_one["first"], 3)
 
     def test_errors_have_the_authors_line(self):
         self.write("lib.glsl", "float one() { return 1.0; }\n")

@@ -13,7 +13,7 @@ PATIENCE = 120.0  # nothing here is timed: how long a slow machine may take befo
 # ANGLE on the driver that the program draws with, so that both sides do the same arithmetic.
 FLAGS = ("--headless", "--no-sandbox", "--no-first-run", "--ignore-gpu-blocklist", "--disable-gpu-watchdog", "--use-gl=angle",
          "--use-angle=gl-egl", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-         "--proxy-server=127.0.0.1:1", "--remote-debugging-pipe")
+         "--proxy-server=127.0.0.1:1", "--window-size=1000,1000", "--remote-debugging-pipe")
 
 
 def program() -> str | None:

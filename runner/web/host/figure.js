@@ -28,6 +28,8 @@ class Figure {
         this.scene = JSON.parse(div.querySelector("script[type='application/json']").textContent);
         this.asked = readMoment(div.dataset.moment ?? location.hash.slice(1));
         this.canvas = element("canvas", {tabIndex: 0, ariaLabel: this.scene.name});
+        if (this.asked.size)
+            Object.assign(this.canvas.style, {aspectRatio: this.asked.size.join("/"), maxHeight: "none"});
         this.message = element("pre", {className: "tidemark-message", textContent: "compiling …"});
         div.append(this.canvas, this.message);
     }
@@ -55,8 +57,6 @@ class Figure {
             throw new SceneError("This browser has no WebGL 2: it cannot draw the scene.");
         if (!gl.getExtension("EXT_color_buffer_float"))
             throw new SceneError("This browser's WebGL draws no floats: it cannot draw the scene.");
-        gl.getExtension("OES_texture_float_linear");
-        gl.getExtension("EXT_float_blend");
         gl.disable(gl.DITHER);
         this.canvas.addEventListener("webglcontextlost", () => this.fail("The graphics driver gave up. Load the page anew."));
         const textures = await InputTextures.load(gl, this.scene);
@@ -123,9 +123,9 @@ class Figure {
     #tick() {
         if (this.div.dataset.state === "failed")
             return;
-        if (!this.isVisible)
+        if (!this.isVisible || (this.clock.paused && !this.needsFrame))
             this.clock.rest();
-        else if (!this.clock.paused || this.needsFrame) {
+        else {
             const now = this.now(), moment = {...this.clock.nextFrame(now), date: dateOf(new Date())};
             this.#draw(moment);
             this.player.pump({...moment, mouse: this.mouse, camera: this.camera, knobs: this.scene.knobs});

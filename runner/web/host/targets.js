@@ -9,7 +9,7 @@ class Target {
     constructor(gl, kind, {isDouble, mipmapped}) {
         this.gl = gl;
         this.isCube = kind === "cubemap";
-        this.format = {image: gl.RGBA8, cubemap: gl.RGBA16F}[kind] ?? gl.RGBA32F;
+        this.format = {image: gl.RGBA8, cubemap: gl.RGBA16F}[kind] ?? floatFormat(gl);
         this.target = this.isCube ? gl.TEXTURE_CUBE_MAP : gl.TEXTURE_2D;
         this.count = isDouble ? 2 : 1;
         this.mipmapped = mipmapped;

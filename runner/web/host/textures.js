@@ -5,6 +5,11 @@ function levelsOf(...sides) {
     return Math.floor(Math.log2(Math.max(...sides))) + 1;
 }
 
+// Some phones filter halves, but no floats.
+function floatFormat(gl) {
+    return gl.getExtension("OES_texture_float_linear") ? gl.RGBA32F : gl.RGBA16F;
+}
+
 // A texture with what the channel uniforms tell of it: `size`, `time` (iChannelTime) and whether it is `loaded`.
 // `update(moment)`: brings it up to that moment.
 class InputTexture {
@@ -38,7 +43,7 @@ class InputTexture {
     }
 
     #formatOf(input) {
-        return input.kind === "floats" ? this.gl.RGBA32F : input.red ? this.gl.R8 : this.gl.RGBA8;
+        return input.kind === "floats" ? floatFormat(this.gl) : input.red ? this.gl.R8 : this.gl.RGBA8;
     }
 
     #put(place, input) {
@@ -72,7 +77,7 @@ class InputTexture {
     make_volume(input) {
         const {gl} = this;
         this.target = gl.TEXTURE_3D;
-        this.#store(input.size, input.floats ? gl.RGBA32F : gl.RGBA8);
+        this.#store(input.size, input.floats ? floatFormat(gl) : gl.RGBA8);
         gl.texSubImage3D(this.target, 0, 0, 0, 0, ...input.size, gl.RGBA, input.floats ? gl.FLOAT : gl.UNSIGNED_BYTE,
                          input.samples);
         this.#finish();
