@@ -49,16 +49,17 @@ Json picture_file(std::string_view type, std::string_view bytes, bool flip) {
 }
 
 /// Its first row becomes the texture's first row.
-Json samples_of(const Image& image) {
+Result<Json> samples_of(const Image& image) {
     if (image.type == SampleType::f32)
-        return {{"kind", "floats"},
-                {"width", image.extent.width},
-                {"height", image.extent.height},
-                {"channels", image.channels},
-                {"data", base64_of(image.bytes)}};
+        return Json{{"kind", "floats"},
+                    {"width", image.extent.width},
+                    {"height", image.extent.height},
+                    {"channels", image.channels},
+                    {"data", base64_of(image.bytes)}};
     const auto png = image::encode_png(
         {image::FileFormat::png, image::SampleDepth::u8, image.extent, image.channels, image.bytes, {}});
-    assert(png && "in memory only memory can run out");
+    if (!png)
+        return fail(ErrorCode::load, fmt::format("a texture cannot be made a PNG: {}", png.error()));
     return picture_file("image/png", {reinterpret_cast<const char*>(png->data()), png->size()}, true);
 }
 
@@ -95,8 +96,8 @@ public:
         const auto image = TRY(image::read_picture(picture.file)); // a browser would not say what is wrong
         const auto file = TRY(read_file(picture.file, k_largest_file));
         const std::string_view type = type_of(file);
-        Json data =
-            !type.empty() && image.type == SampleType::u8 ? picture_file(type, file, vflip_) : flat(image);
+        const bool as_it_is = !type.empty() && image.type == SampleType::u8;
+        Json data = as_it_is ? picture_file(type, file, vflip_) : TRY(flat(image));
         return picture.one_channel ? red_alone(std::move(data)) : data;
     }
 
@@ -106,10 +107,10 @@ public:
         switch (noise.kind) {
         case NoiseKind::rgba_256: return flat(image::make_noise(NoiseTexture::rgba_256));
         case NoiseKind::rgba_64: return flat(image::make_noise(NoiseTexture::rgba_64));
-        case NoiseKind::grey_256: return red_alone(flat(image::make_noise(NoiseTexture::grey_256)));
-        case NoiseKind::grey_64: return red_alone(flat(image::make_noise(NoiseTexture::grey_64)));
+        case NoiseKind::grey_256: return flat(image::make_noise(NoiseTexture::grey_256)).map(red_alone);
+        case NoiseKind::grey_64: return flat(image::make_noise(NoiseTexture::grey_64)).map(red_alone);
         case NoiseKind::blue_1024: return flat(image::make_noise(NoiseTexture::blue_1024));
-        case NoiseKind::bayer_8: return red_alone(flat(image::make_noise(NoiseTexture::bayer_8)));
+        case NoiseKind::bayer_8: return flat(image::make_noise(NoiseTexture::bayer_8)).map(red_alone);
         case NoiseKind::grey_volume_32:
             return volume_of(image::make_noise_volume(image::NoiseVolume::grey_32));
         case NoiseKind::rgba_volume_32:
@@ -135,9 +136,9 @@ public:
         if (stand_in.kind == Kind::volume)
             return volume_of(image::make_stand_in_volume(name, stand_in.width, stand_in.height,
                                                          stand_in.height, stand_in.channels));
-        Json data =
+        auto data =
             flat(image::make_stand_in_picture(name, {stand_in.width, stand_in.height}, stand_in.channels));
-        return stand_in.channels == 1 ? red_alone(std::move(data)) : data;
+        return stand_in.channels == 1 ? std::move(data).map(red_alone) : data;
     }
 
     Result<Json> operator()(const scene::Constant& constant) const {
@@ -170,13 +171,13 @@ public:
     }
 
 private:
-    Json flat(const Image& image) const { return samples_of(vflip_ ? image : image::flipped(image)); }
+    Result<Json> flat(const Image& image) const { return samples_of(vflip_ ? image : image::flipped(image)); }
 
-    Json cube(const image::CubeFaces& from) const {
+    Result<Json> cube(const image::CubeFaces& from) const {
         Json faces = Json::array();
         for (const Image& face : vflip_ ? image::vflipped(from) : from)
-            faces.push_back(samples_of(face));
-        return {{"kind", "cubemap"}, {"side", from[0].extent.width}, {"faces", std::move(faces)}};
+            faces.push_back(TRY(samples_of(face)));
+        return Json{{"kind", "cubemap"}, {"side", from[0].extent.width}, {"faces", std::move(faces)}};
     }
 
     bool vflip_;

@@ -59,7 +59,7 @@ class Figure {
             throw new SceneError("This browser's WebGL draws no floats: it cannot draw the scene.");
         gl.disable(gl.DITHER);
         this.canvas.addEventListener("webglcontextlost", () => this.fail("The graphics driver gave up. Load the page anew."));
-        const textures = await InputTextures.load(gl, this.scene);
+        const textures = new InputTextures(gl, await Promise.all(this.scene.inputs.map(decodeInput)));
         this.renderer = await Renderer.create(gl, this.scene, textures);
         this.player = new Player(await SoundPass.create(gl, this.scene, textures), textures.inputs.filter(input => input.sound));
         this.videos = textures.all.filter(texture => texture.video);
@@ -71,7 +71,8 @@ class Figure {
                                 toggleFullScreen: () => this.toggleFullScreen()}, this.player.hasSound);
         this.panel = knobPanel(this.scene.knobs, () => { this.needsFrame = true; });
         this.div.append(this.bar.element, this.panel);
-        listen(this);
+        listenToPointer(this);
+        listenToKeys(this);
         this.#fit();
         new ResizeObserver(() => this.#fit()).observe(this.canvas);
         new IntersectionObserver(([entry]) => { this.isVisible = entry.isIntersecting; }).observe(this.canvas);
@@ -177,75 +178,4 @@ class Figure {
         else
             this.div.requestFullscreen();
     }
-}
-
-// ---- Mouse and keyboard of the figure
-
-function listen(figure) {
-    const {canvas, mouse, camera, keyboard, renderer} = figure;
-    const turns = renderer.uses("iCamera", "iViewMatrix");
-    const at = event => {
-        const box = canvas.getBoundingClientRect(), scale = canvas.height / box.height;
-        return [(event.clientX - box.left) * canvas.width / box.width, canvas.height - (event.clientY - box.top) * scale];
-    };
-    let last = null; // of a drag
-    canvas.onpointerdown = event => {
-        canvas.setPointerCapture(event.pointerId);
-        last = at(event);
-        if (event.button === 0)
-            mouse.press(...last);
-        mouse.right ||= event.button === 2;
-        figure.needsFrame = true;
-        canvas.focus({preventScroll: true});
-    };
-    canvas.onpointermove = event => {
-        if (!last)
-            return;
-        const here = at(event), by = [here[0] - last[0], here[1] - last[1]];
-        mouse.move(...here);
-        if (turns && event.buttons & 4)
-            camera.pan(...by, canvas.height);
-        else if (turns && event.buttons & 1)
-            camera.turn(...by, canvas.height);
-        last = here;
-        figure.needsFrame = true;
-    };
-    canvas.onpointerup = canvas.onpointercancel = event => {
-        if (event.button !== 2)
-            mouse.release();
-        mouse.right &&= event.button !== 2;
-        last = event.buttons ? last : null;
-        figure.needsFrame = true;
-    };
-    if (turns)
-        canvas.addEventListener("wheel", event => {
-            event.preventDefault();
-            camera.zoom(-Math.sign(event.deltaY));
-            figure.needsFrame = true;
-        }, {passive: false});
-    if (turns || renderer.uses("iMouse", "iMouseButton", "mouse"))
-        Object.assign(canvas.style, {touchAction: "none"}); // a finger drags in the picture instead of the page
-    canvas.oncontextmenu = event => { if (renderer.uses("iMouseButton")) event.preventDefault(); };
-    listenToKeys(figure);
-}
-
-// A scene that reads the keyboard gets all keys but those that leave the figure; of others the space bar pauses.
-function listenToKeys(figure) {
-    const {canvas, keyboard, renderer: {readsKeyboard}} = figure;
-    canvas.onkeydown = event => {
-        if (event.ctrlKey || event.altKey || event.metaKey || ["Tab", "Escape"].includes(event.key))
-            return;
-        if (readsKeyboard)
-            keyboard.press(event.keyCode);
-        else if (event.key === " " && !event.repeat)
-            figure.togglePause();
-        if (readsKeyboard || event.key === " ")
-            event.preventDefault();
-        figure.needsFrame ||= readsKeyboard;
-    };
-    canvas.onkeyup = event => {
-        keyboard.release(event.keyCode);
-        figure.needsFrame ||= readsKeyboard;
-    };
-    canvas.onblur = () => keyboard.releaseAll();
 }

@@ -14,13 +14,9 @@ const KEYBOARD_SAMPLER = {magnify: "nearest", minify: "nearest", mipmaps: "none"
 
 // The textures of the inputs, each made once, with mipmaps and without.
 class InputTextures {
-    static async load(gl, scene) {
-        const textures = new InputTextures();
-        textures.gl = gl;
-        textures.inputs = await Promise.all(scene.inputs.map(decodeInput));
-        textures.made = new Map();
-        return textures;
-    }
+    made = new Map();
+
+    constructor(gl, inputs) { Object.assign(this, {gl, inputs}); }
 
     of({input, sampler}) {
         const mipmapped = sampler.mipmaps !== "none", key = `${input} ${mipmapped}`;

@@ -44,6 +44,8 @@ class SoundPass {
 class Player {
     #context = null; // a browser allows sound once a person has asked for it
     #sources = new Set();
+    #origin = 0; // of the scene's time in the context's
+    #next = 0;   // the sample of the Sound pass that is to be drawn next
 
     constructor(pass, music) {
         this.pass = pass;
@@ -79,13 +81,10 @@ class Player {
         for (const {sound} of this.music)
             this.#play(sound, this.#context.currentTime, time % sound.duration, true);
     }
-    #origin = 0; // of the scene's time in the context's
-    #next = 0;   // the sample of the Sound pass that is to be drawn next
 
     // Keeps two seconds of the Sound pass ahead, a few rows a frame.
     pump(moment) {
-        const ahead = this.#next / SAMPLE_RATE - (this.#context?.currentTime ?? 0) + this.#origin;
-        if (!this.playing || !this.pass || ahead > 2)
+        if (!this.playing || !this.pass || this.#origin + this.#next / SAMPLE_RATE > this.#context.currentTime + 2)
             return;
         const rows = Math.min(SOUND_ROWS, (SOUND_BLOCK - this.#next % SOUND_BLOCK) / SOUND_TILE);
         const samples = this.pass.draw(this.#next, moment), count = rows * SOUND_TILE;
