@@ -27,11 +27,10 @@ class Page(ProgramTest):
     def export(self, *words):
         self.succeed("export", *words, "--html", "page.html")
 
-    def open(self, moment, state="running"):
+    def open(self, moment, state="running", remark=""):
         self.browser.open(f"file://{self.folder}/page.html#{moment}")
         self.browser.wait_for(f"{STATE} && {STATE} !== 'loading'")
-        self.assertEqual((self.browser.evaluate(STATE), self.message() if state == "running" else ""),
-                         (state, "compiling …" if state == "running" else ""))
+        self.assertEqual((self.browser.evaluate(STATE), self.message() if state == "running" else ""), (state, remark))
 
     def message(self):
         return self.browser.evaluate("document.querySelector('.tidemark-message').textContent")
@@ -157,6 +156,8 @@ class Behaviour(Page):
         self.assertNotEqual(self.pixel(), before)
         self.captured("orbit.glsl", "--size", "64x36", "--camera", camera)
         self.assertEqual(self.pixel(), png.read(self.folder / "ours.png").pixel(0, 0))
+        self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="r", code="KeyR", windowsVirtualKeyCode=82)
+        self.wait_for_pixel(before)
 
     def test_a_key(self):
         self.write("keys.glsl", "#iChannel0 \"keyboard\"\nvoid mainImage(out vec4 c, in vec2 p) "
@@ -235,6 +236,16 @@ class Behaviour(Page):
         self.open("size=64x36", state="failed")
         self.assertEqual(self.message().split("\n")[:2], ["Image does not compile in this browser:",
                                                           "wrong.glsl:3: error: 'two' : no matching overloaded function found"])
+
+    def test_goes_on_without_what_fails(self):
+        self.write("s/image.glsl", '#iChannel0 "song.wav"\n'
+                   "void mainImage(out vec4 c, in vec2 p) { c = vec4(0, 1, texelFetch(iChannel0, ivec2(0, 1), 0).r, 1); }\n")
+        self.write("s/song.wav", "no sound")
+        self.write("s/sound.glsl", "vec2 mainSound(int samp, float time) { return vec2(none); }\n")
+        self.export("s")
+        self.open("size=64x36&time=0&paused", remark="this browser does not play the scene's sound file\n"
+                  "Sound does not compile in this browser:\ns/sound.glsl:1: error: 'none' : undeclared identifier")
+        self.wait_for_pixel((0, 255, 127))
 
     def test_asks_the_network_for_nothing(self):
         self.write("noise.glsl", "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / 64.0); }\n")

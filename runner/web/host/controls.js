@@ -86,5 +86,6 @@ function knobWidgets(knob, changed) {
 
 function knobPanel(knobs, changed) {
     return element("div", {className: "tidemark-knobs"}, ...knobs.map(knob =>
-        element("div", {className: "tidemark-knob"}, element("span", {textContent: knob.name}), ...knobWidgets(knob, changed))));
+        element("div", {className: "tidemark-knob"}, element("span", {textContent: knob.name}),
+                ...knobWidgets(knob, changed))));
 }

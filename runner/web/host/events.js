@@ -70,7 +70,11 @@ function listenToPointer(figure) {
         on("contextmenu", event => event.preventDefault());
 }
 
-// A scene that reads the keyboard gets all keys but those that leave the figure; of others the space bar pauses.
+// As in the window.
+const KEYS = {" ": figure => figure.togglePause(), Home: figure => figure.restart(), f: figure => figure.toggleFullScreen(),
+              r: figure => figure.resetCamera()};
+
+// A scene that reads the keyboard gets all keys but those that leave the figure.
 function listenToKeys(figure) {
     const {canvas, keyboard, renderer: {readsKeyboard}} = figure;
     canvas.addEventListener("keydown", event => {
@@ -78,9 +82,9 @@ function listenToKeys(figure) {
             return;
         if (readsKeyboard)
             keyboard.press(event.keyCode);
-        else if (event.key === " " && !event.repeat)
-            figure.togglePause();
-        if (readsKeyboard || event.key === " ")
+        else if (event.key in KEYS && !event.repeat)
+            KEYS[event.key](figure);
+        if (readsKeyboard || event.key in KEYS)
             event.preventDefault();
         figure.needsFrame ||= readsKeyboard;
     });

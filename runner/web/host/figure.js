@@ -22,6 +22,7 @@ class Figure {
     clock = new Clock();
     needsFrame = true; // although time stands still
     isVisible = true;
+    remarks = []; // for whoever looks at the page
 
     constructor(div) {
         this.div = Object.assign(div, {tidemark: this}); // for scripts of the page around
@@ -52,17 +53,30 @@ class Figure {
     }
 
     async #prepare() {
-        const gl = this.canvas.getContext("webgl2", {alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true});
+        const gl = this.canvas.getContext("webgl2", {alpha: false, antialias: false, depth: false,
+                                                     preserveDrawingBuffer: true}); // a pause keeps its picture
         if (!gl)
             throw new SceneError("This browser has no WebGL 2: it cannot draw the scene.");
         if (!gl.getExtension("EXT_color_buffer_float"))
             throw new SceneError("This browser's WebGL draws no floats: it cannot draw the scene.");
         gl.disable(gl.DITHER);
-        this.canvas.addEventListener("webglcontextlost", () => this.fail("The graphics driver gave up. Load the page anew."));
-        const textures = new InputTextures(gl, await Promise.all(this.scene.inputs.map(decodeInput)));
+        this.canvas.addEventListener("webglcontextlost",
+                                     () => this.fail("The graphics driver gave up. Load the page anew."));
+        const inputs = await Promise.all(this.scene.inputs.map(input => this.#goOnWithout(
+            decodeInput(input), {kind: input.kind === "music" ? "silence" : "none"})));
+        const textures = new InputTextures(gl, inputs);
         this.renderer = await Renderer.create(gl, this.scene, textures);
-        this.player = new Player(await SoundPass.create(gl, this.scene, textures), textures.inputs.filter(input => input.sound));
+        const sound = await this.#goOnWithout(SoundPass.create(gl, this.scene, textures), null);
+        this.player = new Player(sound, inputs.filter(input => input.sound));
         this.videos = textures.all.filter(texture => texture.video);
+    }
+
+    // What fails is said, and the picture goes on with something else.
+    #goOnWithout(promise, substitute) {
+        return promise.catch(error => {
+            this.remarks.push(error.message);
+            return substitute;
+        });
     }
 
     async #begin() {
@@ -77,7 +91,8 @@ class Figure {
         new ResizeObserver(() => this.#fit()).observe(this.canvas);
         new IntersectionObserver(([entry]) => { this.isVisible = entry.isIntersecting; }).observe(this.canvas);
         await this.#goTo(this.asked);
-        this.message.hidden = true;
+        this.message.textContent = this.remarks.join("\n");
+        this.message.hidden = this.remarks.length === 0;
         this.div.dataset.state = "running";
         requestAnimationFrame(() => this.#tick());
     }
@@ -161,6 +176,11 @@ class Figure {
         this.clock.pause(!this.clock.paused, this.now());
         this.needsFrame = true;
         this.#playOn();
+    }
+
+    resetCamera() {
+        Object.assign(this.camera, new OrbitCamera());
+        this.needsFrame = true;
     }
 
     toggleSound() {

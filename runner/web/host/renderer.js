@@ -38,7 +38,8 @@ class DrawnPass {
             texture: channel.input === undefined ? null : textures.of(channel), filter: makeSampler(gl, channel.sampler)}));
         if (this.has("iKeyboard")) {
             const texture = new InputTexture(gl, {kind: "keyboard", rows: 4}, false);
-            this.channels.push({number: KEYBOARD_UNIT, names: ["iKeyboard"], texture, filter: makeSampler(gl, KEYBOARD_SAMPLER)});
+            const filter = makeSampler(gl, KEYBOARD_SAMPLER);
+            this.channels.push({number: KEYBOARD_UNIT, names: ["iKeyboard"], texture, filter});
         }
         this.ownTextures = this.channels.map(channel => channel.texture).filter(texture => texture?.isKeyboard);
     }
