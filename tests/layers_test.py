@@ -19,8 +19,9 @@ ALLOWED = {
     "platform": ["base"],
     "live": ["base", "text", "scene", "platform"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
+    "web": ["base", "text", "scene", "glsl", "image"],
     "lab": ["base", "text", "scene", "glsl", "ir", "gl", "image", "render"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "render", "lab"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "render", "web", "lab"],
     "install": [],
     "main.cpp": ["cli"],
 }
@@ -36,6 +37,8 @@ ROOMS = {
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "trace": [], "pixel": ["march"],
             "check": ["", "march", "trace"]},
+    # What runs in a browser, and includes nothing.
+    "web": {"": [], "host": []},
     "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""]},
 }
 

@@ -8,6 +8,7 @@
 #include "cli/version.hpp"
 #include "scene/folder_scene.hpp"
 #include "scene/project_files.hpp"
+#include "web/page.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,7 +23,11 @@ namespace {
 struct ExportOptions {
     SceneRequest scene;
     std::string output = "-";
+    std::string html{}; ///< where a page goes; empty: ShaderToy's JSON is asked for
+    bool embed = false;
     bool json = false;
+
+    const std::string& target() const { return html.empty() ? output : html; }
 };
 
 /// The folder whose scene.json is meant; empty when the scene has none.
@@ -34,7 +39,14 @@ fs::path project_folder(const fs::path& scene) {
     return scene.filename() == scene::k_project_file ? folder : fs::path();
 }
 
-/// `read`: becomes the files it is made of.
+/// A page, or the part of one. `read`: becomes the files it is made of.
+Result<std::string> page_of(const ExportOptions& options, std::vector<fs::path>& read) {
+    const auto scene = TRY(load(options.scene));
+    read = files_read(scene);
+    return web::make_page(scene, options.embed ? web::PageForm::fragment : web::PageForm::whole);
+}
+
+/// ShaderToy's JSON; `read` likewise.
 Result<std::string> project_of(const ExportOptions& options, std::vector<fs::path>& read) {
     const SceneRequest& request = options.scene;
     if (const fs::path folder = project_folder(request.path); !folder.empty()) {
@@ -57,18 +69,24 @@ Result<std::string> project_of(const ExportOptions& options, std::vector<fs::pat
 }
 
 Result<int> export_scene(const ExportOptions& options) {
-    if (options.json && options.output == "-")
-        return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
+    const std::string& target = options.target();
+    if (options.json && target == "-")
+        return fail(ErrorCode::usage,
+                    fmt::format("--json and {} - both want standard output: give one of them",
+                                options.html.empty() ? "-o" : "--html"));
+    if (options.html.empty() && (options.embed || !options.scene.files.media.empty()))
+        return fail(ErrorCode::usage,
+                    fmt::format("{} goes with --html FILE", options.embed ? "--embed" : "--media"));
     std::vector<fs::path> read;
-    const auto project = TRY(project_of(options, read));
-    if (options.output == "-")
-        return put(project).map([] { return 0; });
-    TRY(write_file(OutputPath::typed(options.output).sparing(read), project));
-    say(fmt::format("wrote {}", options.output));
+    const auto text = TRY(options.html.empty() ? project_of(options, read) : page_of(options, read));
+    if (target == "-")
+        return put(text).map([] { return 0; });
+    TRY(write_file(OutputPath::typed(target).sparing(read), text));
+    say(fmt::format("wrote {}", target));
     if (!options.json)
         return 0;
     const nlohmann::ordered_json report = {
-        {"tidemark", k_version}, {"scene", options.scene.path.string()}, {"file", options.output}};
+        {"tidemark", k_version}, {"scene", options.scene.path.string()}, {"file", target}};
     return put(dump(report, 2) + "\n").map([] { return 0; });
 }
 
@@ -76,16 +94,23 @@ Result<int> export_scene(const ExportOptions& options) {
 
 void add_export(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ExportOptions>();
-    CLI::App* command = app.add_subcommand("export", "Makes ShaderToy's JSON of a scene folder or file");
+    CLI::App* command = app.add_subcommand(
+        "export", "Makes ShaderToy's JSON of a scene, or a page that draws it in any browser");
     command->add_option("SCENE", options->scene.path, "A scene folder, or a file with mainImage")->required();
-    command->add_option("-o,--output", options->output, "File; -: standard output")
+    CLI::Option* output = command->add_option("-o,--output", options->output, "File; -: standard output")
+                              ->type_name("FILE")
+                              ->capture_default_str();
+    command
+        ->add_option("--html", options->html,
+                     "A page that draws the scene in a browser, all in one file; -: standard output")
         ->type_name("FILE")
-        ->capture_default_str();
-    repeatable(command->add_option("--set", options->scene.sets,
-                                   "Value that a knob (#iUniform) is given as a constant"))
+        ->excludes(output);
+    command->add_flag("--embed", options->embed, "With --html: a <div> for a page of your own");
+    repeatable(
+        command->add_option("--set", options->scene.sets,
+                            "Value of a knob (#iUniform): a constant in JSON, where it begins in a page"))
         ->type_name("NAME=VALUE");
-    command->add_flag("--allow-outside", options->scene.files.allow_outside,
-                      "The scene may read files that lie outside its folder");
+    add_file_options(*command, options->scene);
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] { chosen = [options] { return export_scene(*options); }; });
 }

@@ -33,6 +33,10 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
                         "What iChannelN reads, of Image or another pass: a file, a name as in a directive "
                         "(noise, keyboard), none; to test with: black, white, nan, texel")
             ->type_name("[PASS:]N=FILE|noise|none"));
+    add_file_options(command, request);
+}
+
+void add_file_options(CLI::App& command, SceneRequest& request) {
     command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
         ->type_name("DIR")
         ->check(unnamed(CLI::ExistingDirectory));

@@ -20,6 +20,8 @@ CLI::Option* repeatable(CLI::Option* option);
 
 /// SCENE, --set, --define, --channel, --media, --allow-outside.
 void add_scene_options(CLI::App& command, SceneRequest& request);
+/// The last two of these.
+void add_file_options(CLI::App& command, SceneRequest& request);
 
 /// --precision, --double-hashes: of every command that draws.
 void add_precision_options(CLI::App& command, SceneRequest& request);

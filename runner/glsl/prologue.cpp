@@ -19,12 +19,15 @@ constexpr std::string_view k_core_330 = R"(#version 330 core
 #extension GL_ARB_arrays_of_arrays : enable
 )";
 
-/// Samplers too: by default they are lowp, and Mesa then reads float buffers as halves.
+/// Samplers too: by default they are lowp, and Mesa then reads float buffers as halves. An author's own word
+/// for less is nothing on a desktop, where the scene was written.
 constexpr std::string_view k_es_precision = R"(precision highp float;
 precision highp int;
 precision highp sampler2D;
 precision highp samplerCube;
 precision highp sampler3D;
+#define mediump highp
+#define lowp highp
 )";
 
 /// The corner comes from the vertex shader: what is flat is there for nothing, where a driver that draws on

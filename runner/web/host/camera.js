@@ -1,0 +1,47 @@
+
+// ---- iCamera and iViewMatrix
+
+// Circles a target at a distance. World y is up; at azimuth and elevation 0 it stands on the positive z axis. Degrees.
+class OrbitCamera {
+    azimuth = 30;
+    elevation = 20;
+    distance = 10;
+    target = [0, 0, 0];
+
+    // A drag by so many pixels of a picture that is `height` high: once across is half a circle.
+    turn(dx, dy, height) {
+        this.azimuth = ((this.azimuth - dx / height * 180) % 360 + 360) % 360;
+        this.elevation = Math.min(89.9, Math.max(-89.9, this.elevation - dy / height * 180));
+    }
+
+    zoom(notches) { this.distance = Math.min(1e6, Math.max(1e-3, this.distance * 0.9 ** notches)); }
+
+    pan(dx, dy, height) {
+        const [right, up] = this.axes, scale = this.distance / height;
+        this.target = this.target.map((at, i) => at - (right[i] * dx + up[i] * dy) * scale);
+    }
+
+    get axes() {
+        const azimuth = this.azimuth * Math.PI / 180, elevation = this.elevation * Math.PI / 180;
+        const [sa, ca, se, ce] = [Math.sin(azimuth), Math.cos(azimuth), Math.sin(elevation), Math.cos(elevation)];
+        return [[ca, 0, -sa], [-sa * se, ce, -ca * se], [sa * ce, se, ca * ce]];
+    }
+
+    // Camera to world: columns right, up, backwards, position.
+    get matrix() {
+        const axes = this.axes, position = this.target.map((at, i) => at + this.distance * axes[2][i]);
+        return [...axes, position].flatMap((column, i) => [...column, i === 3 ? 1 : 0]);
+    }
+
+    // The same, as seen from another camera.
+    seenFrom(other) {
+        const theirs = other.matrix, ours = this.matrix, seen = [];
+        for (let column = 0; column < 4; ++column) {
+            const from = column === 3 ? 1 : 0, at = [0, 1, 2].map(i => ours[4 * column + i] - from * theirs[12 + i]);
+            for (let row = 0; row < 3; ++row)
+                seen.push(at[0] * theirs[4 * row] + at[1] * theirs[4 * row + 1] + at[2] * theirs[4 * row + 2]);
+            seen.push(from);
+        }
+        return seen;
+    }
+}

@@ -1,0 +1,2 @@
+new Figure(document.currentScript.parentElement).start();
+})();

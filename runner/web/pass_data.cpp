@@ -1,0 +1,80 @@
+#include "web/pass_data.hpp"
+
+#include "glsl/pass_reading.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace tidemark::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view name_of(scene::PassKind kind) {
+    switch (kind) {
+    case scene::PassKind::buffer: return "buffer";
+    case scene::PassKind::cubemap: return "cubemap";
+    case scene::PassKind::sound: return "sound";
+    default: return "image";
+    }
+}
+
+/// WebGL starts at zero what has no value, as the texts that are written for it expect.
+text::MappedText web_source(const glsl::PassReading& reading) {
+    const auto dialects = reading.dialects(glsl::Precision::single);
+    glsl::Dialect dialect = *std::ranges::find(dialects, glsl::Version::es_300, &glsl::Dialect::version);
+    dialect.initialise = false;
+    return std::move(reading.assemble(dialect)->source); // which fails in double precision only
+}
+
+/// As seen from the scene: a page does not tell in whose home it was made.
+std::string shown_name(const std::filesystem::path& file, const scene::Scene& scene) {
+    const auto relative =
+        file.lexically_normal().lexically_relative(scene.file.parent_path().lexically_normal());
+    return relative.empty() || *relative.begin() == ".." ? file.filename().string() : relative.string();
+}
+
+/// [line of the source, file, line in it], where a file begins or goes on; ours have no file.
+Json line_runs(const text::MappedText& source, const scene::Scene& scene) {
+    Json runs = Json::array();
+    SourceLocation last;
+    for (int line = 1; line <= source.line_count(); ++line) {
+        const SourceLocation here = source.lines().locate(line);
+        const bool goes_on = here.file == last.file && (here.file.empty() || here.line == last.line + 1);
+        if (line == 1 || !goes_on)
+            runs.push_back({line, here.file.empty() ? "" : shown_name(here.file, scene), here.line});
+        last = here;
+    }
+    return runs;
+}
+
+} // namespace
+
+Json pass_data(const scene::Scene& scene, const scene::Pass& pass) {
+    const glsl::PassReading reading(scene, pass);
+    const text::MappedText source = web_source(reading);
+    return {{"name", pass.name},
+            {"kind", name_of(pass.kind)},
+            {"source", source.text()},
+            {"lines", line_runs(source, scene)},
+            {"discards", reading.discards()}};
+}
+
+std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass& pass) {
+    const glsl::PassReading reading(scene, pass);
+    const auto named = [&](std::string_view name) { return reading.place_of(name).has_value(); };
+    // Sizes and times are asked for by a number that only a compiler knows.
+    const bool asks = named("iChannelResolution") || named("iChannelTime") || named("iChannel");
+    std::vector<size_t> channels;
+    for (size_t i = 0; i < scene::k_channel_count; ++i)
+        if ((asks && i < scene::k_site_channel_count) || named(fmt::format("iChannel{}", i)) ||
+            named(fmt::format("iCh{}", i)))
+            channels.push_back(i);
+    return channels;
+}
+
+} // namespace tidemark::web
