@@ -7,7 +7,6 @@
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
-#include "cli/picture_facts.hpp"
 #include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/window_loss.hpp"
@@ -315,6 +314,7 @@ void Viewer::obey(Key key, double now) {
     case Key::r: return control(CameraReset{});
     case Key::f: window_.toggle_full_screen(); break;
     case Key::escape: escape(now); break;
+    case Key::c: return copy_moment();
     case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
     case Key::h:
     case Key::f1: return toggle_help();
@@ -367,8 +367,7 @@ void Viewer::save_picture() {
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
     const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", shown_.frame));
-    const image::PictureFormat format{image::SampleDepth::u8,
-                                      metadata_of(stage_->renderer().scene(), shown_)};
+    const image::PictureFormat format = format_of_picture();
     image::Image picture = stage_->renderer().read_back();
     count_not_finite(stage_->renderer(), picture); // its marks are no alpha
     if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),

@@ -6,6 +6,7 @@
 #include "cli/frame_writer.hpp"
 #include "cli/input_script.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/moment.hpp"
 #include "cli/options.hpp"
 #include "cli/requests.hpp"
 #include "cli/view/error_board.hpp"
@@ -71,6 +72,11 @@ private:
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
     void save_picture();
+
+    // The moment on show: viewer_moments.cpp
+    Moment moment() const;
+    image::PictureFormat format_of_picture() const;
+    void copy_moment();
 
     // The overlay: viewer_overlay.cpp
     void toggle_controls();

@@ -1,0 +1,44 @@
+// The moment on show, as a value: copied as a command, saved with pictures, kept and gone back to.
+#include "cli/console.hpp"
+#include "cli/fingerprint.hpp"
+#include "cli/picture_facts.hpp"
+#include "cli/view/viewer.hpp"
+
+namespace tidemark::cli {
+
+Moment Viewer::moment() const {
+    FrameSequence sequence = settings_.frames;
+    if (recording())
+        sequence.input_file = settings_.record.string();
+    render::FrameState state = shown_;
+    state.pass = sequence.state.pass;
+    if (!clock_.by_frames())
+        sequence.lead_in_fps = sequence.state.fps;
+    return moment_of(scene_.request(), sequence, std::move(state));
+}
+
+/// Of the frame on show, with all that draws it again.
+image::PictureFormat Viewer::format_of_picture() const {
+    const scene::Scene& scene = stage_->renderer().scene();
+    const auto fingerprint =
+        Fingerprint::of_scene(scene, scene_.request().defines, settings_.frames, gl::query_capabilities());
+    image::PictureFormat format{image::SampleDepth::u8, metadata_of(scene, moment())};
+    format.metadata.emplace_back(k_fingerprint, fingerprint.text());
+    return format;
+}
+
+/// The rate of the window's own clock is nobody's wish, and the date is left to the capture unless somebody
+/// gave one.
+void Viewer::copy_moment() {
+    if (!stage_)
+        return;
+    Moment copied = moment();
+    render::FrameState& state = copied.sequence.state;
+    state.fps = settings_.frames.state.fps;
+    state.date = settings_.frames.state.date;
+    const std::string command = capture_command(copied);
+    window_.set_clipboard(command);
+    say("copied: " + command);
+}
+
+} // namespace tidemark::cli
