@@ -41,6 +41,7 @@ enum class Key : int {
     c = 67,
     f = 70,
     h = 72,
+    k = 75,
     r = 82,
     s = 83,
     z = 90,

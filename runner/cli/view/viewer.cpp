@@ -315,6 +315,7 @@ void Viewer::obey(Key key, double now) {
     case Key::f: window_.toggle_full_screen(); break;
     case Key::escape: escape(now); break;
     case Key::c: return copy_moment();
+    case Key::k: return keep_moment();
     case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
     case Key::h:
     case Key::f1: return toggle_help();
@@ -384,6 +385,8 @@ LiveScene::View Viewer::view() const {
 Result<void> Viewer::follow_scene(double now) {
     auto fresh = TRY(scene_.follow(window_, view(), now));
     stale_overlay_ |= errors_.show(scene_.failure());
+    if (scene_.failure())
+        going_to_.reset();
     return fresh ? show(*std::move(fresh), now) : Result<void>();
 }
 
@@ -406,6 +409,8 @@ Result<void> Viewer::show(Stage fresh, double now) {
     finite_.begin_anew();
     stale_ = true;
     touched_at_ = now;
+    if (going_to_)
+        seek(*std::exchange(going_to_, std::nullopt), now);
     return {};
 }
 

@@ -77,6 +77,10 @@ private:
     Moment moment() const;
     image::PictureFormat format_of_picture() const;
     void copy_moment();
+    void keep_moment();
+    void carry_out(const live::KeepView&) { keep_moment(); }
+    void carry_out(const live::GoToView& command);
+    void carry_out(const live::ForgetView& command);
 
     // The overlay: viewer_overlay.cpp
     void toggle_controls();
@@ -158,6 +162,8 @@ private:
     PassCosts costs_;                       ///< while the controls are open
     std::optional<SteppingThere> stepping_; ///< on the way to a frame
     live::SetLoop loop_;                    ///< of time
+    std::vector<Moment> views_;             ///< that somebody kept
+    std::optional<double> going_to_;        ///< iTime of the view that the next Stage shows
     std::optional<size_t> large_;           ///< of the pictures in the overlay
     std::optional<std::vector<live::DefinitionField>>
         defined_;                ///< by the scene on show; none: not looked yet

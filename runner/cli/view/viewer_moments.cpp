@@ -2,6 +2,7 @@
 #include "cli/console.hpp"
 #include "cli/fingerprint.hpp"
 #include "cli/picture_facts.hpp"
+#include "cli/view/overlay_fields.hpp"
 #include "cli/view/viewer.hpp"
 
 namespace tidemark::cli {
@@ -39,6 +40,40 @@ void Viewer::copy_moment() {
     const std::string command = capture_command(copied);
     window_.set_clipboard(command);
     say("copied: " + command);
+}
+
+void Viewer::keep_moment() {
+    if (!stage_)
+        return;
+    views_.push_back(moment());
+    stale_overlay_ = true;
+    say("kept: " + view_labels(views_).back());
+}
+
+/// As the bar of time goes to a moment; definitions are compiled first.
+void Viewer::carry_out(const live::GoToView& command) {
+    if (command.index >= views_.size())
+        return;
+    if (replay_)
+        return say("a recording moves the scene: it stays there");
+    const Moment& kept = views_[command.index];
+    const render::FrameState& state = kept.sequence.state;
+    controls_.adopt(state);
+    shown_.knobs.clear();
+    controls_.fill(shown_);
+    const double now = now_seconds();
+    touched_at_ = now;
+    stale_ = true;
+    if (kept.scene.defines == scene_.request().defines)
+        return seek(state.seconds(), now);
+    going_to_ = state.seconds();
+    scene_.hold(kept.scene.defines, window_, view());
+}
+
+void Viewer::carry_out(const live::ForgetView& command) {
+    if (command.index < views_.size())
+        views_.erase(views_.begin() + std::ptrdiff_t(command.index));
+    stale_overlay_ = true;
 }
 
 } // namespace tidemark::cli
