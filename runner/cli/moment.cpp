@@ -118,4 +118,11 @@ std::vector<std::string> merged(std::vector<std::string> older, const std::vecto
     return older;
 }
 
+void erase_named(const std::vector<std::string>& sets, std::vector<scene::Setting>& knobs) {
+    std::erase_if(knobs, [&](const scene::Setting& knob) {
+        return std::ranges::any_of(sets,
+                                   [&](const std::string& set) { return set.starts_with(knob.name + "="); });
+    });
+}
+
 } // namespace tidemark::cli

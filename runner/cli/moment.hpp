@@ -30,4 +30,7 @@ std::string capture_command(const Moment& moment);
 /// Settings `NAME=VALUE`: those of `older` that `newer` does not name, then `newer`.
 std::vector<std::string> merged(std::vector<std::string> older, const std::vector<std::string>& newer);
 
+/// Knobs that stand over what the scene has go where `sets` name them.
+void erase_named(const std::vector<std::string>& sets, std::vector<scene::Setting>& knobs);
+
 } // namespace tidemark::cli

@@ -71,14 +71,6 @@ SceneRequest completed(SceneRequest typed, Moment& moment) {
     return typed;
 }
 
-/// Knobs that were turned in the window stand over what the scene has: one that is typed must not.
-void drop_typed(const std::vector<std::string>& typed, std::vector<scene::Setting>& knobs) {
-    std::erase_if(knobs, [&](const scene::Setting& knob) {
-        return std::ranges::any_of(typed,
-                                   [&](const std::string& set) { return set.starts_with(knob.name + "="); });
-    });
-}
-
 } // namespace
 
 Result<CaptureOptions> with_likeness(CaptureOptions options) {
@@ -100,7 +92,7 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
     if (scene.path.empty())
         scene.path = moment.scene.path;
     keep_inside(options.like, scene, moment);
-    drop_typed(scene.sets, moment.sequence.state.knobs);
+    erase_named(scene.sets, moment.sequence.state.knobs);
     if (!moment.sequence.input_file.empty() && !options.frames.input) {
         options.frames.input = moment.sequence.input_file;
         moment.sequence.state = without_recorded(std::move(moment.sequence.state));

@@ -56,6 +56,8 @@ Viewer::Viewer(Settings settings, platform::Window window, LiveScene scene)
     // Somebody who records sees the recording: there is nothing that it could show otherwise.
     if (settings_.frames.input || recording())
         replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.state.camera);
+    if (settings_.left)
+        take_up(*settings_.left);
 }
 
 /// Of frames where they are recorded or replayed: a wall clock never shows the same twice.
@@ -74,7 +76,8 @@ Result<Viewer> Viewer::open(Settings settings) {
     if (!settings.record.empty())
         TRY(settings.record.place());
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
-    auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark");
+    auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark",
+                                           settings.left ? settings.left->place : std::nullopt);
     if (!window) // nothing can be waited for
         return fail(std::move(first.scene ? window.error() : first.scene.error()));
     auto live = LiveScene::create(settings.scene, std::move(first), *window,
@@ -104,6 +107,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         show_title(now);
         sound_->follow(clock_.time(now), !clock_.paused());
     }
+    leave();
     return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
 }
 
@@ -392,7 +396,8 @@ Result<void> Viewer::follow_scene(double now) {
 
 /// From now on. One that has settled draws what was drawn before: nothing else changes.
 Result<void> Viewer::show(Stage fresh, double now) {
-    if (!stage_)
+    const bool first = !stage_;
+    if (first)
         clock_ = clock_from(now);
     if (auto swapped = swap_in(std::move(fresh)); !swapped)
         return swapped;
@@ -409,6 +414,8 @@ Result<void> Viewer::show(Stage fresh, double now) {
     finite_.begin_anew();
     stale_ = true;
     touched_at_ = now;
+    if (first && has_feedback())
+        going_to_.reset(); // all frames that lead there would be drawn before anything is seen
     if (going_to_)
         seek(*std::exchange(going_to_, std::nullopt), now);
     return {};

@@ -13,6 +13,7 @@
 #include "cli/view/finite_watch.hpp"
 #include "cli/view/live_scene.hpp"
 #include "cli/view/pass_costs.hpp"
+#include "cli/view/remembered.hpp"
 #include "cli/view/sound_player.hpp"
 #include "cli/view/stage.hpp"
 #include "cli/view/stepping_there.hpp"
@@ -37,6 +38,8 @@ public:
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
         bool plain = false;     ///< never settles
+        bool remembers = false; ///< leaves its state for the next window
+        std::optional<Remembered> left = {};       ///< by the last one
         std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
 
@@ -78,6 +81,8 @@ private:
     image::PictureFormat format_of_picture() const;
     void copy_moment();
     void keep_moment();
+    void take_up(const Remembered& left);
+    void leave() const;
     void carry_out(const live::KeepView&) { keep_moment(); }
     void carry_out(const live::GoToView& command);
     void carry_out(const live::ForgetView& command);

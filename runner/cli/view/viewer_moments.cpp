@@ -5,6 +5,8 @@
 #include "cli/view/overlay_fields.hpp"
 #include "cli/view/viewer.hpp"
 
+#include <fmt/format.h>
+
 namespace tidemark::cli {
 
 Moment Viewer::moment() const {
@@ -74,6 +76,25 @@ void Viewer::carry_out(const live::ForgetView& command) {
     if (command.index < views_.size())
         views_.erase(views_.begin() + std::ptrdiff_t(command.index));
     stale_overlay_ = true;
+}
+
+/// As the last window of the scene was left.
+void Viewer::take_up(const Remembered& left) {
+    views_ = left.views;
+    controls_open_ = left.controls;
+    if (!left.moment)
+        return;
+    render::FrameState state = left.moment->sequence.state;
+    state.mouse = {};
+    controls_.adopt(state);
+    going_to_ = state.seconds();
+    say(fmt::format("as you left it: {}; --fresh starts anew", words_of(left)));
+}
+
+/// For the next window of the scene.
+void Viewer::leave() const {
+    if (settings_.remembers && stage_)
+        remember(settings_.scene.path, {moment(), window_.place(), controls_open_, views_});
 }
 
 } // namespace tidemark::cli
