@@ -66,6 +66,16 @@ class Remembered(OverlayTest):
         self.assertEqual((told["height"], told["wide"]), (1, 500))
         self.assertAlmostEqual(told["camera"], PLAIN_CAMERA, 4)
 
+    def test_feedback_begins_at_0(self):
+        self.write("count.glsl", '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }\n')
+        values = {"count": "texelFetch(iChannel0, ivec2(0), 0).r", "frame": "float(iFrame)"}
+        self.write("a.glsl", probe.shader(values, '#iChannel0 "count.glsl"'))
+        self.leave(self.again())
+        view = self.again()
+        view.wait_for_words("^it begins at 0 s: the scene reads its own last frame$")
+        told = view.told(values)
+        self.assertEqual(told["count"], told["frame"] + 1)
+
     def test_fresh_starts_anew(self):
         self.leave_something()
         view = self.again("--fresh")

@@ -414,8 +414,10 @@ Result<void> Viewer::show(Stage fresh, double now) {
     finite_.begin_anew();
     stale_ = true;
     touched_at_ = now;
-    if (first && has_feedback())
+    if (first && going_to_ && has_feedback()) {
         going_to_.reset(); // all frames that lead there would be drawn before anything is seen
+        say("it begins at 0 s: the scene reads its own last frame");
+    }
     if (going_to_)
         seek(*std::exchange(going_to_, std::nullopt), now);
     return {};
