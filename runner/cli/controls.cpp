@@ -78,6 +78,14 @@ void Controls::release(const std::vector<scene::Knob>& knobs) {
             std::erase_if(knobs_, [&](const scene::Setting& held) { return held.name == knob.name; });
 }
 
+void Controls::adopt(const render::FrameState& state) {
+    mouse_ = state.mouse;
+    mouse_.release();
+    mouse_.frame_drawn();
+    camera_ = state.camera;
+    knobs_ = state.knobs;
+}
+
 void Controls::fill(render::FrameState& state) const {
     state.mouse = mouse_;
     state.right_button = right_down_;

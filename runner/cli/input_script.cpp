@@ -23,9 +23,6 @@ constexpr std::pair<std::string_view, Button> k_buttons[] = {
 
 constexpr std::string_view k_blanks = " \t\r";
 
-/// Every whole number up to here is a float.
-constexpr double k_farthest = 1 << 24;
-
 /// Cuts the first word off.
 std::string_view take_word(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
@@ -42,8 +39,8 @@ bool take_number(std::string_view& line, T& number, T least, T most) {
 }
 
 bool take_position(std::string_view& line, platform::PointerPosition& at) {
-    return take_number(line, at.x, -k_farthest, k_farthest) &&
-           take_number(line, at.y, -k_farthest, k_farthest);
+    return take_number(line, at.x, -k_farthest_pixel, k_farthest_pixel) &&
+           take_number(line, at.y, -k_farthest_pixel, k_farthest_pixel);
 }
 
 bool take_button(std::string_view& line, Button& button) {
@@ -111,7 +108,7 @@ constexpr Kind k_kinds[] = {
     {"wheel", "wheel UP",
      [](std::string_view& line) {
          return event_if<platform::WheelTurned>([&](platform::WheelTurned& event) {
-             return take_number(line, event.up, -k_farthest, k_farthest);
+             return take_number(line, event.up, -k_farthest_pixel, k_farthest_pixel);
          });
      }},
     {"keydown", "keydown CODE (1 to 255)",
@@ -237,6 +234,17 @@ std::string to_string(const InputScript& script) {
     for (const TimedEvent& timed : script)
         text += fmt::format("{} {}\n", timed.frame, std::visit(Wording{}, timed.event));
     return text;
+}
+
+render::FrameState without_recorded(render::FrameState state) {
+    const render::FrameState plain;
+    state.mouse = plain.mouse;
+    state.right_button = plain.right_button;
+    state.keys = plain.keys;
+    state.camera = state.initial_camera.value_or(state.camera);
+    state.initial_camera.reset();
+    state.knobs.clear();
+    return state;
 }
 
 void Replay::go_back(int frame) {

@@ -43,6 +43,9 @@ Result<void> check_knobs(const InputScript& script, std::vector<scene::Knob> kno
 /// The text that parses to that script.
 std::string to_string(const InputScript& script);
 
+/// The state as it was before a recording's events came to it.
+render::FrameState without_recorded(render::FrameState state);
+
 /// A script under way, which may still be written. The frames that are asked for may be any, in any order.
 class Replay {
 public:

@@ -25,16 +25,9 @@ std::string pixels_are(size_t count, const std::string& when) {
 
 std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
                           const render::FrameState& state) {
-    render::FrameState typed = state;
-    std::vector<std::string> recording;
-    if (sequence.input) {
-        typed.mouse = sequence.state.mouse;
-        typed.camera = sequence.state.camera;
-        recording = {"--input", sequence.input_file};
-    }
     std::vector<std::string> words{"tidemark", "check", "--trace", file_word(scene.path)};
-    for (const auto& more : {option_words(typed), recording, option_words(scene)})
-        words.insert(words.end(), more.begin(), more.end());
+    const std::vector<std::string> options = option_words(scene, sequence.input_file, state);
+    words.insert(words.end(), options.begin(), options.end());
     return shell_words(words);
 }
 

@@ -16,7 +16,7 @@ size_t count_not_finite(const render::Renderer& renderer, image::Image& picture)
 /// `3 pixels of frame 7 are`, `1 pixel at 2.5 s is`: before ` not finite`.
 std::string pixels_are(size_t count, const std::string& when);
 
-/// The command that finds the line. Where a recording moves the mouse, it does so there, too.
+/// The command that finds the line.
 std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
                           const render::FrameState& state);
 

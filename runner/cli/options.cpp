@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace tidemark::cli {
 CLI::Option* repeatable(CLI::Option* option) {
@@ -61,16 +63,16 @@ void add_precision_options(CLI::App& command, SceneRequest& request) {
 void add_picture_options(CLI::App& command, FrameOptions& options) {
     command.add_option("--size", options.size, "Resolution in pixels")
         ->type_name("WxH")
-        ->capture_default_str();
+        ->default_str("640x360");
     command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")
         ->type_name("F")
         ->check(number<double>("a number"))
-        ->capture_default_str();
+        ->default_str("60");
     command.add_option("--date", options.date, "iDate at iTime 0, as in 2024-12-31T23:59:58")
         ->type_name("ISO");
     command
         .add_option("--camera", options.camera, "Orbit camera of a scene that declares iCamera, in degrees")
-        ->type_name("AZIMUTH,ELEVATION,DISTANCE");
+        ->type_name("AZIMUTH,ELEVATION,DISTANCE[,X,Y,Z]");
     command.add_option("--pass", options.pass, "The pass to show, as in \"Buffer A\" [Image]")
         ->type_name("NAME");
     command.add_option("--input", options.input, "Mouse and keyboard events by frame, from a recording")
@@ -105,19 +107,33 @@ std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const F
     return files;
 }
 
-Result<FrameSequence> resolve(const FrameOptions& options) {
-    FrameSequence sequence;
+namespace {
+
+template <class T>
+Result<void> keep(Result<T> parsed, auto& place) {
+    if (!parsed)
+        return fail(std::move(parsed.error()));
+    place = *std::move(parsed);
+    return {};
+}
+
+/// A number of a frame, or a time, is of a run at the same pace from its start on: not of that of a window.
+void leave_window_time(FrameSequence& sequence) {
     render::FrameState& state = sequence.state;
-    const auto keep = [](auto&& parsed, auto& place) -> Result<void> {
-        if (!parsed)
-            return fail(parsed.error());
-        place = *parsed;
-        return {};
-    };
-    TRY(keep(parse_size(options.size), state.extent));
-    if (!(options.fps > 0) || !std::isfinite(options.fps))
-        return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", options.fps));
-    state.fps = options.fps;
+    state.time.reset();
+    state.time_delta.reset();
+    if (const auto fps = std::exchange(sequence.lead_in_fps, std::nullopt))
+        state.fps = *fps;
+}
+
+Result<void> resolve_time(const FrameOptions& options, FrameSequence& sequence) {
+    render::FrameState& state = sequence.state;
+    if (options.frame || options.frames || options.time)
+        leave_window_time(sequence);
+    if (options.fps && (!(*options.fps > 0) || !std::isfinite(*options.fps)))
+        return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", *options.fps));
+    if (options.fps)
+        (sequence.lead_in_fps ? *sequence.lead_in_fps : state.fps) = *options.fps;
     if (options.frame && (*options.frame < 0 || *options.frame > render::k_last_frame))
         return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0 to {}", *options.frame,
                                                   render::k_last_frame));
@@ -129,18 +145,32 @@ Result<FrameSequence> resolve(const FrameOptions& options) {
         state = render::at_time(*options.time, state);
         sequence.frames = {state.frame};
     }
-    if (options.frames)
-        TRY(keep(parse_frames(*options.frames), sequence.frames));
+    return options.frames ? keep(parse_frames(*options.frames), sequence.frames) : Result<void>();
+}
+
+} // namespace
+
+Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base) {
+    FrameSequence sequence = std::move(base);
+    render::FrameState& state = sequence.state;
+    if (options.size) {
+        const Extent before = state.extent;
+        TRY(keep(parse_size(*options.size), state.extent));
+        state.mouse.stretch(before, state.extent);
+    }
+    TRY(resolve_time(options, sequence));
     if (options.mouse)
         TRY(keep(parse_mouse(*options.mouse), state.mouse));
     if (options.date)
         TRY(keep(render::parse_date(*options.date), state.date));
     if (options.camera)
         TRY(keep(render::parse_camera(*options.camera), state.camera));
-    state.pass = options.pass;
-    sequence.input_file = options.input.value_or("");
-    if (options.input)
+    if (!options.pass.empty())
+        state.pass = options.pass;
+    if (options.input) {
+        sequence.input_file = *options.input;
         TRY(keep(load_input_script(*options.input), sequence.input));
+    }
     return sequence;
 }
 

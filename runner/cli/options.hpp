@@ -28,8 +28,8 @@ void add_precision_options(CLI::App& command, SceneRequest& request);
 
 /// The frame options as they were typed.
 struct FrameOptions {
-    std::string size = "640x360";
-    double fps = 60;
+    std::optional<std::string> size;
+    std::optional<double> fps;
     std::optional<int> frame;
     std::optional<std::string> frames;
     std::optional<double> time;
@@ -48,7 +48,7 @@ void add_time_options(CLI::App& command, FrameOptions& options);
 /// All files that a scene is drawn from: what an output must not replace.
 std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options = {});
 
-/// Checks them all. An error names the option and what to give.
-Result<FrameSequence> resolve(const FrameOptions& options);
+/// Checks them all. An error names the option and what to give. `base`: what they leave open.
+Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base = {});
 
 } // namespace tidemark::cli

@@ -6,21 +6,16 @@
 
 namespace tidemark::cli {
 
-std::string camera_fact(const render::OrbitCamera& camera) {
-    const glm::dvec3& target = camera.target;
-    return to_string(camera) +
-           (target == glm::dvec3(0) ? "" : fmt::format(" around {},{},{}", target.x, target.y, target.z));
-}
-
 std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene,
-                                                             const render::FrameState& state) {
+                                                             const Moment& moment) {
+    const render::FrameState& state = moment.sequence.state;
     const glm::vec4 mouse = state.mouse.uniform();
     std::vector<std::pair<std::string, std::string>> metadata{
         {"Scene", scene.file.string()},
         {"Frame", fmt::format("{}", state.frame)},
         {"iTime", fmt::format("{}", state.seconds())},
         {"iMouse", fmt::format("{},{},{},{}", mouse.x, mouse.y, mouse.z, mouse.w)},
-        {"Camera", camera_fact(state.camera)},
+        {"Camera", to_string(state.camera)},
         {"Software", fmt::format("tidemark {}", k_version)}};
     std::string knobs;
     for (const scene::Knob& knob : scene.knobs)
@@ -28,6 +23,7 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene&
                              scene::to_string(knob, value_after(knob, state.knobs)));
     if (!knobs.empty())
         metadata.emplace_back("Knobs", std::move(knobs));
+    metadata.emplace_back(k_moment, dump(to_json(moment)));
     return metadata;
 }
 

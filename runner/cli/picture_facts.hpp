@@ -1,7 +1,8 @@
 // What a picture shows, for its file: the facts that make it again.
 #pragma once
 
-#include "cli/requests.hpp"
+#include "cli/moment.hpp"
+#include "scene/scene.hpp"
 
 #include <string>
 #include <utility>
@@ -9,12 +10,13 @@
 
 namespace tidemark::cli {
 
-/// Names and values of a picture's metadata (image::PictureFormat): the scene with its knobs, the frame with
-/// its mouse and camera as the options have them, the program.
-std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene,
-                                                             const render::FrameState& state);
+/// Of how the picture was drawn (Fingerprint).
+inline constexpr const char* k_fingerprint = "Fingerprint";
+/// Of the moment that it shows (Moment), as JSON.
+inline constexpr const char* k_moment = "Moment";
 
-/// `AZ,EL,DIST`, and what it looks at where that is not the origin.
-std::string camera_fact(const render::OrbitCamera& camera);
+/// Names and values of a picture's metadata (image::PictureFormat): the scene with its knobs, the frame with
+/// its mouse and camera as the options have them, the program, and all that `--like` needs.
+std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene, const Moment& moment);
 
 } // namespace tidemark::cli

@@ -19,8 +19,6 @@ namespace {
 
 /// All ranges together.
 constexpr size_t k_most_frames = 10'000'000;
-/// Every whole number up to here is a float.
-constexpr double k_farthest_pixel = 1 << 24;
 
 /// Consumes a number from the front of `text`.
 template <class T>
@@ -136,8 +134,22 @@ std::vector<std::string> option_words(const render::FrameState& state) {
     return words;
 }
 
+std::vector<std::string> option_words(const SceneRequest& scene, const std::string& recording,
+                                      render::FrameState state) {
+    std::vector<std::string> words = option_words(scene); // first: what was turned since counts
+    if (!recording.empty()) {
+        state = without_recorded(std::move(state));
+        words.insert(words.end(), {"--input", recording});
+    }
+    const std::vector<std::string> typed = option_words(state);
+    words.insert(words.end(), typed.begin(), typed.end());
+    return words;
+}
+
 std::string to_string(const render::OrbitCamera& camera) {
-    return fmt::format("{},{},{}", camera.azimuth, camera.elevation, camera.distance);
+    const glm::dvec3& target = camera.target;
+    return fmt::format("{},{},{}{}", camera.azimuth, camera.elevation, camera.distance,
+                       target == glm::dvec3(0) ? "" : fmt::format(",{},{},{}", target.x, target.y, target.z));
 }
 
 Result<scene::Scene> load_as_written(const SceneRequest& request) {
@@ -197,17 +209,24 @@ std::filesystem::path file_beside(const std::filesystem::path& scene, const std:
 }
 
 glsl::Precision precision_of(const SceneRequest& request) {
-    return !request.doubles        ? glsl::Precision::single
-           : request.double_hashes ? glsl::Precision::promoted_whole
-                                   : glsl::Precision::promoted;
+    return !request.doubles.value_or(false) ? glsl::Precision::single
+           : request.double_hashes          ? glsl::Precision::promoted_whole
+                                            : glsl::Precision::promoted;
 }
 
 render::FrameStates states_of(const FrameSequence& sequence) {
     std::optional<Replay> replay;
     if (sequence.input)
         replay.emplace(*sequence.input, sequence.state.camera);
-    return [state = sequence.state, replay = std::move(replay)](int frame) mutable {
-        render::FrameState seen = state.at_frame(frame);
+    render::FrameState leading = sequence.state;
+    if (sequence.lead_in_fps) {
+        leading.time.reset();
+        leading.time_delta.reset();
+        leading.fps = *sequence.lead_in_fps;
+    }
+    return [state = sequence.state, leading = std::move(leading),
+            replay = std::move(replay)](int frame) mutable {
+        render::FrameState seen = frame == state.frame ? state : leading.at_frame(frame);
         if (replay)
             replay->fill(seen);
         return seen;

@@ -25,7 +25,7 @@ struct SceneRequest {
     std::vector<std::string> defines{};  ///< --define NAME=VALUE
     std::vector<std::string> channels{}; ///< --channel N=WHAT
     scene::LoadOptions files{};          ///< --media, --allow-outside
-    bool doubles = false;                ///< --precision double
+    std::optional<bool> doubles{};       ///< --precision double, or single; none: single
     bool double_hashes = false;          ///< --double-hashes
     bool knobs_may_go = false;           ///< --set and --define of what is not there: a warning, no error
     std::vector<Diagnostic> said{};      ///< warnings that were printed before, by a load of the same scene
@@ -56,6 +56,9 @@ struct FrameSequence {
     std::vector<int> frames{0};
     std::optional<InputScript> input{}; ///< instead of a person, or of a mouse and a camera that stand still
     std::string input_file{};           ///< that it was read from
+    /// Of a moment in a window, whose clock no other frame follows: the frames that lead to `state.frame` are
+    /// so many a second. None: they are as far from it in time as in number.
+    std::optional<double> lead_in_fps{};
 };
 
 /// The scene, which must have the knobs that the sequence's recording turns (ErrorCode::usage).
@@ -67,6 +70,14 @@ render::FrameStates states_of(const FrameSequence& sequence);
 
 /// The words that bring a state back, as they are typed behind the scene.
 std::vector<std::string> option_words(const render::FrameState& state);
+
+/// Those that bring back a frame of a scene, as far as options can say what people did. Where a recording
+/// (empty: none) moves the mouse, it does so there, too.
+std::vector<std::string> option_words(const SceneRequest& scene, const std::string& recording,
+                                      render::FrameState state);
+
+/// Every whole number up to here is a float.
+inline constexpr double k_farthest_pixel = 1 << 24;
 
 /// `640x360`.
 Result<Extent> parse_size(std::string_view text);
@@ -81,7 +92,7 @@ Result<render::Mouse> parse_mouse(std::string_view text);
 /// --pixel: `x,y` from the bottom left, within a picture of that size.
 Result<glm::ivec2> parse_pixel(std::string_view text, Extent extent);
 
-/// `AZIMUTH,ELEVATION,DISTANCE`.
+/// As --camera takes it.
 std::string to_string(const render::OrbitCamera& camera);
 
 } // namespace tidemark::cli

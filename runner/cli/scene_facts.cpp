@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace tidemark::cli {
 namespace {
 
@@ -39,6 +41,12 @@ std::string describe(const scene::Scene& scene, const scene::Channel& channel) {
         return scene.passes[*pass].name;
     const auto files = input_files(channel.input);
     return files.empty() ? std::string(traits_of(channel.input).name) : files.front().string();
+}
+
+bool may_feed_back(const scene::Scene& scene) {
+    return std::ranges::any_of(scene.passes, [](const scene::Pass& pass) {
+        return pass.kind == scene::PassKind::buffer || pass.kind == scene::PassKind::cubemap;
+    });
 }
 
 Json files_of(const scene::Scene& scene) {

@@ -13,6 +13,9 @@ namespace tidemark::cli {
 /// What a channel reads, in a word or by its file.
 std::string describe(const scene::Scene& scene, const scene::Channel& channel);
 
+/// Whether a frame may depend on the one before it: the driver, which knows, is not asked.
+bool may_feed_back(const scene::Scene& scene);
+
 nlohmann::ordered_json files_of(const scene::Scene& scene);
 nlohmann::ordered_json knobs_of(const scene::Scene& scene);
 /// Each with its type, value and range.

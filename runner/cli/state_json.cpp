@@ -2,7 +2,10 @@
 
 #include "render/frame_fields.hpp"
 
+#include <algorithm>
+#include <array>
 #include <concepts>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -46,11 +49,19 @@ Json encode(const std::vector<T>& values) {
 
 template <class T>
 void decode(const Json& json, T& value) {
+    using Limits = std::numeric_limits<T>;
     if constexpr (HasParts<T>)
-        std::apply([&, i = size_t(0)](auto&... part) mutable { (decode(json[i++], part), ...); },
+        std::apply([&, i = size_t(0)](auto&... part) mutable { (decode(json.at(i++), part), ...); },
                    Parts{}(value));
+    else if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) // a stranger's may be any number
+        value = T(std::clamp(json.get<double>(), double(Limits::lowest()), double(Limits::max())));
     else
         json.get_to(value);
+}
+template <class T, size_t N>
+void decode(const Json& json, std::array<T, N>& values) {
+    for (size_t i = 0; i < N; ++i)
+        decode(json.at(i), values[i]);
 }
 template <class T>
 void decode(const Json& json, std::optional<T>& value) {
@@ -72,10 +83,22 @@ Json to_json(const render::FrameState& state) {
     return json;
 }
 
+Json changes_of(const render::FrameState& state) {
+    const render::FrameState plain;
+    Json json = Json::object();
+    render::for_each_field([&](const auto& field) {
+        if (state.*field.member != plain.*field.member)
+            json[std::string(field.name)] = encode(state.*field.member);
+    });
+    return json;
+}
+
 render::FrameState frame_state_of(const Json& json) {
     render::FrameState state;
-    render::for_each_field(
-        [&](const auto& field) { decode(json.at(std::string(field.name)), state.*field.member); });
+    render::for_each_field([&](const auto& field) {
+        if (const auto found = json.find(std::string(field.name)); found != json.end())
+            decode(*found, state.*field.member);
+    });
     return state;
 }
 

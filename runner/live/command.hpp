@@ -42,6 +42,16 @@ struct ShowPicture {
     std::optional<size_t> index{};
 };
 
+/// The moment on show into the list of views.
+struct KeepView {};
+/// Of Model::views.
+struct GoToView {
+    size_t index = 0;
+};
+struct ForgetView {
+    size_t index = 0;
+};
+
 struct TogglePause {};
 struct Restart {};
 struct Seek {
@@ -58,9 +68,9 @@ struct SetLoop {
     std::optional<double> to{};
 };
 
-using Command =
-    std::variant<TurnKnob, ResetKnob, ResetKnobs, CopyKnobs, WriteKnobs, OpenEditor, Define, Undefine,
-                 ShowPicture, TogglePause, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
+using Command = std::variant<TurnKnob, ResetKnob, ResetKnobs, CopyKnobs, WriteKnobs, OpenEditor, Define,
+                             Undefine, ShowPicture, KeepView, GoToView, ForgetView, TogglePause, Restart,
+                             Seek, GiveUpSeek, SetSpeed, SetLoop>;
 using Commands = std::vector<Command>;
 
 } // namespace tidemark::live

@@ -25,6 +25,7 @@ struct Model {
     std::vector<DefinitionField> definitions{};
     std::vector<PictureField> pictures{};
     std::optional<size_t> large{}; ///< of them
+    std::vector<std::string> views{};
     TimeField time{};
     Extent extent{}; ///< of what the scene draws
 

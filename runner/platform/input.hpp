@@ -38,8 +38,10 @@ enum class Key : int {
     digit_0 = 48, ///< to digit_9 = 57
     digit_9 = 57,
     a = 65, ///< to z = 90
+    c = 67,
     f = 70,
     h = 72,
+    k = 75,
     r = 82,
     s = 83,
     z = 90,

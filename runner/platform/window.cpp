@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
 #include <span>
 #include <utility>
@@ -99,7 +100,8 @@ bool library_runs() {
     return glfwGetError(nullptr) != GLFW_NOT_INITIALIZED;
 }
 
-GLFWwindow* open_window(Extent size, const char* title) {
+/// Hidden, where it is to be moved first.
+GLFWwindow* open_window(Extent size, const char* title, bool visible) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
     // It starts faster than GLX, it is the driver that headless drawing uses, and it has contexts apart from
@@ -114,9 +116,20 @@ GLFWwindow* open_window(Extent size, const char* title) {
     glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
+    glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "tidemark");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "tidemark");
     return glfwCreateWindow(size.width, size.height, title, nullptr, nullptr);
+}
+
+/// A screen that was there last time may be gone.
+void show_at(GLFWwindow* window, const WindowPlace& corner) {
+    Rectangle place = place_of(window);
+    place.x = corner.x;
+    place.y = corner.y;
+    if (const Monitor monitor = monitor_under(place); monitor.handle && common_area(place, monitor.place) > 0)
+        glfwSetWindowPos(window, corner.x, corner.y);
+    glfwShowWindow(window);
 }
 
 Button button_from_glfw(int button) {
@@ -217,7 +230,8 @@ Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
-Result<Window> Window::create(Extent logical_size, const std::string& title) {
+Result<Window> Window::create(Extent logical_size, const std::string& title,
+                              const std::optional<WindowPlace>& corner) {
     assert(logical_size.width > 0 && logical_size.height > 0);
     if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
         return cannot_open("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
@@ -226,9 +240,11 @@ Result<Window> Window::create(Extent logical_size, const std::string& title) {
     if (!glfwInit())
         return cannot_open(last_glfw_error());
     auto state = std::make_unique<State>();
-    state->window.reset(open_window(logical_size, printable_line(title).c_str()));
+    state->window.reset(open_window(logical_size, printable_line(title).c_str(), !corner));
     if (!state->window)
         return cannot_open(last_glfw_error());
+    if (corner)
+        show_at(state->window.get(), *corner);
     glfwMakeContextCurrent(state->window.get());
     glfwSwapInterval(1);
     state->listen();
@@ -291,6 +307,17 @@ double Window::content_scale() const {
     float y = 1;
     glfwGetWindowContentScale(state_->window.get(), &x, &y);
     return std::max(x, y);
+}
+
+WindowPlace Window::place() const {
+    const bool full = glfwGetWindowMonitor(state_->window.get()) != nullptr;
+    const Rectangle place = full ? state_->before_full_screen : place_of(state_->window.get());
+    const Extent screen = state_->screen;
+    const double pixels = screen.width > 0 ? double(state_->framebuffer.width) / screen.width : 1.0;
+    const auto logical = [&](int length) {
+        return std::max(1, int(std::lround(length * pixels / content_scale())));
+    };
+    return {place.x, place.y, {logical(place.width), logical(place.height)}};
 }
 
 void Window::set_clipboard(const std::string& text) {

@@ -8,10 +8,19 @@
 #include "platform/window_context.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tidemark::platform {
+
+/// Of a window on the screen: its left upper corner in the window system's coordinates, its size in pixels of
+/// an ordinary display.
+struct WindowPlace {
+    int x = 0;
+    int y = 0;
+    Extent size;
+};
 
 /// One at a time in a process, on the main thread: the window system is started with it and ended with it.
 class Window {
@@ -19,7 +28,9 @@ public:
     /// Opens it and makes its context current. `logical_size` is in pixels of an ordinary display; a dense
     /// one gives more (framebuffer_extent). Waits for vertical sync where the system has one, so a caller
     /// must not rely on `swap` to set its pace. ErrorCode::no_context, with the reason, when there is none.
-    static Result<Window> create(Extent logical_size, const std::string& title);
+    /// `corner`: where its left upper corner should be, if a screen shows that; not every system allows it.
+    static Result<Window> create(Extent logical_size, const std::string& title,
+                                 const std::optional<WindowPlace>& corner = {});
     Window(Window&&) noexcept;
     Window& operator=(Window&&) noexcept;
     ~Window();
@@ -40,6 +51,8 @@ public:
     Extent framebuffer_extent() const;
     /// Pixels of this display for one of an ordinary display's: 2 on a dense one.
     double content_scale() const;
+    /// Where it is; full screen: where it was.
+    WindowPlace place() const;
     /// What other programs paste from now on, as long as this one runs.
     void set_clipboard(const std::string& text);
     /// Shows what has been drawn.

@@ -1,5 +1,7 @@
 #include "render/mouse.hpp"
 
+#include <glm/common.hpp>
+
 #include <cmath>
 
 namespace tidemark::render {
@@ -40,6 +42,12 @@ Mouse Mouse::dragged(glm::dvec2 from, glm::dvec2 to, bool held) {
     if (!held)
         mouse.release();
     return mouse;
+}
+
+void Mouse::stretch(Extent from, Extent to) {
+    const glm::vec2 scale{double(to.width) / from.width, double(to.height) / from.height};
+    position = glm::floor(position * scale);
+    pressed_at = glm::floor(pressed_at * scale);
 }
 
 } // namespace tidemark::render

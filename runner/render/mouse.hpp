@@ -1,6 +1,8 @@
 // The mouse as ShaderToy's shaders see it.
 #pragma once
 
+#include "base/extent.hpp"
+
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
@@ -20,6 +22,8 @@ struct Mouse {
     static Mouse clicked(glm::dvec2 at, bool now);
     /// After a drag from the one place to the other; `held`: the button is still down.
     static Mouse dragged(glm::dvec2 from, glm::dvec2 to, bool held);
+    /// To the same place of a picture of another size.
+    void stretch(Extent from, Extent to);
     /// To be called when a frame has been drawn: the click is then no longer new.
     void frame_drawn() { is_new = false; }
 

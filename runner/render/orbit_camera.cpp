@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace tidemark::render {
 namespace {
@@ -27,6 +29,20 @@ double wrapped(double degrees) {
     const double turned = std::fmod(degrees, 360.0);
     const double positive = turned < 0 ? turned + 360 : turned;
     return positive < 360 ? positive : 0; // a hair below 0 rounds to 360
+}
+
+/// Finite ones with commas between them; nothing where the text is something else.
+std::optional<std::vector<double>> numbers_of(std::string_view text) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    do {
+        const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
+        if (error != std::errc{} || !std::isfinite(numbers.back()))
+            return std::nullopt;
+        at = rest;
+    } while (at != end && *at == ',' && ++at);
+    return at == end ? std::optional(std::move(numbers)) : std::nullopt;
 }
 
 } // namespace
@@ -51,27 +67,20 @@ glm::mat4 OrbitCamera::matrix() const {
 }
 
 Result<OrbitCamera> parse_camera(std::string_view setting) {
-    double numbers[3] = {};
-    const char* at = setting.data();
-    const char* const end = at + setting.size();
-    bool good = true;
-    for (int i = 0; i < 3 && good; ++i) {
-        if (i > 0)
-            good = at != end && *at++ == ',';
-        const auto parsed = std::from_chars(at, end, numbers[i]);
-        good = good && parsed.ec == std::errc{} && std::isfinite(numbers[i]);
-        at = parsed.ptr;
-    }
-    if (!good || at != end || numbers[2] < k_nearest || numbers[2] > k_farthest)
+    const auto numbers = numbers_of(setting);
+    if (!numbers || (numbers->size() != 3 && numbers->size() != 6) || (*numbers)[2] < k_nearest ||
+        (*numbers)[2] > k_farthest)
         return fail(
             ErrorCode::usage,
             fmt::format("--camera {}: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, "
-                        "a distance above 0)",
+                        "a distance above 0), and behind them x,y,z where it is panned to",
                         setting));
     OrbitCamera camera;
-    camera.azimuth = wrapped(numbers[0]);
-    camera.elevation = std::clamp(numbers[1], -k_highest, k_highest);
-    camera.distance = numbers[2];
+    camera.azimuth = wrapped((*numbers)[0]);
+    camera.elevation = std::clamp((*numbers)[1], -k_highest, k_highest);
+    camera.distance = (*numbers)[2];
+    if (numbers->size() == 6)
+        camera.target = {(*numbers)[3], (*numbers)[4], (*numbers)[5]};
     return camera;
 }
 

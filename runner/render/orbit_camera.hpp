@@ -31,7 +31,7 @@ struct OrbitCamera {
     glm::mat4 matrix() const;
 };
 
-/// Reads `azimuth,elevation,distance`.
+/// Reads `azimuth,elevation,distance`, and behind it the target `x,y,z` where that is not the origin.
 Result<OrbitCamera> parse_camera(std::string_view setting);
 
 } // namespace tidemark::render

@@ -183,7 +183,7 @@ class Camera(Told):
         for wrong in ("x", "1,2", "1,2,3,4", "1,2,0", "1,2,-3", "1,,2", "nan,0,1"):
             self.refused(f"--camera {wrong}",
                          f"--camera {wrong}: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, a "
-                         "distance above 0)")
+                         "distance above 0), and behind them x,y,z where it is panned to")
 
 
 class Knobs(Told):

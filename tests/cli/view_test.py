@@ -32,7 +32,7 @@ class NoDisplay(ProgramTest):
                             "tidemark: error: --size 99999x5: a window has at most 32767 pixels on a side")
         self.expect_failure(["view", "a.glsl", "--camera", "1"], 2,
                             "tidemark: error: --camera 1: give azimuth,elevation,distance as in 30,20,10 (degrees, "
-                            "degrees, a distance above 0)")
+                            "degrees, a distance above 0), and behind them x,y,z where it is panned to")
         self.expect_failure(["view", "a.glsl", "--set", "x=1"], 2,
                             "tidemark: error: the scene has no knob 'x': it declares none with #iUniform")
 

@@ -126,6 +126,8 @@ class View:
         """Waits for the window and its title, unless that is None."""
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
+        self.state = tempfile.TemporaryDirectory(prefix="tidemark-state-")  # each window starts anew
+        variables.setdefault("XDG_STATE_HOME", self.state.name)
         self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
                                         env=environment(DISPLAY=screen.display, **variables), stderr=self.words)
         if first_title is not None:
@@ -141,6 +143,7 @@ class View:
         self.program.kill()
         self.program.wait()
         self.words.close()
+        self.state.cleanup()
 
     def running(self) -> bool:
         if self.program.poll() is not None:

@@ -12,6 +12,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAM = os.environ.get("TIDEMARK", str(ROOT / "build" / "release" / "tidemark"))
+STATE = tempfile.TemporaryDirectory(prefix="tidemark-state-")  # what windows remember: nothing of the person's own
 SKIPPED = 77  # CTest's SKIP_RETURN_CODE
 
 # Long enough for a sanitized program on a busy machine; a test that runs into it hangs.
@@ -20,7 +21,7 @@ TIME_LIMIT = 300
 
 def environment(**changes: str | None) -> dict[str, str]:
     """The environment of a script with no display. A change to None removes the variable."""
-    variables = dict(os.environ, DISPLAY="", WAYLAND_DISPLAY="")
+    variables = dict(os.environ, DISPLAY="", WAYLAND_DISPLAY="", XDG_STATE_HOME=STATE.name)
     for name, value in changes.items():
         if value is None:
             variables.pop(name, None)

@@ -4,8 +4,9 @@
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
 #include "cli/capture/compile_plan.hpp"
-#include "cli/capture/fingerprint.hpp"
 #include "cli/capture/kept_frames.hpp"
+#include "cli/capture/likeness.hpp"
+#include "cli/capture/run_fingerprint.hpp"
 #include "cli/capture/saved_state.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
@@ -140,7 +141,8 @@ Result<int> capture_frames(CapturePlan plan) {
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
-    const auto fingerprint = Fingerprint::of_run(plan, gl::query_capabilities());
+    const auto fingerprint = fingerprint_of_run(plan, gl::query_capabilities());
+    say_what_is_unlike(plan, fingerprint);
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     const std::optional<SavedState> state = take_up(plan, fingerprint);
     if (plan.frames.frames.empty() && plan.to_picture_files() && !plan.json) {
@@ -175,7 +177,8 @@ std::vector<std::string> words_for_all_shards(const CLI::App& command) {
     return words;
 }
 
-Result<int> capture(const CaptureOptions& options) {
+Result<int> capture(const CaptureOptions& typed) {
+    const CaptureOptions options = TRY(with_likeness(typed));
     return wants_sound(options) ? plan_sound(options).and_then(capture_sound)
                                 : plan_capture(options).and_then(capture_frames);
 }
@@ -187,6 +190,12 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
     add_precision_options(command, options.scene);
     add_picture_options(command, options.frames);
     add_time_options(command, options.frames);
+    command.get_option("SCENE")->required(false); // --like may name it
+    command
+        .add_option(
+            "--like", options.like,
+            "Draws the moment that a picture shows, from its metadata: what is left open here, SCENE too")
+        ->type_name("PICTURE");
     command
         .add_option("-o,--output", options.output,
                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "

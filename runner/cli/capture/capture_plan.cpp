@@ -123,10 +123,8 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
 /// What the command line says before the scene is known.
 Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     CapturePlan plan;
-    auto frames = resolve(options.frames);
-    if (!frames)
-        return fail(std::move(frames.error()));
-    plan.frames = *std::move(frames);
+    plan.frames =
+        TRY(resolve(options.frames, options.likeness ? options.likeness->sequence : FrameSequence()));
     std::vector<int>& numbers = plan.frames.frames;
     const size_t count = std::unordered_set(numbers.begin(), numbers.end()).size();
     auto output = TRY(options.output ? OutputName::parse(*options.output, count)
@@ -150,7 +148,9 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.tile_side = options.tile;
     plan.device = options.device;
     plan.timeout = options.timeout;
-    plan.defines = options.scene.defines;
+    plan.request = options.scene;
+    plan.like = options.like;
+    plan.likeness = options.likeness;
     plan.json = options.json;
     plan.resume = options.resume;
     plan.state_every = options.state_every;
@@ -162,7 +162,9 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
 
 /// What is read must not be written, even by a frame late in a sequence: it is refused before the first.
 Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan) {
-    const std::vector<std::filesystem::path> read = files_read(plan.scene, options.frames);
+    std::vector<std::filesystem::path> read = files_read(plan.scene, options.frames);
+    if (!options.like.empty())
+        read.emplace_back(options.like);
     if (plan.output.standard_output())
         return {};
     plan.output.spare(read);

@@ -18,9 +18,17 @@
 
 namespace tidemark::cli {
 
+/// What the picture that `--like` names says of itself.
+struct Likeness {
+    FrameSequence sequence;
+    std::string fingerprint; ///< Fingerprint::text
+};
+
 struct CaptureOptions {
     SceneRequest scene;
     FrameOptions frames;
+    std::string like; ///< a picture; empty: none
+    std::optional<Likeness> likeness{};
     std::optional<std::string> output;
     std::string depth;
     std::string device = "auto";
@@ -59,13 +67,15 @@ struct CapturePlan {
     std::optional<int> tile_side;
     std::optional<PlannedTrial> trial;
     std::string device;
-    std::optional<double> timeout;    ///< seconds for a frame
-    std::vector<std::string> defines; ///< NAME=VALUE, as the scene was told
-    bool json = false;                ///< reports the frames, with the SHA-256 of their pixels
-    bool resume = false;              ///< goes on where a capture was cut short
-    int state_every = 0;              ///< frames between two saved states of buffers; 0: none is saved
-    std::optional<Shard> shard{};     ///< whose `frames` these are
-    std::vector<int> kept{};          ///< frames that are there already, and no more among `frames`
+    std::optional<double> timeout; ///< seconds for a frame
+    SceneRequest request;          ///< that `scene` was loaded by
+    std::string like;              ///< the picture that it should come to; empty: none
+    std::optional<Likeness> likeness{};
+    bool json = false;            ///< reports the frames, with the SHA-256 of their pixels
+    bool resume = false;          ///< goes on where a capture was cut short
+    int state_every = 0;          ///< frames between two saved states of buffers; 0: none is saved
+    std::optional<Shard> shard{}; ///< whose `frames` these are
+    std::vector<int> kept{};      ///< frames that are there already, and no more among `frames`
     /// The command that finds where a pixel of that frame stops being a number.
     std::function<std::string(const render::FrameState&)> trace_command;
 

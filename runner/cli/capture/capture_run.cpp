@@ -254,7 +254,7 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     const render::FrameState state = states_(record.frame);
     // First: a JPEG that has no room for all of it keeps what stands in front.
     image::PictureFormat format{plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}};
-    for (auto& fact : metadata_of(renderer_.scene(), state))
+    for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.request, plan_.frames, state)))
         format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();
     format.metadata.insert(format.metadata.end(),
@@ -262,8 +262,8 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
                             {"Pass", renderer_.shown_pass().name},
                             {"Precision", name_of(renderer_.precision())},
                             {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)}});
-    if (!plan_.defines.empty())
-        format.metadata.emplace_back("Defines", fmt::format("{}", fmt::join(plan_.defines, "; ")));
+    if (!plan_.request.defines.empty())
+        format.metadata.emplace_back("Defines", fmt::format("{}", fmt::join(plan_.request.defines, "; ")));
     return format;
 }
 
@@ -281,7 +281,7 @@ nlohmann::ordered_json Capture::report() const {
     report["pass"] = renderer_.shown_pass().name;
     add_precision(report, renderer_);
     report["knobs"] = knobs_of(renderer_.scene());
-    report["defines"] = plan_.defines;
+    report["defines"] = plan_.request.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
     if (plan_.resume)
@@ -293,7 +293,7 @@ nlohmann::ordered_json Capture::report() const {
         report["frames"].push_back({{"frame", record.frame},
                                     {"iTime", state.seconds()},
                                     {"iMouse", {mouse.x, mouse.y, mouse.z, mouse.w}},
-                                    {"camera", camera_fact(state.camera)},
+                                    {"camera", to_string(state.camera)},
                                     {"file", record.file},
                                     {"sha256", record.sha256},
                                     {"not_finite", record.not_finite},

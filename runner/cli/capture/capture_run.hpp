@@ -3,10 +3,10 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
-#include "cli/capture/fingerprint.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/state_saver.hpp"
 #include "cli/capture/watchdog.hpp"
+#include "cli/fingerprint.hpp"
 #include "cli/frame_writer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/picture_facts.hpp"

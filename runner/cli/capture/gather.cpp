@@ -8,10 +8,12 @@
 #include "cli/capture/compile_plan.hpp"
 #include "cli/capture/gathered.hpp"
 #include "cli/capture/kept_frames.hpp"
+#include "cli/capture/run_fingerprint.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/shard_note.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/scene_facts.hpp"
 #include "cli/value_check.hpp"
 #include "image/files/file_samples.hpp"
 #include "platform/headless_context.hpp"
@@ -95,7 +97,7 @@ Result<CapturePlan> draw_sample(const CapturePlan& whole, int count, const fs::p
         (whole.output.six_faces() ? "%d_{}" : "%d") + whole.output.pattern().extension().string();
     plan.output = TRY(OutputName::parse((folder / name).string(), plan.frames.frames.size()));
     auto compiled = TRY(compile(plan, interrupt));
-    Capture run(plan, Fingerprint::of_run(plan, gl::query_capabilities()), compiled);
+    Capture run(plan, fingerprint_of_run(plan, gl::query_capabilities()), compiled);
     if (!TRY(run.run(interrupt)))
         return fail(ErrorCode::check_failed, "interrupted before the frames were compared");
     return plan;
@@ -174,7 +176,7 @@ Result<int> gather(const GatherOptions& options) {
     const ShardNote note = TRY(read_note(options.folder / k_shard_note));
     const CapturePlan plan = TRY(shared_plan(options, note));
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
-    const Fingerprint run = Fingerprint::of_run(plan, gl::query_capabilities());
+    const Fingerprint run = fingerprint_of_run(plan, gl::query_capabilities());
     const Gathered found = gathered(plan, run, note.count);
     if (!found.wrong.empty())
         return report(found.wrong);

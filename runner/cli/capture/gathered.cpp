@@ -1,6 +1,7 @@
 #include "cli/capture/gathered.hpp"
 
 #include "cli/capture/kept_frames.hpp"
+#include "cli/picture_facts.hpp"
 #include "image/files/picture_metadata.hpp"
 
 #include <fmt/format.h>

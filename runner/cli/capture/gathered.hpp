@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
-#include "cli/capture/fingerprint.hpp"
+#include "cli/fingerprint.hpp"
 
 #include <map>
 #include <string>

@@ -1,6 +1,7 @@
 #include "cli/capture/kept_frames.hpp"
 
 #include "cli/capture/segmented_video.hpp"
+#include "cli/picture_facts.hpp"
 #include "image/files/picture_metadata.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
-#include "cli/capture/fingerprint.hpp"
+#include "cli/fingerprint.hpp"
 
 #include <string>
 #include <vector>
@@ -24,8 +24,5 @@ std::vector<std::filesystem::path> files_of(const OutputName& output, int frame)
 
 /// Why the picture in that file is not the one with this fingerprint; empty: it is.
 std::string why_not_kept(const std::filesystem::path& file, const Fingerprint& wanted);
-
-/// The name under which a picture's metadata has it.
-inline constexpr const char* k_fingerprint = "Fingerprint";
 
 } // namespace tidemark::cli

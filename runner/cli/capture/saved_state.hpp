@@ -4,7 +4,7 @@
 
 #include "base/output_path.hpp"
 #include "base/result.hpp"
-#include "cli/capture/fingerprint.hpp"
+#include "cli/fingerprint.hpp"
 #include "cli/output_name.hpp"
 #include "glsl/specialise/specialise.hpp"
 #include "render/buffer_state.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
-#include "cli/capture/fingerprint.hpp"
+#include "cli/fingerprint.hpp"
 #include "image/files/video_writer.hpp"
 
 #include <filesystem>

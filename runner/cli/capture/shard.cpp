@@ -1,6 +1,7 @@
 #include "cli/capture/shard.hpp"
 
 #include "base/try.hpp"
+#include "cli/scene_facts.hpp"
 
 #include <fmt/format.h>
 
@@ -52,12 +53,6 @@ Result<Shard> parse_shard(std::string_view text) {
         return fail(ErrorCode::usage,
                     fmt::format("--shard {}: give K/N, K from 1 to N, as in 2/8, or slurm", text));
     return Shard{*number - 1, *count};
-}
-
-bool may_feed_back(const scene::Scene& scene) {
-    return std::ranges::any_of(scene.passes, [](const scene::Pass& pass) {
-        return pass.kind == scene::PassKind::buffer || pass.kind == scene::PassKind::cubemap;
-    });
 }
 
 std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, const scene::Scene& scene) {

@@ -25,7 +25,4 @@ Result<Shard> parse_shard(std::string_view text);
 /// them.
 std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, const scene::Scene& scene);
 
-/// Whether a frame may depend on the one before it: the driver, which knows, is not asked.
-bool may_feed_back(const scene::Scene& scene);
-
 } // namespace tidemark::cli

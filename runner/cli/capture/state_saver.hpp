@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
-#include "cli/capture/fingerprint.hpp"
 #include "cli/capture/saved_state.hpp"
+#include "cli/fingerprint.hpp"
 #include "render/renderer.hpp"
 
 namespace tidemark::cli {

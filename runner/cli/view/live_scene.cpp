@@ -224,12 +224,18 @@ void LiveScene::stop_settling() {
 
 void LiveScene::define(const std::string& name, const std::optional<std::string>& value,
                        platform::Window& window, const View& view) {
-    std::erase_if(request_.defines, [&](const std::string& text) {
+    std::vector<std::string> defines = request_.defines;
+    std::erase_if(defines, [&](const std::string& text) {
         const auto split = scene::split_setting(text, "--define");
         return split && split->first == name;
     });
     if (value)
-        request_.defines.push_back(fmt::format("{}={}", name, *value));
+        defines.push_back(fmt::format("{}={}", name, *value));
+    hold(std::move(defines), window, view);
+}
+
+void LiveScene::hold(std::vector<std::string> defines, platform::Window& window, const View& view) {
+    request_.defines = std::move(defines);
     saved_ = true;
     const double now = now_seconds();
     times_ = ReloadTimes{file_clock_seconds(), now};

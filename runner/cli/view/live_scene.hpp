@@ -65,6 +65,9 @@ public:
     void define(const std::string& name, const std::optional<std::string>& value, platform::Window& window,
                 const View& view);
 
+    /// The same of all of them: `NAME=VALUE`.
+    void hold(std::vector<std::string> defines, platform::Window& window, const View& view);
+
     /// The build under way is not wanted any more.
     void give_up();
 

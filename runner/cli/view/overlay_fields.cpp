@@ -69,4 +69,15 @@ std::vector<live::PictureField> picture_fields(const render::Renderer& renderer,
     return fields;
 }
 
+std::vector<std::string> view_labels(const std::vector<Moment>& views) {
+    std::vector<std::string> labels;
+    for (const Moment& view : views) {
+        const render::FrameState& state = view.sequence.state;
+        labels.push_back(fmt::format("{:.3f} s", state.seconds()));
+        for (const scene::Setting& knob : state.knobs)
+            labels.back() += fmt::format(", {} = {}", knob.name, knob.value);
+    }
+    return labels;
+}
+
 } // namespace tidemark::cli

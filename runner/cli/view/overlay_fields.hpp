@@ -1,7 +1,7 @@
 // Parts of the overlay's model that a scene and its Renderer decide.
 #pragma once
 
-#include "cli/requests.hpp"
+#include "cli/moment.hpp"
 #include "cli/view/pass_costs.hpp"
 #include "live/model.hpp"
 
@@ -15,5 +15,8 @@ std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, 
 
 /// What passes draw, then the flat pictures that they read.
 std::vector<live::PictureField> picture_fields(const render::Renderer& renderer, const PassCosts& costs);
+
+/// `2.500 s, height = 2`.
+std::vector<std::string> view_labels(const std::vector<Moment>& views);
 
 } // namespace tidemark::cli

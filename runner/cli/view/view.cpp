@@ -30,6 +30,7 @@ struct ViewOptions {
     FrameOptions frames;
     std::string record;
     bool plain = false;
+    bool fresh = false;
     LimitOptions limits;
 };
 
@@ -54,8 +55,24 @@ void play(const SceneRequest& request, const std::string& pass) {
     renderer->read_back();
 }
 
+/// How the last window was left, less what is typed now.
+std::optional<Remembered> left_before(const ViewOptions& options, FrameSequence& frames) {
+    auto state = recall(options.scene.path);
+    if (!state)
+        return state;
+    if (state->place && !options.frames.size)
+        frames.state.extent = state->place->size;
+    if (state->moment && options.frames.camera)
+        state->moment->sequence.state.camera = frames.state.camera;
+    if (state->moment)
+        erase_named(options.scene.sets, state->moment->sequence.state.knobs);
+    return state;
+}
+
 Result<int> view(const ViewOptions& options) {
     auto frames = TRY(resolve(options.frames));
+    const bool remembers = !options.frames.input && options.record.empty();
+    auto left = remembers && !options.fresh ? left_before(options, frames) : std::nullopt;
     if (const Extent size = frames.state.extent; std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
                                                   size.width, size.height, k_largest_window));
@@ -64,6 +81,8 @@ Result<int> view(const ViewOptions& options) {
     settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits.memory);
     settings.record = OutputPath::typed(options.record);
     settings.plain = options.plain;
+    settings.remembers = remembers;
+    settings.left = std::move(left);
     // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
     if (options.frames.date || options.frames.input || !options.record.empty())
         settings.date = settings.frames.state.date;
@@ -100,6 +119,7 @@ void add_view(CLI::App& app, Action& chosen) {
     add_memory_option(*command, options->limits);
     command->add_flag("--plain", options->plain,
                       "Stays with the scene's text as it is when nobody touches it for a while");
+    command->add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 

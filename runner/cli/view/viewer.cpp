@@ -7,7 +7,6 @@
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
-#include "cli/picture_facts.hpp"
 #include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/window_loss.hpp"
@@ -57,6 +56,8 @@ Viewer::Viewer(Settings settings, platform::Window window, LiveScene scene)
     // Somebody who records sees the recording: there is nothing that it could show otherwise.
     if (settings_.frames.input || recording())
         replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.state.camera);
+    if (settings_.left)
+        take_up(*settings_.left);
 }
 
 /// Of frames where they are recorded or replayed: a wall clock never shows the same twice.
@@ -75,7 +76,8 @@ Result<Viewer> Viewer::open(Settings settings) {
     if (!settings.record.empty())
         TRY(settings.record.place());
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
-    auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark");
+    auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark",
+                                           settings.left ? settings.left->place : std::nullopt);
     if (!window) // nothing can be waited for
         return fail(std::move(first.scene ? window.error() : first.scene.error()));
     auto live = LiveScene::create(settings.scene, std::move(first), *window,
@@ -105,6 +107,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         show_title(now);
         sound_->follow(clock_.time(now), !clock_.paused());
     }
+    leave();
     return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
 }
 
@@ -315,6 +318,8 @@ void Viewer::obey(Key key, double now) {
     case Key::r: return control(CameraReset{});
     case Key::f: window_.toggle_full_screen(); break;
     case Key::escape: escape(now); break;
+    case Key::c: return copy_moment();
+    case Key::k: return keep_moment();
     case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
     case Key::h:
     case Key::f1: return toggle_help();
@@ -367,8 +372,7 @@ void Viewer::save_picture() {
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
     const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", shown_.frame));
-    const image::PictureFormat format{image::SampleDepth::u8,
-                                      metadata_of(stage_->renderer().scene(), shown_)};
+    const image::PictureFormat format = format_of_picture();
     image::Image picture = stage_->renderer().read_back();
     count_not_finite(stage_->renderer(), picture); // its marks are no alpha
     if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),
@@ -385,12 +389,15 @@ LiveScene::View Viewer::view() const {
 Result<void> Viewer::follow_scene(double now) {
     auto fresh = TRY(scene_.follow(window_, view(), now));
     stale_overlay_ |= errors_.show(scene_.failure());
+    if (scene_.failure())
+        going_to_.reset();
     return fresh ? show(*std::move(fresh), now) : Result<void>();
 }
 
 /// From now on. One that has settled draws what was drawn before: nothing else changes.
 Result<void> Viewer::show(Stage fresh, double now) {
-    if (!stage_)
+    const bool first = !stage_;
+    if (first)
         clock_ = clock_from(now);
     if (auto swapped = swap_in(std::move(fresh)); !swapped)
         return swapped;
@@ -407,6 +414,12 @@ Result<void> Viewer::show(Stage fresh, double now) {
     finite_.begin_anew();
     stale_ = true;
     touched_at_ = now;
+    if (first && going_to_ && has_feedback()) {
+        going_to_.reset(); // all frames that lead there would be drawn before anything is seen
+        say("it begins at 0 s: the scene reads its own last frame");
+    }
+    if (going_to_)
+        seek(*std::exchange(going_to_, std::nullopt), now);
     return {};
 }
 

@@ -6,12 +6,14 @@
 #include "cli/frame_writer.hpp"
 #include "cli/input_script.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/moment.hpp"
 #include "cli/options.hpp"
 #include "cli/requests.hpp"
 #include "cli/view/error_board.hpp"
 #include "cli/view/finite_watch.hpp"
 #include "cli/view/live_scene.hpp"
 #include "cli/view/pass_costs.hpp"
+#include "cli/view/remembered.hpp"
 #include "cli/view/sound_player.hpp"
 #include "cli/view/stage.hpp"
 #include "cli/view/stepping_there.hpp"
@@ -36,6 +38,8 @@ public:
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
         bool plain = false;     ///< never settles
+        bool remembers = false; ///< leaves its state for the next window
+        std::optional<Remembered> left = {};       ///< by the last one
         std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
 
@@ -71,6 +75,17 @@ private:
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
     void save_picture();
+
+    // The moment on show: viewer_moments.cpp
+    Moment moment() const;
+    image::PictureFormat format_of_picture() const;
+    void copy_moment();
+    void keep_moment();
+    void take_up(const Remembered& left);
+    void leave() const;
+    void carry_out(const live::KeepView&) { keep_moment(); }
+    void carry_out(const live::GoToView& command);
+    void carry_out(const live::ForgetView& command);
 
     // The overlay: viewer_overlay.cpp
     void toggle_controls();
@@ -152,6 +167,8 @@ private:
     PassCosts costs_;                       ///< while the controls are open
     std::optional<SteppingThere> stepping_; ///< on the way to a frame
     live::SetLoop loop_;                    ///< of time
+    std::vector<Moment> views_;             ///< that somebody kept
+    std::optional<double> going_to_;        ///< iTime of the view that the next Stage shows
     std::optional<size_t> large_;           ///< of the pictures in the overlay
     std::optional<std::vector<live::DefinitionField>>
         defined_;                ///< by the scene on show; none: not looked yet

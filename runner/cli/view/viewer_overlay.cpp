@@ -66,6 +66,7 @@ live::Model Viewer::overlay_model() const {
         model.pictures = picture_fields(renderer, costs_);
         if (large_ && *large_ < model.pictures.size())
             model.large = large_;
+        model.views = view_labels(views_);
         model.time = time_field();
         model.extent = renderer.extent();
     }

@@ -16,6 +16,7 @@ constexpr KeyRow k_rows[] = {
     {"Home", "restart at frame 0"},
     {"Tab; 1 to 9, 0", "controls; in them: a pass or an input large, the scene again"},
     {"S", "save a picture (SCENE-FRAME.png in the current folder)"},
+    {"C; K", "copy the command that captures this moment; keep it in the controls"},
     {"F; H, F1", "full screen; help"},
     {"Esc", "quit; while a scene is compiled anew, or a frame holds the window: give that up"},
 };

@@ -3,6 +3,7 @@
 #include "live/plugin/definition_widgets.hpp"
 #include "live/plugin/knob_widgets.hpp"
 #include "live/plugin/picture_widgets.hpp"
+#include "live/plugin/view_widgets.hpp"
 
 #include <imgui.h>
 
@@ -19,6 +20,7 @@ void draw_controls(Model& model, const Surface& surface, Commands& commands) {
         draw_knobs(model.knobs, commands);
         draw_definitions(model.definitions, commands);
         draw_thumbnails(model, surface, commands);
+        draw_views(model.views, commands);
     }
     ImGui::End();
 }

@@ -1,5 +1,5 @@
 // A fingerprint says in what two frames differ.
-#include "cli/capture/fingerprint.hpp"
+#include "cli/capture/run_fingerprint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ CapturePlan plan_of(const char* text) {
 Fingerprint run_of(const CapturePlan& plan, const char* renderer = "one") {
     gl::Capabilities driver;
     driver.renderer = renderer;
-    return Fingerprint::of_run(plan, driver);
+    return fingerprint_of_run(plan, driver);
 }
 
 TEST(Fingerprint, comes_back_from_its_text) {

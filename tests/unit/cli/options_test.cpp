@@ -98,7 +98,7 @@ TEST(Resolve, the_option_at_fault_is_named) {
     options = {};
     options.camera = "1,2";
     EXPECT_EQ(refusal(options), "--camera 1,2: give azimuth,elevation,distance as in 30,20,10 (degrees, "
-                                "degrees, a distance above 0)");
+                                "degrees, a distance above 0), and behind them x,y,z where it is panned to");
 }
 
 } // namespace

@@ -39,6 +39,8 @@ TEST(StateJson, every_field_comes_back) {
     });
     EXPECT_EQ(frame_state_of(Json::parse(dump(to_json(state)))), state);
     EXPECT_EQ(frame_state_of(Json::parse(dump(to_json(usual)))), usual);
+    EXPECT_EQ(frame_state_of(Json::parse(dump(changes_of(state)))), state);
+    EXPECT_EQ(dump(changes_of(usual)), "{}");
 }
 
 TEST(FrameFields, are_all_of_a_state_in_their_order) {
@@ -55,7 +57,7 @@ TEST(OptionWords, say_what_is_not_usual) {
     EXPECT_THAT(option_words(FrameState{.frame = 3}), ElementsAre("--frame", "3", "--size", "640x360"));
     EXPECT_THAT(option_words(unusual()),
                 ElementsAre("--time", "0.1", "--size", "3x2", "--fps", "24", "--mouse", "-3,4,1,2,down",
-                            "--date", "2020-02-29T01:02:3.5", "--camera", "0.3333333333333333,-5,7.5",
+                            "--date", "2020-02-29T01:02:3.5", "--camera", "0.3333333333333333,-5,7.5,1,2,3",
                             "--set", "k=vec2(0, 1)", "--set", "l=2", "--define", "N=3 + 4", "--channel",
                             "0=none", "--channel", "1=it's.png", "--pass", "Buffer A"));
 }

@@ -167,21 +167,26 @@ TEST(ParseCamera, azimuth_elevation_distance) {
     EXPECT_EQ(parsed->elevation, -20);
     EXPECT_EQ(parsed->distance, 100);
     EXPECT_EQ(parsed->target, glm::dvec3(0));
+    EXPECT_EQ(parse_camera("45.5,-20,1e2,1,-2.5,3")->target, glm::dvec3(1, -2.5, 3));
     EXPECT_EQ(parse_camera("0,90,1")->elevation, 89.9);
     EXPECT_EQ(parse_camera("0,-90,1")->elevation, -89.9);
 }
 
 TEST(ParseCamera, what_is_no_camera) {
     for (const std::string text :
-         {"",      "1",      "1,2",     "1,2,",     "1,2,3,",    "1,2,3,4", "1,2,x",
-          "x,2,3", " 1,2,3", "1, 2,3",  "1,2,3 ",   "nan,0,1",   "0,inf,1", "0,0,nan",
-          "0,0,0", "0,0,-1", "0,0,1e7", "0,0,1e-4", "1e999,0,1", ",,",      "1;2;3"}) {
+         {"",        "1",         "1,2",           "1,2,",          "1,2,3,",
+          "1,2,3,4", "1,2,x",     "x,2,3",         " 1,2,3",        "1, 2,3",
+          "1,2,3 ",  "nan,0,1",   "0,inf,1",       "0,0,nan",       "0,0,0",
+          "0,0,-1",  "0,0,1e7",   "0,0,1e-4",      "1e999,0,1",     ",,",
+          "1;2;3",   "1,2,3,4,5", "1,2,3,4,5,nan", "1,2,3,4,5,6,7", "1,2,3,4,5,6;"}) {
         const auto parsed = parse_camera(text);
         ASSERT_FALSE(parsed) << text;
         EXPECT_EQ(parsed.error().code, ErrorCode::usage);
-        EXPECT_EQ(parsed.error().message, "--camera " + text +
-                                              ": give azimuth,elevation,distance as in 30,20,10 (degrees, "
-                                              "degrees, a distance above 0)");
+        EXPECT_EQ(parsed.error().message,
+                  "--camera " + text +
+                      ": give azimuth,elevation,distance as in 30,20,10 (degrees, "
+                      "degrees, a distance above 0), and behind them x,y,z where it is "
+                      "panned to");
     }
 }
 

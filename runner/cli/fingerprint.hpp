@@ -3,7 +3,8 @@
 // where two differ, the parts say in what.
 #pragma once
 
-#include "cli/capture/capture_plan.hpp"
+#include "cli/json_dump.hpp"
+#include "cli/requests.hpp"
 #include "gl/capabilities.hpp"
 
 #include <span>
@@ -16,12 +17,18 @@ namespace tidemark::cli {
 
 class Fingerprint {
 public:
-    /// What all frames of a capture have in common. Reads the files that the scene reads.
-    static Fingerprint of_run(const CapturePlan& plan, const gl::Capabilities& driver);
+    /// Of a scene's texts and inputs, and of what draws them. Reads the files that the scene reads.
+    static Fingerprint of_scene(const scene::Scene& scene, const std::vector<std::string>& defines,
+                                const FrameSequence& frames, const gl::Capabilities& driver);
+    /// And of something else that pictures depend on.
+    void add(std::string part, const Json& facts);
     /// That of a frame of the run.
     Fingerprint of_frame(const render::FrameState& state) const;
     /// That of several, which are one file.
     Fingerprint of_frames(std::span<const render::FrameState> states) const;
+
+    /// The parts of `of_scene` alone.
+    Fingerprint of_scene() const;
 
     /// As in a picture's metadata: `text=0123456789abcdef inputs=…`.
     std::string text() const;

@@ -1,9 +1,9 @@
-#include "cli/capture/fingerprint.hpp"
+#include "cli/fingerprint.hpp"
 
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/overloaded.hpp"
-#include "cli/capture/shard.hpp"
+#include "cli/scene_facts.hpp"
 #include "cli/state_json.hpp"
 #include "cli/version.hpp"
 
@@ -81,48 +81,31 @@ Json facts_of(const scene::Sampling& sampling) {
     return Json::array({int(magnify), int(minify), int(mipmaps), int(wrap), vflip});
 }
 
-Json text_facts(const CapturePlan& plan) {
-    Json facts = Json::array({plan.scene.common.text(), plan.scene.moves_view, plan.defines});
-    for (const scene::Pass& pass : plan.scene.passes)
+Json text_facts(const scene::Scene& scene, const std::vector<std::string>& defines) {
+    Json facts = Json::array({scene.common.text(), scene.moves_view, defines});
+    for (const scene::Pass& pass : scene.passes)
         facts.push_back(Json::array(
             {int(pass.kind), pass.name, pass.text.text(), pass.keyboard_helpers, pass.bare_file}));
     return facts;
 }
 
-Json knob_facts(const scene::Scene& scene) {
-    Json facts = Json::array();
-    for (const scene::Knob& knob : scene.knobs)
-        facts.push_back(Json::array({knob.name, int(knob.type), knob.value}));
-    return facts;
-}
-
 /// What buffers hold is of all the frames before, and those see what was recorded for them.
-bool has_history(const CapturePlan& plan) {
-    return plan.frames.input && may_feed_back(plan.scene);
+bool has_history(const scene::Scene& scene, const FrameSequence& frames) {
+    return frames.input && may_feed_back(scene);
 }
 
-Json input_facts(const CapturePlan& plan) {
+Json input_facts(const scene::Scene& scene, const FrameSequence& frames) {
     Json facts = Json::array();
-    for (const scene::Pass& pass : plan.scene.passes)
+    for (const scene::Pass& pass : scene.passes)
         for (const scene::Channel& channel : pass.channels) {
             Json& fact =
                 facts.emplace_back(Json::array({facts_of(channel.input), facts_of(channel.sampling)}));
             for (const std::filesystem::path& file : input_files(channel.input))
                 fact.push_back(facts_of_file(file));
         }
-    if (has_history(plan))
-        facts.push_back(facts_of_file(plan.frames.input_file));
+    if (has_history(scene, frames))
+        facts.push_back(facts_of_file(frames.input_file));
     return facts;
-}
-
-/// Size and pass are the frame's; tiles, and a trial of two programs that may not differ, change no picture.
-Json drawing_facts(const CapturePlan& plan) {
-    const auto& [extent, samples, pass, precision, specialise, extras, tile, marks] = plan.drawing;
-    const bool differs = plan.trial && plan.trial->frames.allowed;
-    return Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
-                        plan.output.pattern().extension().string(), plan.output.six_faces(),
-                        plan.output.video() ? Json(plan.pace.fps) : Json(),
-                        differs ? Json(*plan.trial->frames.allowed) : Json()});
 }
 
 /// How a person calls what is another.
@@ -143,15 +126,26 @@ std::string_view words_of(std::string_view part) {
 
 } // namespace
 
-Fingerprint Fingerprint::of_run(const CapturePlan& plan, const gl::Capabilities& driver) {
-    Fingerprint run;
-    run.parts_ = {{"version", hash_of(std::string(k_version))},
-                  {std::string(k_device), hash_of(Json::array({driver.renderer, driver.version}))},
-                  {"text", hash_of(text_facts(plan))},
-                  {"inputs", hash_of(input_facts(plan))},
-                  {"knobs", hash_of(knob_facts(plan.scene))},
-                  {"drawing", hash_of(drawing_facts(plan))}};
-    return run;
+Fingerprint Fingerprint::of_scene(const scene::Scene& scene, const std::vector<std::string>& defines,
+                                  const FrameSequence& frames, const gl::Capabilities& driver) {
+    Fingerprint fingerprint;
+    fingerprint.parts_ = {{"version", hash_of(std::string(k_version))},
+                          {std::string(k_device), hash_of(Json::array({driver.renderer, driver.version}))},
+                          {"text", hash_of(text_facts(scene, defines))},
+                          {"inputs", hash_of(input_facts(scene, frames))}};
+    return fingerprint;
+}
+
+void Fingerprint::add(std::string part, const Json& facts) {
+    parts_.emplace_back(std::move(part), hash_of(facts));
+}
+
+Fingerprint Fingerprint::of_scene() const {
+    Fingerprint scene = *this;
+    std::erase_if(scene.parts_, [](const auto& part) {
+        return part.first == "knobs" || part.first == "drawing" || part.first == "frame";
+    });
+    return scene;
 }
 
 Fingerprint Fingerprint::of_frame(const render::FrameState& state) const {

@@ -1,0 +1,32 @@
+#include "cli/capture/run_fingerprint.hpp"
+
+namespace tidemark::cli {
+namespace {
+
+Json knob_facts(const scene::Scene& scene) {
+    Json facts = Json::array();
+    for (const scene::Knob& knob : scene.knobs)
+        facts.push_back(Json::array({knob.name, int(knob.type), knob.value}));
+    return facts;
+}
+
+/// Size and pass are the frame's; tiles, and a trial of two programs that may not differ, change no picture.
+Json drawing_facts(const CapturePlan& plan) {
+    const auto& [extent, samples, pass, precision, specialise, extras, tile, marks] = plan.drawing;
+    const bool differs = plan.trial && plan.trial->frames.allowed;
+    return Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
+                        plan.output.pattern().extension().string(), plan.output.six_faces(),
+                        plan.output.video() ? Json(plan.pace.fps) : Json(),
+                        differs ? Json(*plan.trial->frames.allowed) : Json()});
+}
+
+} // namespace
+
+Fingerprint fingerprint_of_run(const CapturePlan& plan, const gl::Capabilities& driver) {
+    Fingerprint run = Fingerprint::of_scene(plan.scene, plan.request.defines, plan.frames, driver);
+    run.add("knobs", knob_facts(plan.scene));
+    run.add("drawing", drawing_facts(plan));
+    return run;
+}
+
+} // namespace tidemark::cli

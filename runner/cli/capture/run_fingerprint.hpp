@@ -1,0 +1,12 @@
+// What all frames of a capture have in common.
+#pragma once
+
+#include "cli/capture/capture_plan.hpp"
+#include "cli/fingerprint.hpp"
+
+namespace tidemark::cli {
+
+/// Reads the files that the scene reads.
+Fingerprint fingerprint_of_run(const CapturePlan& plan, const gl::Capabilities& driver);
+
+} // namespace tidemark::cli

@@ -1,0 +1,100 @@
+// The moment on show, as a value: copied as a command, saved with pictures, kept and gone back to.
+#include "cli/console.hpp"
+#include "cli/fingerprint.hpp"
+#include "cli/picture_facts.hpp"
+#include "cli/view/overlay_fields.hpp"
+#include "cli/view/viewer.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::cli {
+
+Moment Viewer::moment() const {
+    FrameSequence sequence = settings_.frames;
+    if (recording())
+        sequence.input_file = settings_.record.string();
+    render::FrameState state = shown_;
+    state.pass = sequence.state.pass;
+    if (!clock_.by_frames())
+        sequence.lead_in_fps = sequence.state.fps;
+    return moment_of(scene_.request(), sequence, std::move(state));
+}
+
+/// Of the frame on show, with all that draws it again.
+image::PictureFormat Viewer::format_of_picture() const {
+    const scene::Scene& scene = stage_->renderer().scene();
+    const auto fingerprint =
+        Fingerprint::of_scene(scene, scene_.request().defines, settings_.frames, gl::query_capabilities());
+    image::PictureFormat format{image::SampleDepth::u8, metadata_of(scene, moment())};
+    format.metadata.emplace_back(k_fingerprint, fingerprint.text());
+    return format;
+}
+
+/// The rate of the window's own clock is nobody's wish, and the date is left to the capture unless somebody
+/// gave one.
+void Viewer::copy_moment() {
+    if (!stage_)
+        return;
+    Moment copied = moment();
+    render::FrameState& state = copied.sequence.state;
+    state.fps = settings_.frames.state.fps;
+    state.date = settings_.frames.state.date;
+    const std::string command = capture_command(copied);
+    window_.set_clipboard(command);
+    say("copied: " + command);
+}
+
+void Viewer::keep_moment() {
+    if (!stage_)
+        return;
+    views_.push_back(moment());
+    stale_overlay_ = true;
+    say("kept: " + view_labels(views_).back());
+}
+
+/// As the bar of time goes to a moment; definitions are compiled first.
+void Viewer::carry_out(const live::GoToView& command) {
+    if (command.index >= views_.size())
+        return;
+    if (replay_)
+        return say("a recording moves the scene: it stays there");
+    const Moment& kept = views_[command.index];
+    const render::FrameState& state = kept.sequence.state;
+    controls_.adopt(state);
+    shown_.knobs.clear();
+    controls_.fill(shown_);
+    const double now = now_seconds();
+    touched_at_ = now;
+    stale_ = true;
+    if (kept.scene.defines == scene_.request().defines)
+        return seek(state.seconds(), now);
+    going_to_ = state.seconds();
+    scene_.hold(kept.scene.defines, window_, view());
+}
+
+void Viewer::carry_out(const live::ForgetView& command) {
+    if (command.index < views_.size())
+        views_.erase(views_.begin() + std::ptrdiff_t(command.index));
+    stale_overlay_ = true;
+}
+
+/// As the last window of the scene was left.
+void Viewer::take_up(const Remembered& left) {
+    views_ = left.views;
+    controls_open_ = left.controls;
+    if (!left.moment)
+        return;
+    render::FrameState state = left.moment->sequence.state;
+    state.mouse = {};
+    controls_.adopt(state);
+    going_to_ = state.seconds();
+    say(fmt::format("as you left it: {}; --fresh starts anew", words_of(left)));
+}
+
+/// For the next window of the scene.
+void Viewer::leave() const {
+    if (settings_.remembers && stage_)
+        remember(settings_.scene.path, {moment(), window_.place(), controls_open_, views_});
+}
+
+} // namespace tidemark::cli

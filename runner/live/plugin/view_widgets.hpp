@@ -1,0 +1,13 @@
+// The moments that somebody kept.
+#pragma once
+
+#include "live/command.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tidemark::live {
+
+void draw_views(const std::vector<std::string>& views, Commands& commands);
+
+} // namespace tidemark::live
