@@ -23,8 +23,8 @@ std::string pixels_are(size_t count, const std::string& when) {
     return fmt::format("{} pixel{} {} {}", count, count > 1 ? "s" : "", when, count > 1 ? "are" : "is");
 }
 
-std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
-                          const render::FrameState& state) {
+std::vector<std::string> trace_words(const SceneRequest& scene, const FrameSequence& sequence,
+                                     const render::FrameState& state) {
     render::FrameState typed = state;
     std::vector<std::string> recording;
     if (sequence.input) {
@@ -35,7 +35,12 @@ std::string trace_command(const SceneRequest& scene, const FrameSequence& sequen
     std::vector<std::string> words{"tidemark", "check", "--trace", file_word(scene.path)};
     for (const auto& more : {option_words(typed), recording, option_words(scene)})
         words.insert(words.end(), more.begin(), more.end());
-    return shell_words(words);
+    return words;
+}
+
+std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
+                          const render::FrameState& state) {
+    return shell_words(trace_words(scene, sequence, state));
 }
 
 } // namespace tidemark::cli

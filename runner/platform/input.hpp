@@ -40,6 +40,8 @@ enum class Key : int {
     a = 65, ///< to z = 90
     f = 70,
     h = 72,
+    m = 77,
+    n = 78,
     r = 82,
     s = 83,
     z = 90,
