@@ -49,7 +49,11 @@ std::string read_all(int pipe) {
 
 Error origin_of(const std::string& json) {
     const auto report = nlohmann::json::parse(json, nullptr, false);
-    const auto trace = report.is_object() ? report.value("trace", nlohmann::json()) : nlohmann::json();
+    if (!report.is_object())
+        return {ErrorCode::check_failed, "the trace ended without an answer: run check --trace to see why"};
+    if (const auto ended = report.value("ended", ""); !ended.empty())
+        return {ErrorCode::check_failed, "no origin was found: " + ended};
+    const auto trace = report.value("trace", nlohmann::json());
     if (!trace.is_object())
         return {ErrorCode::check_failed, "no origin was found: drawn again, the pixel is finite"};
     const auto fix = trace.value("fix", nlohmann::json());

@@ -71,6 +71,7 @@ void Viewer::trace_pixel() {
     if (!started)
         return say(to_string(started.error()));
     search_ = *std::move(started);
+    say(fmt::format("tracing pixel {},{}: Enter gives up", pixel.x, pixel.y));
 }
 
 void Viewer::take_origin() {
