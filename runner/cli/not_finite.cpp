@@ -23,12 +23,17 @@ std::string pixels_are(size_t count, const std::string& when) {
     return fmt::format("{} pixel{} {} {}", count, count > 1 ? "s" : "", when, count > 1 ? "are" : "is");
 }
 
-std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
-                          const render::FrameState& state) {
+std::vector<std::string> trace_words(const SceneRequest& scene, const FrameSequence& sequence,
+                                     const render::FrameState& state) {
     std::vector<std::string> words{"tidemark", "check", "--trace", file_word(scene.path)};
     const std::vector<std::string> options = option_words(scene, sequence.input_file, state);
     words.insert(words.end(), options.begin(), options.end());
-    return shell_words(words);
+    return words;
+}
+
+std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
+                          const render::FrameState& state) {
+    return shell_words(trace_words(scene, sequence, state));
 }
 
 } // namespace tidemark::cli

@@ -5,6 +5,7 @@
 #include "render/renderer.hpp"
 
 #include <string>
+#include <vector>
 
 namespace tidemark::cli {
 
@@ -16,7 +17,9 @@ size_t count_not_finite(const render::Renderer& renderer, image::Image& picture)
 /// `3 pixels of frame 7 are`, `1 pixel at 2.5 s is`: before ` not finite`.
 std::string pixels_are(size_t count, const std::string& when);
 
-/// The command that finds the line.
+/// The command that finds the line, in words; and as it is typed.
+std::vector<std::string> trace_words(const SceneRequest& scene, const FrameSequence& sequence,
+                                     const render::FrameState& state);
 std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,
                           const render::FrameState& state);
 

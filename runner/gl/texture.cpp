@@ -65,6 +65,13 @@ void upload(const Texture& texture, int layer, GLenum format, GLenum type,
                             pixels.data());
 }
 
+std::vector<float> read_part(const Texture& texture, int layer, const Rectangle& part) {
+    std::vector<float> values(part.extent.pixels() * 4);
+    glGetTextureSubImage(texture.id(), 0, part.x, part.y, layer, part.extent.width, part.extent.height, 1,
+                         GL_RGBA, GL_FLOAT, GLsizei(values.size() * sizeof(float)), values.data());
+    return values;
+}
+
 size_t bytes_of(const Texture& texture) {
     GLint bits = 0;
     for (const GLenum part :

@@ -1,7 +1,7 @@
 // Textures of two and three dimensions, cubes, and samplers.
 #pragma once
 
-#include "base/extent.hpp"
+#include "base/rectangle.hpp"
 #include "gl/handle.hpp"
 
 #include <array>
@@ -32,6 +32,10 @@ std::array<int, 3> level_size(const Texture& texture, int level);
 
 /// A level in floats, RGBA: row by row, one face or slice after the other.
 std::vector<float> read_level(const Texture& texture, int level);
+
+/// A part of level 0 in floats, RGBA: its bottom row first (`layer`: a cube's face, a volume's slice). Waits
+/// for what draws into it; the part lies within the texture.
+std::vector<float> read_part(const Texture& texture, int layer, const Rectangle& part);
 
 /// Whether the driver had room for it. One without reads as black.
 bool has_storage(const Texture& texture);

@@ -4,9 +4,11 @@
 #include "live/definition_field.hpp"
 #include "live/error_field.hpp"
 #include "live/knob_field.hpp"
+#include "live/magnifier_field.hpp"
 #include "live/picture_field.hpp"
 #include "live/time_field.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +36,11 @@ struct Model {
     std::vector<HelpRow> help{}; ///< likewise
     std::string help_footer{};
 
-    bool anything() const { return controls || !errors.empty() || !help.empty(); }
+    std::optional<MagnifierField> magnifier{};
+
+    /// Which panels are open.
+    using Panels = std::array<bool, 4>;
+    Panels panels() const { return {controls, !errors.empty(), !help.empty(), magnifier.has_value()}; }
 };
 
 } // namespace tidemark::live

@@ -3,6 +3,8 @@
 #include "base/plug_in.hpp"
 #include "base/try.hpp"
 
+#include <utility>
+
 namespace tidemark::live {
 namespace {
 
@@ -19,8 +21,9 @@ Result<std::unique_ptr<Panels>> load_panels() {
 } // namespace
 
 Result<void> Overlay::show(Model model, const Surface& surface) {
-    const bool visible = model.anything() && !failed_;
-    if (visible != visible_)
+    const Model::Panels open = model.panels();
+    const bool visible = open != Model::Panels{} && !failed_;
+    if (std::exchange(open_, open) != open)
         frames_wanted_ = k_frames_to_settle;
     if (!visible && visible_)
         panels_->release_all();

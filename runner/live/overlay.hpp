@@ -32,6 +32,7 @@ public:
 
 private:
     std::unique_ptr<Panels> panels_; ///< none before the plug-in is loaded
+    Model::Panels open_{};
     bool visible_ = false;
     bool failed_ = false;
     int frames_wanted_ = 0;

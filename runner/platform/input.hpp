@@ -42,6 +42,8 @@ enum class Key : int {
     f = 70,
     h = 72,
     k = 75,
+    m = 77,
+    n = 78,
     r = 82,
     s = 83,
     z = 90,

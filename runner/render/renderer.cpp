@@ -197,15 +197,26 @@ std::optional<TileGrid> Renderer::tiles() const {
     return tile ? std::optional(TileGrid(extent_, *tile)) : std::nullopt;
 }
 
-void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile) const {
-    const Doing drawing = doing(k_drawing, scene());
+/// The program of the shown pass, with its uniforms and textures.
+const gl::Program& Renderer::prepare_shown(const FrameInputs& inputs) const {
     const size_t shown = compiled_.shown();
     const auto& [linked, uniforms] = compiled_[shown];
     uniforms.upload(linked.program, uniforms_of(shown, uniforms, inputs, extent_));
     bind_textures(shown);
-    if (const gl::Uniform* origin = linked.program.reflection().find("tidemark_tile"))
-        gl::set_uniform(linked.program, *origin, std::array{double(tile.x), double(tile.y)});
-    draw_face(linked.program, target(), tile.extent);
+    return linked.program;
+}
+
+void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile) const {
+    const Doing drawing = doing(k_drawing, scene());
+    const gl::Program& program = prepare_shown(inputs);
+    if (const gl::Uniform* origin = program.reflection().find("tidemark_tile"))
+        gl::set_uniform(program, *origin, std::array{double(tile.x), double(tile.y)});
+    draw_face(program, target(), tile.extent);
+}
+
+void Renderer::draw_again(const FrameInputs& inputs, const gl::RenderTarget& into) const {
+    const Doing drawing = doing(k_drawing, scene());
+    draw_face(prepare_shown(inputs), into, into.extent());
 }
 
 void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile, Image& band) const {

@@ -65,6 +65,13 @@ public:
     /// the whole width whose bottom row is the tile's. The same bytes as in a picture drawn whole.
     void draw_tile(const FrameInputs& inputs, const Tile& tile, image::Image& band) const;
 
+    /// Whether `draw_again` gives the picture on show: nobody has read it, and it reads nothing that was
+    /// drawn after it.
+    bool can_draw_again() const { return compiled_.can_be_tiled(); }
+    /// The shown pass once more, after the `draw` of the same inputs, into a target of another format; as far
+    /// as the scissor box allows.
+    void draw_again(const FrameInputs& inputs, const gl::RenderTarget& into) const;
+
     /// Buffers back to zero, as before frame 0.
     void reset();
 
@@ -149,6 +156,7 @@ private:
     void draw_before(size_t pass, const FrameInputs& inputs);
     void draw_substitute(size_t pass, const gl::Program& program, const FrameInputs& inputs,
                          const gl::RenderTarget& into, int face) const;
+    const gl::Program& prepare_shown(const FrameInputs& inputs) const;
     void draw_tile(const FrameInputs& inputs, const Tile& tile) const;
     void draw_face(const gl::Program& program, const gl::RenderTarget& into, Extent extent) const;
     ChannelFacts facts_of(size_t pass, const FrameInputs& inputs) const;

@@ -1,21 +1,14 @@
 // Cuts a picture into tiles: one that is larger than a target may be, or than memory should hold. Pure.
 #pragma once
 
-#include "base/extent.hpp"
+#include "base/rectangle.hpp"
 #include "base/result.hpp"
 
 #include <optional>
 
 namespace tidemark::render {
 
-/// A rectangle of a picture; x and y of its bottom left pixel.
-struct Tile {
-    int x = 0;
-    int y = 0;
-    Extent extent;
-
-    bool operator==(const Tile&) const = default;
-};
+using Tile = Rectangle;
 
 /// Pixels centre on halves, which floats have up to here: gl_FragCoord is exact in a picture of this side.
 inline constexpr int k_largest_tiled_side = 1 << 23;

@@ -2,6 +2,7 @@
 
 #include "base/file.hpp"
 #include "base/leftovers.hpp"
+#include "base/shell_word.hpp"
 #include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
@@ -99,6 +100,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         const double now = now_seconds();
         TRY(follow_scene(now));
         settle_after_rest(now);
+        take_origin();
         step_there();
         go_round(now);
         if (wants_frame(now))
@@ -115,6 +117,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
 void Viewer::listen() {
     const auto handle_all = [this](const std::vector<platform::InputEvent>& events) {
         for (const platform::InputEvent& event : events) {
+            stale_overlay_ |= magnifier_.follow(event);
             if (!overlay_.take(event))
                 std::visit([this](const auto& happened) { handle(happened); }, event);
             obey_overlay();
@@ -214,11 +217,16 @@ void Viewer::draw(double now) {
 
 /// The picture as it was drawn last, and what lies over it.
 void Viewer::present() {
+    stale_overlay_ = false;
+    const gl::Texture* marked = marked_picture(); // draws, as the magnifier does: before the window's turn
+    live::Model model = overlay_model();
     if (stage_)
         gl::blit_to_window(stage_->renderer().target(), window_.framebuffer_extent());
     else
         gl::clear_window();
-    show_overlay();
+    if (marked)
+        marks_->draw(*marked, window_.framebuffer_extent());
+    show_overlay(std::move(model));
     window_.swap();
 }
 
@@ -228,17 +236,18 @@ void Viewer::look_for_numbers(double now) {
         return;
     if (const size_t count = finite_.look(stage_->renderer(), now); count > 0)
         say(fmt::format("warning: {} not finite; where from: {}",
-                        pixels_are(count, fmt::format("at {:.3f} s", shown_.seconds())), trace_command()));
+                        pixels_are(count, fmt::format("at {:.3f} s", shown_.seconds())),
+                        shell_words(trace_words())));
 }
 
 /// Of the frame on show, as far as options can say what people did.
-std::string Viewer::trace_command() const {
+std::vector<std::string> Viewer::trace_words() const {
     render::FrameState state = shown_;
     state.extent = stage_->renderer().extent();
     state.fps = settings_.frames.state.fps;
     state.date = settings_.frames.state.date;
     state.pass = settings_.frames.state.pass;
-    return cli::trace_command(scene_.request(), settings_.frames, state);
+    return cli::trace_words(scene_.request(), settings_.frames, state);
 }
 
 bool Viewer::compiles_for_long(double now) const {
@@ -324,6 +333,9 @@ void Viewer::obey(Key key, double now) {
     case Key::h:
     case Key::f1: return toggle_help();
     case Key::tab: return toggle_controls();
+    case Key::m: return toggle_magnifier();
+    case Key::n: return toggle_marks();
+    case Key::enter: return trace_pixel();
     default: return show_picture_of(key);
     }
     stale_ = true;
@@ -407,6 +419,7 @@ Result<void> Viewer::show(Stage fresh, double now) {
     }
     play_sound();
     defined_.reset();
+    origin_.show(nullptr);
     controls_.release(stage_->renderer().scene().knobs);
     reloaded_ = scene_.take_times();
     settled_ = false;
@@ -429,6 +442,7 @@ Result<void> Viewer::swap_in(Stage fresh) {
     if (stage_)
         glFinish(); // what it drew is there to be taken over
     stepping_.reset();
+    forget_looking();
     costs_.forget();
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));

@@ -12,6 +12,8 @@
 #include "cli/view/error_board.hpp"
 #include "cli/view/finite_watch.hpp"
 #include "cli/view/live_scene.hpp"
+#include "cli/view/magnifier.hpp"
+#include "cli/view/origin_search.hpp"
 #include "cli/view/pass_costs.hpp"
 #include "cli/view/remembered.hpp"
 #include "cli/view/sound_player.hpp"
@@ -22,6 +24,7 @@
 #include "live/overlay.hpp"
 #include "platform/window.hpp"
 #include "render/live_clock.hpp"
+#include "render/number_marks.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -91,8 +94,8 @@ private:
     void toggle_controls();
     void show_picture_of(platform::Key digit);
     void toggle_help();
-    void show_overlay();
-    live::Model overlay_model() const;
+    void show_overlay(live::Model model);
+    live::Model overlay_model();
     void obey_overlay();
     void carry_out(const live::TurnKnob& command);
     void carry_out(const live::ResetKnob& command);
@@ -118,6 +121,16 @@ private:
     bool overlay_due() const;
     scene::Scene turned_scene() const;
 
+    // Looking into the picture: viewer_looking.cpp
+    void toggle_magnifier();
+    void toggle_marks();
+    render::ShownFloats& floats();
+    std::optional<live::MagnifierField> magnifier_field();
+    const gl::Texture* marked_picture();
+    void forget_looking();
+    void trace_pixel();
+    void take_origin();
+
     LiveScene::View view() const;
     Result<void> follow_scene(double now);
     Result<void> show(Stage fresh, double now);
@@ -130,7 +143,7 @@ private:
     void draw(double now);
     void present();
     void look_for_numbers(double now);
-    std::string trace_command() const;
+    std::vector<std::string> trace_words() const;
     void show_title(double now);
     Result<void> finish();
     double seconds_to_sleep(double now) const;
@@ -164,7 +177,13 @@ private:
     WindowKeys keys_;
     live::Overlay overlay_;
     ErrorBoard errors_;
-    PassCosts costs_;                       ///< while the controls are open
+    PassCosts costs_; ///< while the controls are open
+    Magnifier magnifier_;
+    std::optional<render::ShownFloats> floats_; ///< of the stage, when somebody looks
+    std::optional<render::NumberMarks> marks_;  ///< likewise
+    bool marks_shown_ = false;
+    std::unique_ptr<OriginSearch> search_;  ///< while one is under way
+    ErrorBoard origin_;                     ///< what it found
     std::optional<SteppingThere> stepping_; ///< on the way to a frame
     live::SetLoop loop_;                    ///< of time
     std::vector<Moment> views_;             ///< that somebody kept

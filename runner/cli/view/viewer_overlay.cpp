@@ -47,18 +47,19 @@ bool Viewer::overlay_due() const {
     return (stale_overlay_ || overlay_.wants_frame()) && !moving();
 }
 
-void Viewer::show_overlay() {
-    stale_overlay_ = false;
-    if (controls_open_ && stage_ && !defined_)
-        defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
-    if (auto shown = overlay_.show(overlay_model(), {window_.framebuffer_extent(), window_.content_scale()});
+void Viewer::show_overlay(live::Model model) {
+    if (auto shown = overlay_.show(std::move(model), {window_.framebuffer_extent(), window_.content_scale()});
         !shown)
         say(to_string(shown.error()));
     overlay_.draw();
 }
 
-live::Model Viewer::overlay_model() const {
-    live::Model model{.controls = controls_open_ && stage_, .errors = errors_.fields()};
+live::Model Viewer::overlay_model() {
+    live::Model model{.controls = controls_open_ && stage_,
+                      .errors = errors_.fields().empty() ? origin_.fields() : errors_.fields(),
+                      .magnifier = magnifier_field()};
+    if (model.controls && !defined_)
+        defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
     if (model.controls) {
         const render::Renderer& renderer = stage_->renderer();
         model.knobs = knob_fields(renderer.scene(), shown_.knobs);

@@ -4,6 +4,7 @@
 #include "live/plugin/error_panel.hpp"
 #include "live/plugin/help_panel.hpp"
 #include "live/plugin/imgui_input.hpp"
+#include "live/plugin/magnifier_panel.hpp"
 #include "live/plugin/picture_widgets.hpp"
 #include "live/plugin/time_bar.hpp"
 
@@ -100,6 +101,8 @@ void ImGuiPanels::run() {
         draw_errors(model_, surface_, {large_, bottom}, commands_);
     if (!model_.help.empty())
         draw_help(model_, surface_);
+    if (model_.magnifier)
+        draw_magnifier(*model_.magnifier, surface_);
     ImGui::Render();
 }
 

@@ -1,9 +1,13 @@
 // Definitions, errors and time as the overlay's panels show them.
 #include "live/definition_field.hpp"
 #include "live/error_field.hpp"
+#include "live/magnifier_field.hpp"
 #include "live/time_field.hpp"
 
 #include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
 
 namespace tidemark::live {
 namespace {
@@ -54,6 +58,22 @@ TEST(Excerpt, has_a_mark_under_the_place) {
 TEST(Excerpt, of_a_long_line_holds_the_place) {
     EXPECT_EQ(excerpt("0123456789abcdef", 13, 8), "89abcdef\n    ^");
     EXPECT_EQ(excerpt("0123456789abcdef", 3, 8), "01234567\n  ^");
+}
+
+TEST(Magnifier, tells_a_number_and_all_its_bits) {
+    constexpr float k_infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(number_text(1.0F / 3), "0.3333333");
+    EXPECT_EQ(number_text(-1.5e-5F), "-1.5e-05");
+    EXPECT_EQ(number_text(std::numeric_limits<float>::quiet_NaN()), "NaN");
+    EXPECT_EQ(number_text(k_infinity), "Inf");
+    EXPECT_EQ(number_text(-k_infinity), "-Inf");
+    EXPECT_EQ(bits_text(1), "0x3f800000");
+    EXPECT_EQ(bits_text(0), "0x00000000");
+}
+
+TEST(Magnifier, shows_what_a_screen_can) {
+    const std::array values{-1.0F, 0.5F, std::numeric_limits<float>::infinity()};
+    EXPECT_EQ(colour_of(values.data()), (MagnifierField::Colour{0, 128, 255}));
 }
 
 TEST(TimeBar, doubles_as_time_comes_near) {

@@ -1,0 +1,30 @@
+// A part of a picture, target or window in whole pixels; x and y of its bottom left one.
+#pragma once
+
+#include "base/extent.hpp"
+
+#include <algorithm>
+
+namespace tidemark {
+
+struct Rectangle {
+    int x = 0;
+    int y = 0;
+    Extent extent;
+
+    bool operator==(const Rectangle&) const = default;
+
+    bool contains(int column, int row) const {
+        return column >= x && row >= y && column - x < extent.width && row - y < extent.height;
+    }
+    /// The pixels that both have; an empty extent where there are none.
+    Rectangle within(const Rectangle& other) const {
+        const int left = std::max(x, other.x);
+        const int bottom = std::max(y, other.y);
+        const int right = std::min(x + extent.width, other.x + other.extent.width);
+        const int top = std::min(y + extent.height, other.y + other.extent.height);
+        return {left, bottom, {std::max(0, right - left), std::max(0, top - bottom)}};
+    }
+};
+
+} // namespace tidemark

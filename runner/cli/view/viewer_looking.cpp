@@ -1,0 +1,87 @@
+// Looking into the picture: the magnifier, marks where it is not made of numbers, and where they come from.
+#include "cli/console.hpp"
+#include "cli/not_finite.hpp"
+#include "cli/view/viewer.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::cli {
+
+void Viewer::toggle_magnifier() {
+    magnifier_.toggle();
+    forget_looking();
+    stale_overlay_ = true;
+}
+
+void Viewer::toggle_marks() {
+    marks_shown_ = !marks_shown_;
+    forget_looking();
+    stale_overlay_ = true;
+}
+
+render::ShownFloats& Viewer::floats() {
+    if (!floats_)
+        floats_.emplace();
+    return *floats_;
+}
+
+std::optional<live::MagnifierField> Viewer::magnifier_field() {
+    if (!magnifier_.is_open() || !stage_ || stepping_)
+        return std::nullopt;
+    return magnifier_.field(stage_->renderer(), inputs_of(shown_), window_.framebuffer_extent(), floats());
+}
+
+/// What the marks are drawn from, while there are any.
+const gl::Texture* Viewer::marked_picture() {
+    if (!marks_shown_ || !stage_ || stepping_ || stage_->renderer().target().texture.target != GL_TEXTURE_2D)
+        return nullptr;
+    if (!marks_) {
+        auto made = render::NumberMarks::create();
+        if (!made) {
+            marks_shown_ = false;
+            say(to_string(made.error()));
+            return nullptr;
+        }
+        marks_.emplace(*std::move(made));
+    }
+    const render::Renderer& renderer = stage_->renderer();
+    return &floats().draw(renderer, inputs_of(shown_), {0, 0, renderer.target().extent()});
+}
+
+/// They live in the stage's context.
+void Viewer::forget_looking() {
+    floats_.reset();
+    marks_.reset();
+}
+
+/// Of the pixel in the magnifier. Asked for once more it hides the answer.
+void Viewer::trace_pixel() {
+    if (!magnifier_.is_open() || !stage_)
+        return;
+    if (origin_.show(nullptr) || search_) {
+        search_.reset();
+        stale_overlay_ = true;
+        return;
+    }
+    const Rectangle pixel =
+        magnifier_.pixel(stage_->renderer().target().extent(), window_.framebuffer_extent());
+    std::vector<std::string> words = trace_words();
+    words.insert(words.end(), {"--pixel", fmt::format("{},{}", pixel.x, pixel.y), "--json"});
+    auto started = OriginSearch::start(words, platform::Window::wake);
+    if (!started)
+        return say(to_string(started.error()));
+    search_ = *std::move(started);
+    say(fmt::format("tracing pixel {},{}: Enter gives up", pixel.x, pixel.y));
+}
+
+void Viewer::take_origin() {
+    const auto printed = search_ ? search_->take() : std::nullopt;
+    if (!printed)
+        return;
+    search_.reset();
+    const Error error = origin_of(*printed);
+    stale_overlay_ |= origin_.show(&error);
+    say(to_string(error));
+}
+
+} // namespace tidemark::cli

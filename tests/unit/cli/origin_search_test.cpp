@@ -1,0 +1,29 @@
+// What the window says of a trace that another process made.
+#include "cli/view/origin_search.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::cli {
+namespace {
+
+TEST(OriginSearch, names_the_operation_to_mend) {
+    const Error found =
+        origin_of(R"json({"ended": "", "trace": {"first": {"file": "a.glsl", "line": 2}, "fix": {
+        "file": "a.glsl", "line": 4, "column": 15, "statement": "c.g = sqrt(x)", "value": "NaN",
+        "reason": "sqrt of a negative number"}}})json");
+    EXPECT_EQ(to_string(found), "a.glsl:4:15: error: `c.g = sqrt(x)` gave NaN: sqrt of a negative number");
+}
+
+TEST(OriginSearch, tells_a_finite_pixel_from_no_answer) {
+    EXPECT_EQ(origin_of(R"json({"ended": "", "trace": null})json").message,
+              "no origin was found: drawn again, the pixel is finite");
+    EXPECT_EQ(origin_of(R"json({"ended": "given up after 60 s", "trace": null})json").message,
+              "no origin was found: given up after 60 s");
+    for (const char* broken : {"", "{", "[]"})
+        EXPECT_EQ(origin_of(broken).message,
+                  "the trace ended without an answer: run check --trace to see why")
+            << broken;
+}
+
+} // namespace
+} // namespace tidemark::cli
