@@ -3,6 +3,7 @@
 #include "base/shell_word.hpp"
 #include "cli/output_name.hpp"
 #include "cli/version.hpp"
+#include "glsl/pass_reading.hpp"
 
 #include <fmt/format.h>
 
@@ -87,6 +88,20 @@ std::string row(const ProbesRequest& request, const ProbeResult& asked) {
     if (!asked.picture.empty())
         text += indented(asked.picture.string());
     return text;
+}
+
+Finding finding(const scene::Scene& scene, const ProbeResult& asked) {
+    SourceLocation where{scene.file.string()};
+    if (asked.trace_json.contains("first") && asked.trace_json["first"].is_object()) {
+        const Json& first = asked.trace_json["first"];
+        where = {first.at("file").get<std::string>(), first.at("line").get<int>(),
+                 first.at("column").get<int>()};
+    } else if (const auto entry = glsl::PassReading(scene, scene.image()).place_of("mainImage")) {
+        where = *entry;
+    }
+    const Severity severity = asked.answer.verdict == Verdict::fail ? Severity::error : Severity::warning;
+    return finding_of({std::move(where), severity, asked.answer.sentence},
+                      {std::string(asked.probe->name), std::string(asked.probe->about)});
 }
 
 std::string summary(std::span<const ProbeResult> all, double seconds) {
