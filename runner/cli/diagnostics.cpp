@@ -32,11 +32,10 @@ Sink& sink() {
 /// GNU's form with all of its parts, so that one pattern reads every line: of a whole file, line 1.
 std::string to_gcc(const Diagnostic& diagnostic) {
     Diagnostic whole = diagnostic;
-    if (whole.where.file.empty())
-        whole.where.file = "tidemark";
-    else
-        whole.where.line = std::max(whole.where.line, 1),
-        whole.where.column = std::max(whole.where.column, 1);
+    SourceLocation& where = whole.where;
+    where = where.file.empty()
+                ? SourceLocation{"tidemark"}
+                : SourceLocation{where.file, std::max(where.line, 1), std::max(where.column, 1)};
     return to_string(whole);
 }
 

@@ -65,27 +65,26 @@ private:
     std::map<fs::path, std::string> texts_;
 };
 
+std::map<fs::path, Json> by_file(const Verdict& verdict, Translator translator) {
+    std::map<fs::path, Json> files;
+    Json* last = nullptr; // of what a note may stand behind
+    for (const Diagnostic& problem : verdict.problems) {
+        if (problem.severity == Severity::note && last)
+            (*last)["relatedInformation"].push_back(translator.related(problem));
+        else
+            last = &files[translator.file_of(problem.where)].emplace_back(
+                translator.to_json(problem, level_of(problem.severity)));
+    }
+    for (const Diagnostic& hint : verdict.hints)
+        files[translator.file_of(hint.where)].push_back(translator.to_json(hint, Level::hint));
+    return files;
+}
+
 } // namespace
 
 std::vector<Json> DiagnosticBoard::show(const fs::path& scene, const fs::path& main, const Verdict& verdict,
                                         const Documents& documents, Encoding encoding) {
-    Translator translator(documents, main, encoding);
-    Files files;
-    const auto add = [&](const Diagnostic& diagnostic, Level level) -> Json* {
-        Json& list = files[translator.file_of(diagnostic.where)];
-        return &list.emplace_back(translator.to_json(diagnostic, level));
-    };
-    const Diagnostic* last = nullptr;
-    for (const Diagnostic& problem : verdict.problems) {
-        if (problem.severity == Severity::note && last)
-            files[translator.file_of(last->where)].back()["relatedInformation"].push_back(
-                translator.related(problem));
-        else
-            add(*(last = &problem), level_of(problem.severity));
-    }
-    for (const Diagnostic& hint : verdict.hints)
-        add(hint, Level::hint);
-
+    Files files = by_file(verdict, Translator(documents, main, encoding));
     std::set<fs::path> touched{main}; // an empty list says that all is well
     for (const auto* each : {&scenes_[scene], &files})
         for (const auto& [file, list] : *each)

@@ -96,12 +96,12 @@ std::string Session::notified(const std::string& method, const Json& params) {
     if (phase_ != Phase::running)
         return "";
     if (method == "textDocument/didOpen")
-        open(params);
-    else if (method == "textDocument/didChange")
-        change(params);
-    else if (method == "textDocument/didClose")
+        return open(params);
+    if (method == "textDocument/didChange")
+        return change(params);
+    if (method == "textDocument/didClose")
         return close(params);
-    else if (method == "textDocument/didSave" || method == "workspace/didChangeWatchedFiles")
+    if (method == "textDocument/didSave" || method == "workspace/didChangeWatchedFiles")
         saved();
     return "";
 }
@@ -136,26 +136,26 @@ tl::expected<Workspace, Refusal> Session::workspace_of(const Json& params) const
                        documents_);
 }
 
-void Session::open(const Json& params) {
+std::string Session::open(const Json& params) {
     const Json& document = params.at("textDocument");
     const auto file = file_of(params);
     if (!file)
-        return; // a text without a file has no scene
+        return ""; // a text without a file has no scene
     documents_.hold(*file, {document.at("uri"), document.value("version", 0)},
                     document.at("text").get<std::string>());
-    mark_stale(*file);
+    return take_up(*file);
 }
 
-void Session::change(const Json& params) {
+std::string Session::change(const Json& params) {
     const auto file = file_of(params);
     const Json& changes = params.at("contentChanges");
     if (!file || !documents_.find(*file) || changes.empty())
-        return;
+        return "";
     const Json& document = params["textDocument"];
     documents_.hold(*file, {document["uri"], document.value("version", 0)},
                     changes.back().at("text").get<std::string>());
     ++edits_;
-    mark_stale(*file);
+    return take_up(*file);
 }
 
 std::string Session::close(const Json& params) {
@@ -167,12 +167,7 @@ std::string Session::close(const Json& params) {
         return "";
     const fs::path scene = known->second;
     scenes_.erase(known);
-    if (std::ranges::any_of(scenes_, [&](const auto& each) { return each.second == scene; })) {
-        stale_.insert(scene); // its file counts again
-        return "";
-    }
-    stale_.erase(scene);
-    return joined(board_.forget(scene, documents_));
+    return leave(scene);
 }
 
 void Session::saved() {
@@ -180,16 +175,27 @@ void Session::saved() {
         stale_.insert(scene);
 }
 
-/// Other open scenes may include the file.
-void Session::mark_stale(const fs::path& file) {
+/// A file that lost its entry point for a moment stays with the scene that it had. Other open scenes may
+/// include it.
+std::string Session::take_up(const fs::path& file) {
     const auto scene = scene_of(file, documents_);
-    if (scene)
-        scenes_[file] = *scene;
-    else
+    const fs::path before = std::exchange(scenes_[file], scene.value_or(scenes_[file]));
+    if (scenes_[file].empty())
         scenes_.erase(file);
     for (const auto& [open, its_scene] : scenes_)
         if (open == file || look_around(open, its_scene, documents_).has(file))
             stale_.insert(its_scene);
+    return before.empty() || !scene || *scene == before ? "" : leave(before);
+}
+
+/// A file of that scene is not open any more: where others are, its text on disk counts again.
+std::string Session::leave(const fs::path& scene) {
+    if (std::ranges::any_of(scenes_, [&](const auto& each) { return each.second == scene; })) {
+        stale_.insert(scene);
+        return "";
+    }
+    stale_.erase(scene);
+    return joined(board_.forget(scene, documents_));
 }
 
 std::string Session::conclude(const fs::path& scene, const Verdict& verdict) {

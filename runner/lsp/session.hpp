@@ -41,11 +41,12 @@ private:
     std::string notified(const std::string& method, const Json& params);
 
     Answer initialize(const Json& params);
-    void open(const Json& params);
-    void change(const Json& params);
+    std::string open(const Json& params);
+    std::string change(const Json& params);
     std::string close(const Json& params);
     void saved();
-    void mark_stale(const std::filesystem::path& file);
+    std::string take_up(const std::filesystem::path& file);
+    std::string leave(const std::filesystem::path& scene);
 
     tl::expected<Workspace, Refusal> workspace_of(const Json& params) const;
 

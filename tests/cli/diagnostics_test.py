@@ -135,6 +135,11 @@ class Forms(ProgramTest):
         self.assertEqual((result["ruleId"], result["level"]), ("times", "error"))
         self.assertEqual(result["locations"][0]["physicalLocation"]["region"]["startLine"], 3)
 
+    def test_a_trace_is_a_finding(self) -> None:
+        self.write("nan.glsl", NAN)
+        found = self.json_lines("check", "--trace", "nan.glsl", code=1)
+        self.assertEqual([(each["rule"], each["line"]) for each in found], [("trace", 3)])
+
     def test_portable_findings_are_diagnostics(self) -> None:
         self.write("old.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(fma(1.0, 2.0, p.x)); }\n")
         run = self.sarif("check", "--portable", "old.glsl", code=1)

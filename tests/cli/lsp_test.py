@@ -133,6 +133,24 @@ class Diagnostics(Lsp):
         found = errors(client.diagnostics(scene, errors))
         self.assertIn("wrong39", found[0]["message"])
 
+    def test_an_entry_point_that_is_misspelt_is_missed(self) -> None:
+        scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
+        client = self.client()
+        client.open(scene)
+        client.diagnostics(scene)
+        client.change(scene, scene.read_text().replace("mainImage", "mainImagee"), 2)
+        self.assertIn("mainImage", errors(client.diagnostics(scene, errors))[0]["message"])
+
+    def test_a_function_that_nobody_calls_is_a_hint(self) -> None:
+        """As capture has it, which leaves it out; the site compiles it."""
+        scene = self.write("a.glsl", "float f() { return wrong; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
+        self.succeed("capture", "a.glsl", "--size", "16x9")
+        client = self.client()
+        client.open(scene)
+        found = client.diagnostics(scene, bool)
+        self.assertEqual({each["severity"] for each in found}, {HINT})
+        self.assertIn((0, 19, 0, 24), [span(each) for each in found])
+
     def test_closing_takes_them_away(self) -> None:
         scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = wrong; }\n")
         client = self.client()

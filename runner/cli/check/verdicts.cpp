@@ -1,6 +1,7 @@
 #include "cli/check/verdicts.hpp"
 
 #include "base/shell_word.hpp"
+#include "cli/check/trace_text.hpp"
 #include "cli/output_name.hpp"
 #include "cli/version.hpp"
 #include "glsl/pass_reading.hpp"
@@ -91,16 +92,11 @@ std::string row(const ProbesRequest& request, const ProbeResult& asked) {
 }
 
 Finding finding(const scene::Scene& scene, const ProbeResult& asked) {
-    SourceLocation where{scene.file.string()};
-    if (asked.trace_json.contains("first") && asked.trace_json["first"].is_object()) {
-        const Json& first = asked.trace_json["first"];
-        where = {first.at("file").get<std::string>(), first.at("line").get<int>(),
-                 first.at("column").get<int>()};
-    } else if (const auto entry = glsl::PassReading(scene, scene.image()).place_of("mainImage")) {
-        where = *entry;
-    }
+    auto where = origin_in(asked.trace_json);
+    if (!where)
+        where = glsl::PassReading(scene, scene.image()).place_of("mainImage");
     const Severity severity = asked.answer.verdict == Verdict::fail ? Severity::error : Severity::warning;
-    return finding_of({std::move(where), severity, asked.answer.sentence},
+    return finding_of({where.value_or(SourceLocation{scene.file.string()}), severity, asked.answer.sentence},
                       {std::string(asked.probe->name), std::string(asked.probe->about)});
 }
 
