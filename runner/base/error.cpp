@@ -8,15 +8,6 @@
 namespace tidemark {
 namespace {
 
-std::string_view name_of(Severity severity) {
-    switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::error: return "error";
-    }
-    return "error";
-}
-
 size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});
@@ -34,6 +25,15 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 } // namespace
 
+std::string_view to_string(Severity severity) {
+    switch (severity) {
+    case Severity::note: return "note";
+    case Severity::warning: return "warning";
+    case Severity::error: return "error";
+    }
+    return "error";
+}
+
 std::string to_string(const Diagnostic& diagnostic) {
     std::string place = diagnostic.where.file;
     if (diagnostic.where.line > 0) {
@@ -43,7 +43,7 @@ std::string to_string(const Diagnostic& diagnostic) {
     }
     if (!place.empty())
         place += ": ";
-    return fmt::format("{}{}: {}", place, name_of(diagnostic.severity), diagnostic.message);
+    return fmt::format("{}{}: {}", place, to_string(diagnostic.severity), diagnostic.message);
 }
 
 int exit_code(ErrorCode code) {

@@ -20,6 +20,9 @@ struct SourceLocation {
 
 enum class Severity { note, warning, error };
 
+/// "note", "warning", "error".
+std::string_view to_string(Severity severity);
+
 /// One message about one place.
 struct Diagnostic {
     SourceLocation where;

@@ -1,6 +1,7 @@
 #include "base/leftovers.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/last_resort.hpp"
 #include "cli/limits.hpp"
 #include "cli/supervisor.hpp"
@@ -24,8 +25,8 @@ constexpr AddCommand k_commands[] = {
 #ifdef TIDEMARK_WINDOW
     add_view,
 #endif
-    add_capture, add_gather, add_inspect, add_check, add_trace,      add_compare, add_study,
-    add_tune,    add_import, add_export,  add_bake,  add_completion, add_help,
+    add_capture, add_gather, add_inspect, add_check, add_trace, add_compare,    add_study,
+    add_tune,    add_import, add_export,  add_bake,  add_lsp,   add_completion, add_help,
 };
 
 constexpr const char* k_footer =
@@ -120,7 +121,7 @@ Error without_value(const CLI::App& app, const CLI::ArgumentMismatch& error) {
 }
 
 int report(const Error& error) {
-    say(to_string(error));
+    say(error);
     return exit_code(error.code);
 }
 
@@ -171,6 +172,7 @@ int run_or_throw(int argc, const char* const* argv) {
         add(app, chosen);
     LimitOptions limits;
     add_limit_options(app, limits);
+    add_diagnostics_option(app);
 
     std::vector<std::string> arguments(argv + 1, argv + argc);
     if (arguments.empty())
@@ -188,13 +190,18 @@ int run_or_throw(int argc, const char* const* argv) {
     const auto bounds = resolve(limits);
     if (!bounds)
         return report(bounds.error());
-    // A window's own process stays with it: what it does not know yet is tried in another.
-    if (called(app).get_name() != "view")
-        if (const auto ended = supervise(*bounds))
+    // A window's own process stays with it, as an editor's does: what they do not know yet is tried in
+    // another.
+    if (const std::string name = called(app).get_name(); name != "view" && name != "lsp")
+        if (const auto ended = supervise(*bounds)) {
+            finish_diagnostics(false); // of how it ended: the child wrote its own
             return *ended;
+        }
     platform::do_without_full_driver_cache();
     const auto outcome = chosen();
-    return outcome ? *outcome : report(outcome.error());
+    const int code = outcome ? *outcome : report(outcome.error());
+    finish_diagnostics(true);
+    return code;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <string>
@@ -12,9 +13,24 @@
 
 namespace tidemark::cli {
 
+namespace {
+
+std::atomic<bool> words_are_wanted{true};
+
+} // namespace
+
 void say(std::string_view line) {
+    if (words_are_wanted)
+        say_to_programs(line);
+}
+
+void say_to_programs(std::string_view line) {
     const std::string text = printable(line) + '\n'; // one write: lines of threads do not mix
     (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void keep_words_back() {
+    words_are_wanted = false;
 }
 
 Result<void> put(std::string_view text) {

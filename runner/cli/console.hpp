@@ -12,6 +12,10 @@ namespace tidemark::cli {
 /// A line for people, with nothing in it that would steer their terminal (base/printable.hpp). A closed
 /// standard error is not an error.
 void say(std::string_view line);
+/// The same, also behind `keep_words_back`.
+void say_to_programs(std::string_view line);
+/// From here on standard error is for programs, and `say` is silent.
+void keep_words_back();
 
 /// Results, flushed. Fails (ErrorCode::write) when nobody can receive them. Text is made printable as in
 /// `say`: people read it, too, and in JSON the escape of a character is the character.

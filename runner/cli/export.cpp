@@ -2,6 +2,7 @@
 #include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/options.hpp"
 #include "cli/requests.hpp"
@@ -64,7 +65,7 @@ Result<std::string> project_of(const ExportOptions& options, std::vector<fs::pat
     std::vector<Diagnostic> warnings;
     auto project = scene::make_project(*scene, warnings);
     for (const Diagnostic& warning : warnings)
-        say(to_string(warning));
+        say(finding_of(warning));
     return project;
 }
 

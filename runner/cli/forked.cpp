@@ -72,34 +72,6 @@ bool has_to_end(pid_t child, const ForkedLimits& limits, Clock::time_point deadl
     return result.timed_out || result.over_memory || result.unwanted;
 }
 
-/// Reads to the end, or until the child has to end, and whatever was told until then. True: the end.
-bool read_all(int fd, pid_t child, const ForkedLimits& limits, Clock::time_point deadline,
-              ForkedResult& result, const Tell& hear) {
-    const bool looks = limits.memory > 0 || limits.unwanted;
-    std::string& output = result.output;
-    std::array<char, 1 << 14> block;
-    size_t heard = 0;
-    for (;;) {
-        const auto left =
-            std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-        pollfd wait{fd, POLLIN, 0};
-        const int ready = ::poll(&wait, 1, int(std::clamp<long>(left, 0, looks ? k_look_ms : 1'000'000)));
-        if (ready == 0 && has_to_end(child, limits, deadline, result))
-            return false;
-        if (ready <= 0)
-            continue;
-        const ssize_t count = ::read(fd, block.data(), block.size());
-        if (count == 0 || (count < 0 && errno != EINTR))
-            return true;
-        if (count > 0)
-            output.append(block.data(), size_t(count));
-        for (size_t end = output.find('\n', heard); end != output.npos; end = output.find('\n', heard)) {
-            hear(std::string_view(output).substr(heard, end - heard));
-            heard = end + 1;
-        }
-    }
-}
-
 void close_both(const std::array<int, 2>& ends) {
     ::close(ends[0]);
     ::close(ends[1]);
@@ -143,32 +115,42 @@ Result<ForkedHelper> ForkedHelper::start(const Work& work) {
 }
 
 ForkedHelper::ForkedHelper(ForkedHelper&& other) noexcept
-    : child_(std::exchange(other.child_, -1)), question_(std::exchange(other.question_, -1)),
-      answer_(std::exchange(other.answer_, -1)) {}
+    : asked_(std::exchange(other.asked_, std::nullopt)), child_(std::exchange(other.child_, -1)),
+      question_(std::exchange(other.question_, -1)), answer_(std::exchange(other.answer_, -1)) {}
 
 ForkedHelper::~ForkedHelper() {
     if (child_ == -1)
         return;
-    ::close(question_);
+    if (question_ != -1)
+        ::close(question_);
     ::close(answer_);
     ::kill(child_, SIGKILL);
     status_of(child_);
 }
 
-Result<ForkedResult> ForkedHelper::ask(std::string_view question, const ForkedLimits& limits,
-                                       const Tell& hear) {
-    ForkedResult result;
-    const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                             std::chrono::duration<double>(std::min(limits.seconds, 3e7)));
+void ForkedHelper::begin(std::string_view question, const ForkedLimits& limits) {
+    asked_ = Asked{limits, Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                              std::chrono::duration<double>(std::min(limits.seconds, 3e7)))};
     write_line(question_, question);
-    ::close(question_);
-    const auto hear_in_peace = [&](std::string_view line) {
+    ::close(std::exchange(question_, -1));
+}
+
+/// The child waits meanwhile.
+void ForkedHelper::hear_lines(const Tell& hear) {
+    const std::string& output = asked_->result.output;
+    size_t& heard = asked_->heard;
+    for (size_t end = output.find('\n', heard); end != output.npos; end = output.find('\n', heard)) {
         ::kill(child_, SIGSTOP);
-        hear(line);
+        hear(std::string_view(output).substr(heard, end - heard));
         ::kill(child_, SIGCONT);
-    };
-    const bool ended = read_all(answer_, child_, limits, deadline, result, hear_in_peace);
-    ::close(answer_);
+        heard = end + 1;
+    }
+}
+
+/// `ended`: of itself.
+ForkedResult ForkedHelper::finish(bool ended) {
+    ForkedResult result = std::move(asked_->result);
+    ::close(std::exchange(answer_, -1));
     if (!ended)
         ::kill(child_, SIGKILL);
     const int status = status_of(std::exchange(child_, -1));
@@ -178,6 +160,36 @@ Result<ForkedResult> ForkedHelper::ask(std::string_view question, const ForkedLi
         result.doing = Doing::left_behind();
     result.output.resize(result.output.rfind('\n') + 1);
     return result;
+}
+
+std::optional<ForkedResult> ForkedHelper::look(const Tell& hear, std::chrono::milliseconds wait) {
+    std::array<char, 1 << 14> block;
+    pollfd readable{answer_, POLLIN, 0};
+    const int ready = ::poll(&readable, 1, int(wait.count()));
+    if (ready == 0 && has_to_end(child_, asked_->limits, asked_->deadline, asked_->result))
+        return finish(false);
+    if (ready <= 0)
+        return std::nullopt;
+    const ssize_t count = ::read(answer_, block.data(), block.size());
+    if (count == 0 || (count < 0 && errno != EINTR))
+        return finish(true);
+    if (count > 0)
+        asked_->result.output.append(block.data(), size_t(count));
+    hear_lines(hear);
+    return std::nullopt;
+}
+
+Result<ForkedResult> ForkedHelper::ask(std::string_view question, const ForkedLimits& limits,
+                                       const Tell& hear) {
+    begin(question, limits);
+    const bool looks = limits.memory > 0 || limits.unwanted;
+    for (;;) {
+        const auto left =
+            std::chrono::duration_cast<std::chrono::milliseconds>(asked_->deadline - Clock::now()).count();
+        const std::chrono::milliseconds wait(std::clamp<long>(left, 0, looks ? k_look_ms : 1'000'000));
+        if (auto result = look(hear, wait))
+            return *std::move(result);
+    }
 }
 
 Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, const ForkedLimits& limits,

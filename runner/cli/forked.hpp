@@ -4,8 +4,10 @@
 
 #include "base/result.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -59,8 +61,26 @@ public:
         return ask(question, ForkedLimits{.seconds = seconds}, hear);
     }
 
+    /// `ask` in steps, for who has other things to wait for: `begin` once, then `look` whenever there is
+    /// something to read from `descriptor`, or time has passed. It hears what was told, waits for it at most
+    /// so long, and gives the result once the work has ended.
+    void begin(std::string_view question, const ForkedLimits& limits);
+    int descriptor() const { return answer_; }
+    std::optional<ForkedResult> look(const Tell& hear, std::chrono::milliseconds wait);
+
 private:
+    struct Asked {
+        ForkedLimits limits;
+        std::chrono::steady_clock::time_point deadline;
+        ForkedResult result{};
+        size_t heard = 0; ///< of its output
+    };
+
     ForkedHelper() = default;
+    void hear_lines(const Tell& hear);
+    ForkedResult finish(bool ended);
+
+    std::optional<Asked> asked_{};
     int child_ = -1;    ///< -1: no more to be waited for
     int question_ = -1; ///< to the child
     int answer_ = -1;   ///< from it

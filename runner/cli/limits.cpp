@@ -7,6 +7,10 @@
 
 namespace tidemark::cli {
 
+bool compiles_scenes(const CLI::App& command) {
+    return command.get_option_no_throw("SCENE") && command.get_option_no_throw("--set");
+}
+
 void add_memory_option(CLI::App& command, LimitOptions& options) {
     command.add_option("--memory", options.memory, "What compiling and drawing may take, as in 2G [50%]")
         ->type_name("SIZE");
@@ -14,9 +18,7 @@ void add_memory_option(CLI::App& command, LimitOptions& options) {
 
 void add_limit_options(CLI::App& app, LimitOptions& options) {
     for (CLI::App* command : app.get_subcommands({})) {
-        if (!command->get_option_no_throw("SCENE") || !command->get_option_no_throw("--set"))
-            continue;
-        if (command->get_option_no_throw("--memory")) // view's
+        if (!compiles_scenes(*command) || command->get_option_no_throw("--memory")) // view's
             continue;
         add_memory_option(*command, options);
         if (!command->get_option_no_throw("--timeout"))

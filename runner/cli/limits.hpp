@@ -18,6 +18,9 @@ struct LimitOptions {
     std::optional<double> timeout;
 };
 
+/// Whether a sub-command has a driver compile or draw a scene.
+bool compiles_scenes(const CLI::App& command);
+
 void add_memory_option(CLI::App& command, LimitOptions& options);
 
 /// --memory for every sub-command that has a driver draw and has none of its own; --timeout likewise.

@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "glsl/overrides.hpp"
 #include "render/frame_fields.hpp"
 #include "scene/load_scene.hpp"
@@ -97,7 +98,7 @@ bool must_be_said(const render::FrameState& state, const render::FrameField<T>& 
 void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Diagnostic>& said) {
     for (const Diagnostic& warning : warnings)
         if (std::ranges::find(said, warning) == said.end())
-            say(to_string(warning));
+            say(finding_of(warning));
 }
 
 } // namespace

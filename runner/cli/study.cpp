@@ -3,6 +3,7 @@
 #include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
@@ -163,7 +164,7 @@ Result<int> study(const StudyOptions& options) {
     auto findings = lab::conduct(scene, plan, options.timing, watcher.watch(), circumstances_now());
     watcher.finish();
     if (!findings && interrupt.requested()) {
-        say(to_string(findings.error()));
+        say(findings.error());
         return Interrupt::k_exit_code;
     }
     if (!findings)

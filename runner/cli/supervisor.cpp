@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/leftovers.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/memory_limit.hpp"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ std::string name_of(int signal) {
 }
 
 int refuse(ErrorCode code, std::string message) {
-    say(to_string(Error{code, std::move(message), {}}));
+    say(Error{code, std::move(message), {}});
     return exit_code(code);
 }
 

@@ -31,6 +31,9 @@ constexpr std::array<std::string_view, 5> k_of_failed = {"of type error", "(erro
 constexpr std::array<std::string_view, 3> k_no_news = {"compilation errors", "compilation terminated",
                                                        "No code generated"};
 
+/// Mesa's, of a value that failed as of any other; it quotes the function, which has no part in it.
+constexpr std::string_view k_returned = "could not implicitly convert return value";
+
 bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
@@ -51,6 +54,8 @@ bool is_of_the_language(std::string_view word) {
 /// What the message quotes that is an author's word, or begins with one as a call does.
 std::set<std::string> quoted_words(std::string_view text) {
     std::set<std::string> words;
+    if (text.starts_with(k_returned))
+        return words;
     for (size_t at = text.find_first_of("`'\""); at != text.npos; at = text.find_first_of("`'\"", at + 1)) {
         const bool opens = at == 0 || !is_word(text[at - 1]);
         const auto rest = text.substr(at + 1);

@@ -24,8 +24,8 @@ fs::path real_path(const fs::path& path) {
 
 } // namespace
 
-Bounds::Bounds(const fs::path& folder, bool allow_outside)
-    : folder_(folder.empty() ? "." : folder.string()), everything_(allow_outside),
+Bounds::Bounds(const fs::path& folder, bool allow_outside, const UnsavedTexts* unsaved)
+    : folder_(folder.empty() ? "." : folder.string()), everything_(allow_outside), unsaved_(unsaved),
       library_(library_folder()) {
     if (const fs::path library = real_path(library_); !library.empty())
         roots_.push_back(library);
@@ -67,6 +67,14 @@ Result<void> Bounds::check(const fs::path& file) const {
 
 Result<std::string> Bounds::read_text(const fs::path& file) const {
     return check(file).and_then([&] { return read_text_file(file); });
+}
+
+const std::string* Bounds::unsaved(const fs::path& file) const {
+    if (!unsaved_ || unsaved_->empty())
+        return nullptr;
+    std::error_code ignored;
+    const auto held = unsaved_->find(fs::weakly_canonical(file, ignored));
+    return held == unsaved_->end() ? nullptr : &held->second;
 }
 
 } // namespace tidemark::scene

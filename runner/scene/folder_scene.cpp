@@ -55,7 +55,7 @@ Result<Scene> load_by_names(const fs::path& folder, const PassFiles& files, cons
                                 "buffer_a.glsl to buffer_d.glsl, common.glsl, cube_a.glsl and sound.glsl",
                                 folder.string()));
     Scene scene = scene_of(folder);
-    const Bounds bounds(folder, options.allow_outside);
+    const Bounds bounds(folder, options.allow_outside, &options.unsaved);
     PassLoader loader(scene, folder, bounds);
     std::vector<size_t> drafts;
     for (const auto& [name, file] : files) {
@@ -88,7 +88,7 @@ void warn_of_unused(Scene& scene, const PassFiles& files, const fs::path& projec
 
 Result<Scene> load_by_project(const fs::path& folder, const PassFiles& files, const LoadOptions& options) {
     const fs::path file = folder / k_project_file;
-    const Bounds bounds(folder, options.allow_outside);
+    const Bounds bounds(folder, options.allow_outside, &options.unsaved);
     const auto json = bounds.check(file).and_then([&] { return read_file(file); });
     if (!json)
         return fail(json.error());

@@ -20,7 +20,7 @@ Error with_files(Error error, const Scene& scene) {
 Result<Scene> load_file_scene(const fs::path& path, const LoadOptions& options) {
     Scene scene;
     scene.file = path;
-    const Bounds bounds(path.parent_path(), options.allow_outside);
+    const Bounds bounds(path.parent_path(), options.allow_outside, &options.unsaved);
     PassLoader loader(scene, path.parent_path(), bounds);
     Draft image;
     image.pass.name = "Image";

@@ -44,6 +44,8 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
         // The person who named the scene may name a link.
         if (path != scene_.file.lexically_normal())
             TRY(bounds_.check(path));
+        if (const std::string* held = bounds_.unsaved(path))
+            return conditional_ == Conditional::read ? *held : plain_text(*held);
         if (conditional_ == Conditional::read)
             return read_text_file(path);
         return read_file(path).map(plain_text);

@@ -12,16 +12,6 @@ namespace tidemark::text {
 namespace fs = std::filesystem;
 namespace {
 
-/// One `#include` line: the directive's characters and the name between its quotes, or behind `<tidemark/`.
-struct Include {
-    size_t begin = 0;
-    size_t end = 0;
-    int line = 0;
-    std::string name = {};
-    bool of_library = false;
-    bool conditional = false; ///< stands under an #if
-};
-
 constexpr std::string_view k_library = "tidemark/";
 
 /// What is included by the `#include` whose `#` is tokens[at], where it is one that we follow.
@@ -46,27 +36,6 @@ std::optional<Include> include_at(std::string_view text, const std::vector<Token
     include.of_library = true;
     include.end = last->end();
     return include;
-}
-
-std::vector<Include> find_includes(std::string_view text) {
-    std::vector<Include> found;
-    const std::vector<Token> tokens = tokenize(text);
-    int depth = 0;
-    for (size_t i = 0; i + 1 < tokens.size(); ++i) {
-        if (!tokens[i].first_on_line || !tokens[i].is("#"))
-            continue;
-        const Token& keyword = tokens[i + 1];
-        if (keyword.text.starts_with("if"))
-            ++depth;
-        else if (keyword.is("endif"))
-            depth = std::max(0, depth - 1);
-        else if (keyword.is("include"))
-            if (auto include = include_at(text, tokens, i)) {
-                include->conditional = depth > 0;
-                found.push_back(*std::move(include));
-            }
-    }
-    return found;
 }
 
 /// Files that include others twice double at each step: a few small ones could keep us busy for ever.
@@ -169,6 +138,27 @@ private:
 };
 
 } // namespace
+
+std::vector<Include> find_includes(std::string_view text) {
+    std::vector<Include> found;
+    const std::vector<Token> tokens = tokenize(text);
+    int depth = 0;
+    for (size_t i = 0; i + 1 < tokens.size(); ++i) {
+        if (!tokens[i].first_on_line || !tokens[i].is("#"))
+            continue;
+        const Token& keyword = tokens[i + 1];
+        if (keyword.text.starts_with("if"))
+            ++depth;
+        else if (keyword.is("endif"))
+            depth = std::max(0, depth - 1);
+        else if (keyword.is("include"))
+            if (auto include = include_at(text, tokens, i)) {
+                include->conditional = depth > 0;
+                found.push_back(*std::move(include));
+            }
+    }
+    return found;
+}
 
 Result<ExpandedText> expand_includes(const fs::path& path, const ReadText& read, const fs::path& library) {
     Expander expander(read, library);

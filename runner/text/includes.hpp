@@ -7,11 +7,26 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::text {
 
 using ReadText = std::function<Result<std::string>(const std::filesystem::path&)>;
+
+/// One `#include` line: the directive's characters and the name between its quotes, or behind `<tidemark/`.
+struct Include {
+    size_t begin = 0;
+    size_t end = 0;
+    int line = 0;
+    std::string name = {};
+    bool of_library = false;
+    bool conditional = false; ///< stands under an #if
+};
+
+/// In the order of the text; `#include <name>` of another library is left out.
+std::vector<Include> find_includes(std::string_view text);
 
 struct ExpandedText {
     MappedText text;

@@ -19,7 +19,7 @@ DIRECTIVES = ROOT / "runner" / "scene" / "README.md"
 ROOMS = ROOT / "runner" / "README.md"
 HELP_PAGES = [ROOT / name / "README.md" for name in (
     "runner/cli", "runner/cli/capture", "runner/cli/view", "runner/scene", "runner/lab", "runner/lab/check",
-    "runner/lab/study", "runner/lab/tune", "runner/lab/pixel", "shaders")]
+    "runner/lab/study", "runner/lab/tune", "runner/lab/pixel", "runner/lsp", "shaders")]
 
 # Commands of the pages that are not run: they open a window, or take what no test machine can give.
 NOT_RUN = (

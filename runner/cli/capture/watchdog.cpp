@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/leftovers.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 
 #include <fmt/format.h>
 
@@ -78,9 +79,10 @@ void Watchdog::speak_or_end() {
     if (work_->deadline && now >= *work_->deadline) {
         if (before_exit_)
             before_exit_();
-        say(to_string(Error{ErrorCode::timed_out,
-                            fmt::format("gave up {} after {:.3g} s (--timeout)", work_->what, seconds),
-                            {}}));
+        say(Error{ErrorCode::timed_out,
+                  fmt::format("gave up {} after {:.3g} s (--timeout)", work_->what, seconds),
+                  {}});
+        finish_diagnostics(true);
         exit_at_once(exit_code(ErrorCode::timed_out));
     }
     if (now >= work_->next_word) {

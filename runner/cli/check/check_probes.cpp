@@ -6,6 +6,7 @@
 #include "cli/check/probe_result.hpp"
 #include "cli/check/verdicts.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/forked.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
@@ -225,7 +226,10 @@ Result<int> check_probes(const ProbesRequest& request) {
             if (asked.answer.non_finite) // before the next probe: a finding wants its reason first
                 trace(request, scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
             progress.step_aside();
-            if (auto shown = put(request.json ? "" : row(request, asked)); !shown)
+            if (findings_are_diagnostics() && is_finding(asked.answer))
+                say(finding(scene, asked));
+            const bool as_row = !request.json && !findings_are_diagnostics();
+            if (auto shown = put(as_row ? row(request, asked) : ""); !shown)
                 return shown;
             all.push_back(std::move(asked));
             progress.advance();
@@ -234,9 +238,10 @@ Result<int> check_probes(const ProbesRequest& request) {
     if (!done)
         return fail(done.error());
     progress.step_aside();
-    return put(request.json ? report(request, all) : summary(all, seconds_since(start))).map([&all] {
-        return exit_code(all);
-    });
+    const std::string last = request.json                 ? report(request, all)
+                             : findings_are_diagnostics() ? ""
+                                                          : summary(all, seconds_since(start));
+    return put(last).map([&all] { return exit_code(all); });
 }
 
 } // namespace tidemark::cli

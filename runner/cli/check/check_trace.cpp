@@ -2,13 +2,22 @@
 
 #include "base/try.hpp"
 #include "cli/check/trace_apart.hpp"
+#include "cli/check/trace_text.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/version.hpp"
 
 #include <fmt/format.h>
 
 namespace tidemark::cli {
 namespace {
+
+/// At the operation that gave it, in the first line of the words for people.
+Finding finding(const TraceFound& run, const scene::Scene& scene) {
+    const SourceLocation where = origin_in(run.json).value_or(SourceLocation{scene.file.string()});
+    return finding_of({where, Severity::error, run.text.substr(0, run.text.find('\n'))},
+                      {"trace", "Every pixel is finite"});
+}
 
 Result<int> report(const TraceFound& run, const TraceOptions& options, const scene::Scene& scene) {
     Json json = {{"tidemark", k_version}, {"scene", scene.file.string()}, {"finite", !run.found}};
@@ -21,6 +30,11 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
                              "the way\n";
     if (!run.ended.empty())
         text += fmt::format("  note: {}: the above is incomplete\n", run.ended);
+    if (findings_are_diagnostics()) {
+        text.clear();
+        if (run.found)
+            say(finding(run, scene));
+    }
     const int code = run.found ? exit_code(ErrorCode::check_failed) : 0;
     return put(options.json ? dump(json, 2) + "\n" : text).map([code] { return code; });
 }

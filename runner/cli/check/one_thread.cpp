@@ -1,7 +1,7 @@
 #include "cli/check/one_thread.hpp"
 
 #include "base/try.hpp"
-#include "cli/check/error_json.hpp"
+#include "cli/error_json.hpp"
 #include "cli/state_json.hpp"
 #include "cli/supervisor.hpp"
 #include "gl/capabilities.hpp"

@@ -1,8 +1,8 @@
 // A probe that was asked, with its answer, and its way from the process that asks to the one that reports.
 #pragma once
 
-#include "cli/check/error_json.hpp"
 #include "cli/check/trace_apart.hpp"
+#include "cli/error_json.hpp"
 #include "lab/check/probe.hpp"
 
 #include <filesystem>

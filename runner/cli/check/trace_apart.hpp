@@ -2,7 +2,7 @@
 // nor a shader without end is more than an answer.
 #pragma once
 
-#include "cli/check/error_json.hpp"
+#include "cli/error_json.hpp"
 #include "lab/trace/nan_trace.hpp"
 #include "scene/scene.hpp"
 

@@ -138,4 +138,13 @@ Json to_json(const NanTrace& trace) {
     return json;
 }
 
+std::optional<SourceLocation> origin_in(const Json& trace) {
+    if (!trace.contains("first") || !trace["first"].is_object())
+        return std::nullopt;
+    const Json& first = trace["first"];
+    SourceLocation where{first.at("file").get<std::string>(), first.at("line").get<int>(),
+                         first.at("column").get<int>()};
+    return where.file.empty() ? std::nullopt : std::optional(std::move(where));
+}
+
 } // namespace tidemark::cli

@@ -1,8 +1,10 @@
 #include "cli/check/verdicts.hpp"
 
 #include "base/shell_word.hpp"
+#include "cli/check/trace_text.hpp"
 #include "cli/output_name.hpp"
 #include "cli/version.hpp"
+#include "glsl/pass_reading.hpp"
 
 #include <fmt/format.h>
 
@@ -87,6 +89,15 @@ std::string row(const ProbesRequest& request, const ProbeResult& asked) {
     if (!asked.picture.empty())
         text += indented(asked.picture.string());
     return text;
+}
+
+Finding finding(const scene::Scene& scene, const ProbeResult& asked) {
+    auto where = origin_in(asked.trace_json);
+    if (!where)
+        where = glsl::PassReading(scene, scene.image()).place_of("mainImage");
+    const Severity severity = asked.answer.verdict == Verdict::fail ? Severity::error : Severity::warning;
+    return finding_of({where.value_or(SourceLocation{scene.file.string()}), severity, asked.answer.sentence},
+                      {std::string(asked.probe->name), std::string(asked.probe->about)});
 }
 
 std::string summary(std::span<const ProbeResult> all, double seconds) {

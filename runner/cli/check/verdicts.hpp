@@ -3,6 +3,7 @@
 
 #include "cli/check/check_probes.hpp"
 #include "cli/check/probe_result.hpp"
+#include "cli/finding.hpp"
 
 #include <span>
 #include <string>
@@ -14,6 +15,9 @@ bool is_finding(const lab::Answer& answer);
 
 /// A verdict with all that belongs to it. Empty for those that wait for `rest`.
 std::string row(const ProbesRequest& request, const ProbeResult& asked);
+
+/// The same for --diagnostics: at the operation that a trace found, else at the pass's mainImage.
+Finding finding(const scene::Scene& scene, const ProbeResult& asked);
 
 /// Those that did not apply or were cut, one line for each reason, and the sum of it all, which took so many
 /// `seconds`.

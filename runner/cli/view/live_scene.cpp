@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "scene/folder_scene.hpp"
 #include "scene/overrides.hpp"
@@ -200,7 +201,7 @@ void LiveScene::fail_with(Error error) {
 
 void LiveScene::report_failure() {
     report_at_.reset();
-    say(to_string(*failure_));
+    say(*failure_);
     if (!shown_ && !std::exchange(waits_, true))
         say(fmt::format("waiting for {}: it is drawn as soon as a save mends it", request_.path.string()));
 }

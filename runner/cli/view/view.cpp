@@ -2,6 +2,7 @@
 #include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/limits.hpp"
 #include "cli/options.hpp"
@@ -94,7 +95,8 @@ Result<int> view(const ViewOptions& options) {
     auto outcome = viewer.run(interrupt);
     if (viewer.busy()) { // a driver that compiles cannot be waited for
         if (!outcome)
-            say(to_string(outcome.error()));
+            say(outcome.error());
+        finish_diagnostics(true);
         ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
     }
     return outcome;

@@ -3,7 +3,7 @@
 #include "glsl/analysis/unassigned.hpp"
 #include "lab/check/probe_text.hpp"
 #include "lab/check/probes.hpp"
-#include "scene/host_uniforms.hpp"
+#include "lab/check/text_words.hpp"
 
 #include <fmt/format.h>
 
@@ -12,35 +12,12 @@
 namespace tidemark::lab {
 namespace {
 
-/// `neighbours may branch at a.glsl:3`, `called after the return at a.glsl:4`.
-std::string to_text(const glsl::ParsedText& text, const glsl::DivergentBranch& branch) {
-    const glsl::Node& at = text.tree()[branch.at];
-    const std::string place = place_of(text, at.begin);
-    const std::string_view called = branch.called ? "called " : "";
-    if (!branch.exit)
-        return fmt::format("{}{} {}", called,
-                           branch.called ? "where neighbours may branch at" : "neighbours may branch at",
-                           place);
-    const bool by_call = at.kind == glsl::NodeKind::call;
-    return fmt::format("{}after the {} at {}", called, by_call ? "discard in a call" : text.word(at.word),
-                       place);
-}
-
 /// `sum (a.glsl:4)`, `hit (a.glsl:9, an `out` that some path does not write)`; empty: not the author's.
 std::string to_text(const glsl::ParsedText& text, const glsl::Unassigned& each) {
-    using Why = glsl::Unassigned::Why;
-    const glsl::SyntaxTree& tree = text.tree();
-    const bool declared = each.why == Why::not_given || each.why == Why::left_on_some_way;
-    const std::string place = place_of(text, tree[declared ? each.what : each.at].word);
+    const std::string place = place_of(text, word_without_value(text, each));
     if (place.empty())
         return {};
-    const std::string_view how = each.why == Why::never         ? ""
-                                 : each.why == Why::on_some_way ? ", on some path"
-                                 : each.why == Why::not_given   ? ", an `out` that is never written"
-                                 : each.why == Why::left_on_some_way
-                                     ? ", an `out` that some path does not write"
-                                     : ", on some path without a `return`";
-    return fmt::format("{} ({}{})", text.word_of(each.what), place, how);
+    return fmt::format("{} ({}{})", text.word_of(each.what), place, words_for(each.why));
 }
 
 } // namespace
@@ -71,19 +48,13 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
     std::vector<std::string> found;
     for (const PassText& pass : *texts) {
-        const scene::Channels& channels = bench.scene().passes[pass.pass].channels;
-        const auto has_mipmaps = [&](std::string_view sampler) {
-            const auto name = std::ranges::find(scene::k_channel_names, sampler);
-            return name != scene::k_channel_names.end() &&
-                   channels[size_t(name - scene::k_channel_names.begin())].sampling.mipmaps !=
-                       scene::Mipmaps::none;
-        };
         const glsl::ParsedText& text = *pass.text;
-        for (const glsl::Divergent& each : glsl::find_divergent(text, pass.facts, has_mipmaps)) {
+        for (const glsl::Divergent& each :
+             glsl::find_divergent(text, pass.facts, which_have_mipmaps(bench.scene().passes[pass.pass]))) {
             const std::string place = place_of(text, text.tree()[each.call].begin);
             if (!place.empty())
                 found.push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
-                                            to_text(text, each.branch)));
+                                            words_for(text, each.branch)));
         }
     }
     if (found.empty())

@@ -39,7 +39,11 @@ PixelBits bits_at(const image::Image& image, PixelPlace pixel) {
 
 Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass,
                                                           bool as_written) {
-    glsl::Dialect dialect = renderer.dialect(pass);
+    return read_text(renderer.scene(), renderer.scene().passes[pass], renderer.dialect(pass), as_written);
+}
+
+Result<std::unique_ptr<const glsl::ParsedText>> read_text(const scene::Scene& scene, const scene::Pass& pass,
+                                                          glsl::Dialect dialect, bool as_written) {
     dialect.initialise = dialect.initialise && !as_written;
     const bool es = dialect.version == glsl::Version::es_300;
     const std::vector<std::string> extensions = gl::query_extensions();
@@ -50,8 +54,7 @@ Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer
                                         {es ? "GL_ES" : "GL_core_profile", 1}};
     for (const std::string& name : extensions)
         known.push_back({name, 1});
-    return glsl::ParsedText::read(glsl::assemble(renderer.scene(), renderer.scene().passes[pass], dialect),
-                                  known);
+    return glsl::ParsedText::read(glsl::assemble(scene, pass, dialect), known);
 }
 
 Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& watch, PixelPlace pixel) {

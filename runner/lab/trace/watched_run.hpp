@@ -40,6 +40,10 @@ struct WatchReading {
 Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass,
                                                           bool as_written = false);
 
+/// The same of a pass that was linked in that dialect.
+Result<std::unique_ptr<const glsl::ParsedText>> read_text(const scene::Scene& scene, const scene::Pass& pass,
+                                                          glsl::Dialect dialect, bool as_written);
+
 /// The whole triangle is drawn and all but one pixel cut off, so that derivatives and everything else are as
 /// in the picture. Fails (ErrorCode::load) with the driver's words when it refuses the text.
 Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& watch, PixelPlace pixel);

@@ -233,6 +233,17 @@ TEST(DriverLogFolding, one_wrong_swizzle_is_one_error) {
               "a.glsl:1:33: note: … and 2 more that follow from it\n");
 }
 
+TEST(DriverLogFolding, what_returns_a_value_that_failed_follows) {
+    EXPECT_EQ(told("float f() { return g(); }\n",
+                   "0:1(20): error: no function with name 'g'\n"
+                   "0:1(13): error: could not implicitly convert return value to float, in function `f'\n"),
+              "a.glsl:1:20: error: no function with name 'g'\n"
+              "a.glsl:1:20: note: … and 1 more that follows from it\n");
+    EXPECT_EQ(told("float f() { return vec2(1); }\n",
+                   "0:1(13): error: could not implicitly convert return value to float, in function `f'\n"),
+              "a.glsl:1:13: error: could not implicitly convert return value to float, in function `f'\n");
+}
+
 TEST(DriverLogFolding, a_name_is_unknown_once) {
     EXPECT_EQ(told("x;\nx;\ny;\n", "0:1(1): error: `x' undeclared\n"
                                    "0:2(1): error: `x' undeclared\n"

@@ -1,4 +1,4 @@
-#include "cli/check/error_json.hpp"
+#include "cli/error_json.hpp"
 
 namespace tidemark::cli {
 

@@ -1,0 +1,101 @@
+#include "cli/diagnostics.hpp"
+
+#include "cli/console.hpp"
+#include "cli/json_dump.hpp"
+#include "cli/limits.hpp"
+#include "cli/sarif.hpp"
+#include "cli/value_check.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+namespace tidemark::cli {
+namespace {
+
+enum class Form { people, gcc, json, sarif };
+
+/// Standard error is one for the whole process, and so is the form of what goes there.
+struct Sink {
+    std::mutex mutex; ///< a watchdog speaks from a thread of its own
+    Form form = Form::people;
+    std::vector<Finding> waiting; ///< for the end of the run
+};
+Sink& sink() {
+    static Sink the_one;
+    return the_one;
+}
+
+/// GNU's form with all of its parts, so that one pattern reads every line: of a whole file, line 1.
+std::string to_gcc(const Diagnostic& diagnostic) {
+    Diagnostic whole = diagnostic;
+    SourceLocation& where = whole.where;
+    where = where.file.empty()
+                ? SourceLocation{"tidemark"}
+                : SourceLocation{where.file, std::max(where.line, 1), std::max(where.column, 1)};
+    return to_string(whole);
+}
+
+std::string to_json_line(const Finding& finding) {
+    const auto& [where, severity, message] = finding.diagnostic;
+    return dump({{"file", where.file},
+                 {"line", where.line},
+                 {"column", where.column},
+                 {"end_column", finding.end_column},
+                 {"severity", to_string(severity)},
+                 {"rule", finding.rule.id},
+                 {"message", message}});
+}
+
+void choose(const std::string& name) {
+    constexpr std::pair<std::string_view, Form> k_forms[] = {
+        {"gcc", Form::gcc}, {"json", Form::json}, {"sarif", Form::sarif}};
+    sink().form = std::ranges::find(k_forms, name, &std::pair<std::string_view, Form>::first)->second;
+    if (sink().form != Form::gcc)
+        keep_words_back();
+}
+
+} // namespace
+
+void add_diagnostics_option(CLI::App& app) {
+    for (CLI::App* command : app.get_subcommands({}))
+        if (compiles_scenes(*command))
+            command
+                ->add_option_function<std::string>(
+                    "--diagnostics", choose,
+                    "What is wrong with the scene in a form for editors, on standard error")
+                ->type_name("gcc|json|sarif")
+                ->check(one_of({"gcc", "json", "sarif"}));
+}
+
+bool findings_are_diagnostics() {
+    return sink().form != Form::people;
+}
+
+void say(const Finding& finding) {
+    const std::scoped_lock lock(sink().mutex);
+    switch (sink().form) {
+    case Form::people: return say(to_string(finding.diagnostic));
+    case Form::gcc: return say(to_gcc(finding.diagnostic));
+    case Form::json: return say_to_programs(to_json_line(finding));
+    case Form::sarif: sink().waiting.push_back(finding);
+    }
+}
+
+void say(const Error& error) {
+    if (sink().form == Form::people)
+        return say(to_string(error));
+    for (const Finding& finding : findings_of(error))
+        say(finding);
+}
+
+void finish_diagnostics(bool even_empty) {
+    const std::scoped_lock lock(sink().mutex);
+    if (sink().form == Form::sarif && (even_empty || !sink().waiting.empty()))
+        say_to_programs(dump(sarif_log(std::exchange(sink().waiting, {})), 2));
+}
+
+} // namespace tidemark::cli

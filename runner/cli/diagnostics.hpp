@@ -1,0 +1,26 @@
+// --diagnostics: in which form what is wrong with a scene goes to standard error. One choice for the whole
+// run, made when the command line is read; every command reports through `say` and need not know it.
+#pragma once
+
+#include "cli/finding.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace tidemark::cli {
+
+/// Adds --diagnostics to every sub-command that compiles a scene.
+void add_diagnostics_option(CLI::App& app);
+
+/// Whether findings are asked for in a form that programs read: then they are not in the results, too.
+bool findings_are_diagnostics();
+
+void say(const Error& error);
+void say(const Finding& finding);
+
+/// Writes what waits for the end of the run: the SARIF log. `even_empty`: one that says that nothing was
+/// found, too. To be called once in a process, before it ends.
+void finish_diagnostics(bool even_empty);
+
+} // namespace tidemark::cli

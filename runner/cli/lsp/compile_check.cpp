@@ -1,0 +1,108 @@
+#include "cli/lsp/compile_check.hpp"
+
+#include "base/try.hpp"
+#include "cli/error_json.hpp"
+#include "cli/lsp/hints.hpp"
+#include "cli/supervisor.hpp"
+#include "platform/driver_cache.hpp"
+#include "platform/headless_context.hpp"
+#include "render/link_pass.hpp"
+#include "scene/load_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace tidemark::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Diagnostics = std::vector<Diagnostic>;
+
+/// One place is told once: Common stands in front of every pass.
+void add(Diagnostics& all, Diagnostics more) {
+    for (Diagnostic& each : more)
+        if (std::ranges::find(all, each) == all.end())
+            all.push_back(std::move(each));
+}
+
+Diagnostics diagnostics_of(const Error& error) {
+    if (!error.diagnostics.empty())
+        return error.diagnostics;
+    return {{{}, Severity::error, error.message}};
+}
+
+/// Told as the error that it would be on the command line.
+std::string line_of(std::string_view kind, const Diagnostics& diagnostics) {
+    return dump(Json{{"kind", kind}, {"found", to_json(Error{.message = {}, .diagnostics = diagnostics})}});
+}
+
+/// In the child. Every pass is compiled, also behind one that fails, and one that no other reads; as capture
+/// compiles it, without the functions that nobody calls. What is wrong with those is a hint: the site
+/// compiles them.
+Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts, const std::string& device,
+                     const Tell& tell) {
+    const scene::Scene scene = TRY(scene::load_scene(path, {.media = {}, .unsaved = texts}));
+    Diagnostics problems = scene.warnings;
+    const auto context = platform::HeadlessContext::create(device);
+    if (!context)
+        add(problems, {{{}, Severity::warning, "nothing is compiled: " + to_string(context.error())}});
+    Hints hints(scene);
+    for (const scene::Pass& pass : scene.passes) {
+        if (!context)
+            continue;
+        const auto linked = render::link_pass(scene, pass, {.specialise = glsl::Specialise::unreachable});
+        if (linked)
+            hints.read(pass, linked->dialect);
+        else
+            add(problems, diagnostics_of(linked.error()));
+    }
+    tell(line_of("problems", problems));
+    tell(line_of("hints", hints.take(problems, context.has_value())));
+    return {};
+}
+
+Diagnostics left_by(const ForkedResult& result, const ForkedLimits& limits) {
+    if (result.signal != 0)
+        return {{{}, Severity::error, crash_text(result.signal, result.doing)}};
+    const std::string what = result.doing.empty() ? "the scene" : result.doing;
+    if (result.timed_out)
+        return {{{}, Severity::error, fmt::format("{} takes more than {:.3g} s", what, limits.seconds)}};
+    return {{{}, Severity::error, fmt::format("{} takes too much memory (--memory)", what)}};
+}
+
+} // namespace
+
+Result<CompileCheck> CompileCheck::start(const fs::path& scene, const lsp::Documents& documents,
+                                         const std::string& device, const ForkedLimits& limits) {
+    auto helper = TRY(ForkedHelper::start([&](const std::string&, const Tell& tell) {
+        platform::do_without_full_driver_cache();
+        if (const auto done = examine(scene, documents.texts(), device, tell); !done)
+            tell(line_of("problems", diagnostics_of(done.error())));
+    }));
+    helper.begin({}, limits);
+    return CompileCheck(scene, std::move(helper), limits);
+}
+
+std::vector<lsp::Verdict> CompileCheck::look() {
+    std::vector<lsp::Verdict> verdicts;
+    const auto hear = [&](std::string_view line) {
+        const Json json = Json::parse(line);
+        Diagnostics found = error_of(json.at("found"))->diagnostics;
+        const bool problems = json.at("kind") == "problems";
+        answered_ |= problems;
+        (problems ? found_.problems : found_.hints) = std::move(found);
+        verdicts.push_back(found_);
+    };
+    const auto result = helper_.look(hear, std::chrono::milliseconds(0));
+    ended_ = result.has_value();
+    if (ended_ && !answered_) {
+        found_.problems = left_by(*result, limits_);
+        verdicts.push_back(found_);
+    }
+    return verdicts;
+}
+
+} // namespace tidemark::cli

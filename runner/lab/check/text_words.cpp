@@ -1,0 +1,49 @@
+#include "lab/check/text_words.hpp"
+
+#include "lab/check/probe_text.hpp"
+#include "scene/host_uniforms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lab {
+
+std::string_view words_for(glsl::Unassigned::Why why) {
+    using Why = glsl::Unassigned::Why;
+    return why == Why::never              ? ""
+           : why == Why::on_some_way      ? ", on some path"
+           : why == Why::not_given        ? ", an `out` that is never written"
+           : why == Why::left_on_some_way ? ", an `out` that some path does not write"
+                                          : ", on some path without a `return`";
+}
+
+size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& each) {
+    using Why = glsl::Unassigned::Why;
+    const bool declared = each.why == Why::not_given || each.why == Why::left_on_some_way;
+    return text.tree()[declared ? each.what : each.at].word;
+}
+
+std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch) {
+    const glsl::Node& at = text.tree()[branch.at];
+    const std::string place = place_of(text, at.begin);
+    const std::string_view called = branch.called ? "called " : "";
+    if (!branch.exit)
+        return fmt::format("{}{} {}", called,
+                           branch.called ? "where neighbours may branch at" : "neighbours may branch at",
+                           place);
+    const bool by_call = at.kind == glsl::NodeKind::call;
+    return fmt::format("{}after the {} at {}", called, by_call ? "discard in a call" : text.word(at.word),
+                       place);
+}
+
+std::function<bool(std::string_view)> which_have_mipmaps(const scene::Pass& pass) {
+    return [&channels = pass.channels](std::string_view sampler) {
+        const auto name = std::ranges::find(scene::k_channel_names, sampler);
+        return name != scene::k_channel_names.end() &&
+               channels[size_t(name - scene::k_channel_names.begin())].sampling.mipmaps !=
+                   scene::Mipmaps::none;
+    };
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,26 @@
+// What glsl/analysis finds in a text, in words: for the probes of a text, and for whoever reads it beside
+// them.
+#pragma once
+
+#include "glsl/analysis/divergence.hpp"
+#include "glsl/analysis/unassigned.hpp"
+#include "scene/scene.hpp"
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace tidemark::lab {
+
+/// `, on some path`: behind the name of what has no value.
+std::string_view words_for(glsl::Unassigned::Why why);
+/// The word of a text that it is about.
+size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& each);
+
+/// `neighbours may branch at a.glsl:3`, `called after the return at a.glsl:4`.
+std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch);
+
+/// Which samplers of a pass have mipmaps, by name. The pass must live as long.
+std::function<bool(std::string_view sampler)> which_have_mipmaps(const scene::Pass& pass);
+
+} // namespace tidemark::lab

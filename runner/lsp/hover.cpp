@@ -1,0 +1,100 @@
+#include "lsp/hover.hpp"
+
+#include "glsl/syntax/builtin_functions.hpp"
+#include "lsp/comments.hpp"
+#include "scene/host_uniforms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::lsp {
+namespace {
+
+std::string code(std::string_view text) {
+    return fmt::format("```glsl\n{}\n```\n", text);
+}
+
+std::string of_knob(const scene::Knob& knob) {
+    std::string text = code(fmt::format("uniform {} {}", info(knob.type).glsl_name, knob.name));
+    text += fmt::format("Knob, {} at first", scene::to_string(knob, knob.initial));
+    if (knob.range)
+        text += fmt::format(", from {} to {}", scene::to_string(knob, knob.range->low),
+                            scene::to_string(knob, knob.range->high));
+    if (knob.step)
+        text += fmt::format(", in steps of {}", scene::to_string(knob, *knob.step));
+    return text + ".\n";
+}
+
+std::string signature(const glsl::BuiltinFunction& function, const glsl::BuiltinOverload& overload) {
+    std::string parameters;
+    for (const glsl::BuiltinParameter& parameter : overload.parameters)
+        parameters += fmt::format("{}{}{}", parameters.empty() ? "" : ", ", parameter.written ? "out " : "",
+                                  parameter.type);
+    return fmt::format("{} {}({})", overload.result, function.name, parameters);
+}
+
+/// A function of any vector has a signature for each size: more than people read.
+constexpr size_t k_most_signatures = 8;
+
+std::string of_builtin(const glsl::BuiltinFunction& function) {
+    std::string signatures;
+    const auto overloads = glsl::overloads_of(function);
+    for (size_t i = 0; i < std::min(overloads.size(), k_most_signatures); ++i)
+        signatures += (i > 0 ? "\n" : "") + signature(function, overloads[i]);
+    if (overloads.size() > k_most_signatures)
+        signatures += fmt::format("\n// and {} more", overloads.size() - k_most_signatures);
+    std::string text = code(signatures);
+    if (function.domain)
+        for (const glsl::UndefinedWhere& where : function.domain->undefined)
+            if (!where.fault.empty())
+                text += fmt::format("Undefined {}.\n", where.fault);
+    if (!function.in_es())
+        text += fmt::format("Not in GLSL ES 3.00, which ShaderToy's site compiles: {}.\n", function.instead);
+    return text;
+}
+
+std::string of_symbol(const SourceFile& file, const Symbol& symbol, bool elsewhere) {
+    std::string text = code(symbol.signature);
+    if (!symbol.comment.empty())
+        text += symbol.comment + "\n";
+    if (elsewhere)
+        text += fmt::format("\nFrom `{}`.\n", file.path.filename().string());
+    return text;
+}
+
+std::string of_host(std::string_view name) {
+    const auto uniform = std::ranges::find(scene::k_site_uniforms, name, &scene::SiteUniform::name);
+    if (uniform == std::end(scene::k_site_uniforms))
+        return {};
+    const std::string length = uniform->length > 0 ? fmt::format("[{}]", uniform->length) : "";
+    return code(fmt::format("uniform {} {}{}", uniform->type, name, length)) +
+           "Given by the host, as on ShaderToy's site.\n";
+}
+
+} // namespace
+
+std::string hover_text(const Workspace& workspace, size_t offset, const Documents& documents) {
+    if (const auto included = included_at(workspace, offset); !included.empty()) {
+        const auto text = documents.text_of(included);
+        return text ? fmt::format("`{}`\n\n{}\n", included.string(), leading_comment(*text)) : "";
+    }
+    const auto tokens = text::tokenize(workspace.files.front().text);
+    const auto word = word_at(tokens, offset);
+    if (!word)
+        return {};
+    if (const scene::Knob* knob = workspace.knob(word->text))
+        return of_knob(*knob);
+    std::string text;
+    for (const SourceFile& file : workspace.files)
+        for (const Symbol& symbol : file.symbols)
+            if (symbol.name == word->text)
+                text += of_symbol(file, symbol, &file != &workspace.files.front());
+    if (!text.empty())
+        return text;
+    if (const glsl::BuiltinFunction* function = glsl::find_builtin(word->text))
+        return of_builtin(*function);
+    return of_host(word->text);
+}
+
+} // namespace tidemark::lsp

@@ -1,0 +1,324 @@
+"""tidemark lsp: each capability, by a scripted editor."""
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from support.lsp_client import Client, frame
+from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
+
+GOOD = """\
+// How bright it is.
+#iUniform float bright = 0.5 in { 0.0, 2.0 }
+#iUniform color3 tint = color3(1.0, 0.5, 0.0)
+#include "shapes.glsl"
+#define TURN 6.28
+
+/// The colour at a place.
+vec3 paint(vec2 p) {
+    return tint * bright * disc(p) * sqrt(p.x / TURN);
+}
+void mainImage(out vec4 c, in vec2 p) {
+    c = vec4(paint(p / iResolution.xy), 1.0);
+}
+"""
+SHAPES = """\
+// Shapes with soft edges.
+
+// 1 inside of the unit disc.
+float disc(vec2 p) { return smoothstep(1.0, 0.9, length(p)); }
+const float EDGE = 0.1, WIDTH = 2.0;
+struct Ray { vec3 from; vec3 to; };
+"""
+ERROR, WARNING, INFORMATION, HINT = 1, 2, 3, 4
+
+
+def errors(found: list[dict]) -> list[dict]:
+    return [each for each in found if each["severity"] == ERROR]
+
+
+def span(found: dict) -> tuple:
+    start, end = found["range"]["start"], found["range"]["end"]
+    return start["line"], start["character"], end["line"], end["character"]
+
+
+class Lsp(ProgramTest):
+    def setUp(self) -> None:
+        super().setUp()
+        self.folder = self.folder.resolve()
+
+    def client(self, *arguments: str, **options) -> Client:
+        client = Client(*arguments, **options)
+        self.addCleanup(client.end)
+        return client
+
+    def scene(self) -> tuple[Client, pathlib.Path, pathlib.Path]:
+        shapes = self.write("shapes.glsl", SHAPES)
+        scene = self.write("a scene.glsl", GOOD)
+        client = self.client()
+        client.open(scene)
+        return client, scene, shapes
+
+
+class Diagnostics(Lsp):
+    def test_an_edit_that_is_not_saved(self) -> None:
+        client, scene, _ = self.scene()
+        self.assertEqual(errors(client.diagnostics(scene)), [])
+        client.change(scene, GOOD.replace("disc(p)", "disk(p)"), 2)
+        found = errors(client.diagnostics(scene, errors))
+        self.assertEqual(len(found), 1)
+        self.assertEqual(found[0]["message"], "no function with name 'disk'")
+        column = GOOD.splitlines()[8].index("disc")
+        self.assertEqual(span(found[0]), (8, column, 8, column + 4))
+        client.change(scene, GOOD, 3)
+        client.diagnostics(scene, lambda found: not errors(found))
+        self.assertEqual(client.close(), 0)
+
+    def test_an_error_in_an_include_stands_in_it(self) -> None:
+        client, scene, shapes = self.scene()
+        client.diagnostics(scene)
+        client.open(shapes, SHAPES.replace("length(p)", "lenght(p)"))
+        found = errors(client.diagnostics(shapes, errors))
+        self.assertEqual([each["range"]["start"]["line"] for each in found], [3])
+        client.change(shapes, SHAPES, 2)
+        client.diagnostics(shapes, lambda found: not errors(found))
+
+    def test_an_include_alone_is_compiled_in_the_scene_that_reads_it(self) -> None:
+        shapes = self.write("shapes.glsl", SHAPES.replace("smoothstep(", "smoothstep(0.0, "))
+        self.write("a.glsl", GOOD)
+        client = self.client()
+        client.open(shapes)
+        self.assertTrue(errors(client.diagnostics(shapes)))
+
+    def test_all_passes_of_a_folder(self) -> None:
+        self.write("s/common.glsl", "float one() { return 1.0; }\n")
+        self.write("s/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(wrong_a); }\n")
+        self.write("s/buffer_b.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(wrong_b); }\n")
+        image = self.write("s/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p) '
+                           "{ c = texture(iChannel0, p) * one(); }\n")
+        client = self.client()
+        client.open(image)
+        for name in "ab":
+            found = errors(client.diagnostics(self.folder / f"s/buffer_{name}.glsl", errors))
+            self.assertEqual([each["message"] for each in found], [f"`wrong_{name}' undeclared"])
+
+    def test_columns_in_utf16_and_where_offered_in_utf8(self) -> None:
+        text = "void mainImage(out vec4 c, in vec2 p) {\n  /* \u00e9\U0001F30A */ c = wrong;\n}\n"
+        scene = self.write("a.glsl", text)
+        line = text.splitlines()[1]
+        before = line[:line.index("wrong")]
+        for offered, encoding, units in ((None, "utf-16", len(before.encode("utf-16-le")) // 2),
+                                         (["utf-32", "utf-8"], "utf-8", len(before.encode()))):
+            client = self.client(capabilities={"general": {"positionEncodings": offered}} if offered else {})
+            self.assertEqual(client.capabilities["positionEncoding"], encoding)
+            client.open(scene)
+            found = errors(client.diagnostics(scene, errors))
+            self.assertEqual(span(found[0]), (1, units, 1, units + 5))
+            self.assertEqual(client.close(), 0)
+
+    def test_hints_of_what_a_driver_takes(self) -> None:
+        scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n  float sum;\n  if (p.x > 9.0) sum = 1.0;\n"
+                           "  c = vec4(sum) + fma(1.0, 2.0, 3.0);\n}\n")
+        client = self.client()
+        client.open(scene)
+        hints = client.diagnostics(scene, bool)
+        self.assertEqual({each["severity"] for each in hints}, {HINT})
+        self.assertTrue(any("sum has no value, on some path" in each["message"] for each in hints), hints)
+        self.assertTrue(any("fma" in each["message"] for each in hints), hints)
+
+    def test_the_newest_text_wins(self) -> None:
+        client, scene, _ = self.scene()
+        for version in range(2, 40):
+            client.change(scene, GOOD.replace("disc(p)", f"wrong{version}(p)"), version)
+        found = errors(client.diagnostics(scene, errors))
+        self.assertIn("wrong39", found[0]["message"])
+
+    def test_an_entry_point_that_is_misspelt_is_missed(self) -> None:
+        scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
+        client = self.client()
+        client.open(scene)
+        client.diagnostics(scene)
+        client.change(scene, scene.read_text().replace("mainImage", "mainImagee"), 2)
+        self.assertIn("mainImage", errors(client.diagnostics(scene, errors))[0]["message"])
+
+    def test_a_function_that_nobody_calls_is_a_hint(self) -> None:
+        """As capture has it, which leaves it out; the site compiles it."""
+        scene = self.write("a.glsl", "float f() { return wrong; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
+        self.succeed("capture", "a.glsl", "--size", "16x9")
+        client = self.client()
+        client.open(scene)
+        found = client.diagnostics(scene, bool)
+        self.assertEqual({each["severity"] for each in found}, {HINT})
+        self.assertIn((0, 19, 0, 24), [span(each) for each in found])
+
+    def test_closing_takes_them_away(self) -> None:
+        scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = wrong; }\n")
+        client = self.client()
+        client.open(scene)
+        client.diagnostics(scene, errors)
+        client.notify("textDocument/didClose", {"textDocument": {"uri": scene.as_uri()}})
+        client.diagnostics(scene, lambda found: not found)
+
+    def test_a_text_that_takes_all_memory_is_a_diagnostic(self) -> None:
+        doubling = "".join(f"#define A{i} A{i - 1} A{i - 1}\n" for i in range(1, 40))
+        scene = self.write("a.glsl", f"#define A0 +1.0\n{doubling}void mainImage(out vec4 c, in vec2 p) {{ c = vec4(A39); }}\n")
+        client = self.client("--timeout", "2", "--memory", "1G")
+        client.open(scene)
+        self.assertRegex(errors(client.diagnostics(scene, errors))[0]["message"], r"takes (more than 2 s|too much memory)")
+        client.change(scene, GOOD.replace('#include "shapes.glsl"', "").replace("disc(p)", "wrong"), 2)
+        self.assertIn("wrong", errors(client.diagnostics(scene, errors))[0]["message"])
+
+
+class Questions(Lsp):
+    def at(self, client: Client, method: str, path: pathlib.Path, text: str, word: str, **more):
+        for number, line in enumerate(text.splitlines()):
+            if word in line:
+                return client.at(method, path, number, line.index(word) + 1, **more)
+        self.fail(word)
+
+    def hover(self, word: str) -> str:
+        client, scene, _ = self.scene()
+        result = self.at(client, "hover", scene, GOOD, word)["result"]
+        return result["contents"]["value"] if result else ""
+
+    def test_hover_on_a_knob(self) -> None:
+        self.assertEqual(self.hover("bright *"), "```glsl\nuniform float bright\n```\nKnob, 0.5 at first, from 0 to 2.\n")
+
+    def test_hover_on_a_builtin_function(self) -> None:
+        text = self.hover("sqrt")
+        self.assertIn("float sqrt(float)\n", text)
+        self.assertIn("Undefined of a negative number.", text)
+
+    def test_hover_on_what_an_include_declares(self) -> None:
+        self.assertEqual(self.hover("disc(p)"),
+                         "```glsl\nfloat disc(vec2 p)\n```\n1 inside of the unit disc.\n\nFrom `shapes.glsl`.\n")
+
+    def test_hover_on_an_include(self) -> None:
+        self.assertIn("Shapes with soft edges.", self.hover("#include"))
+
+    def test_hover_on_the_hosts_uniform_and_on_nothing(self) -> None:
+        self.assertIn("uniform vec3 iResolution", self.hover("iResolution"))
+        self.assertEqual(self.hover("{ 0.0, 2.0"), "")
+
+    def test_definitions_across_files(self) -> None:
+        client, scene, shapes = self.scene()
+        for word, path, text, name in (("disc(p)", shapes, SHAPES, "disc("), ("paint(p /", scene, GOOD, "paint("),
+                                       ("TURN)", scene, GOOD, "TURN"), ("bright *", scene, GOOD, "bright")):
+            with self.subTest(word):
+                found = self.at(client, "definition", scene, GOOD, word)["result"]
+                self.assertEqual([each["uri"] for each in found], [path.as_uri()])
+                line = next(n for n, each in enumerate(text.splitlines()) if name in each)
+                if name == "bright":
+                    line = 1
+                self.assertEqual(found[0]["range"]["start"]["line"], line)
+        found = self.at(client, "definition", scene, GOOD, "#include")["result"]
+        self.assertEqual([each["uri"] for each in found], [shapes.as_uri()])
+
+    def test_symbols(self) -> None:
+        client, scene, shapes = self.scene()
+        names = [each["name"] for each in client.about("documentSymbol", scene)["result"]]
+        self.assertEqual(names, ["bright", "tint", "TURN", "paint", "mainImage"])
+        names = [each["name"] for each in client.about("documentSymbol", shapes)["result"]]
+        self.assertEqual(names, ["disc", "EDGE", "WIDTH", "Ray"])
+
+    def test_colours(self) -> None:
+        client, scene, _ = self.scene()
+        found = client.about("documentColor", scene)["result"]
+        self.assertEqual([each["color"] for each in found], [{"red": 1, "green": 0.5, "blue": 0, "alpha": 1}])
+        begin = GOOD.splitlines()[2].index("color3(")
+        self.assertEqual(span(found[0]), (2, begin, 2, begin + len("color3(1.0, 0.5, 0.0)")))
+        shown = client.request("textDocument/colorPresentation", {
+            "textDocument": {"uri": scene.as_uri()}, "range": found[0]["range"],
+            "color": {"red": 0.25, "green": 0, "blue": 1, "alpha": 1}})["result"]
+        self.assertEqual(shown[0]["label"], "color3(0.25, 0, 1)")
+        self.assertEqual(shown[0]["textEdit"]["range"], found[0]["range"])
+
+    def test_a_renamed_knob_draws_the_same(self) -> None:
+        client, scene, shapes = self.scene()
+        edits = self.at(client, "rename", scene, GOOD, "bright *", newName="glow")["result"]["changes"]
+        self.assertEqual(set(edits), {scene.as_uri()})
+        lines = GOOD.splitlines(keepends=True)
+        for edit in sorted(edits[scene.as_uri()], key=lambda edit: span(edit), reverse=True):
+            line, begin, _, end = span(edit)
+            lines[line] = lines[line][:begin] + edit["newText"] + lines[line][end:]
+        self.write("renamed.glsl", "".join(lines))
+        self.assertNotIn("bright *", "".join(lines))
+        for name in ("a scene", "renamed"):
+            self.succeed("capture", f"{name}.glsl", "--size", "32x18", "-o", f"{name}.png")
+        self.succeed("compare", "a scene.png", "renamed.png", "--max-difference", "0")
+
+    def test_renames_that_are_refused(self) -> None:
+        client, scene, _ = self.scene()
+        for word, name, why in (("paint(p /", "x", "only knobs"), ("bright *", "paint", "has that name already"),
+                                ("bright *", "disc", "has that name already"), ("bright *", "2x", "no name of GLSL"),
+                                ("bright *", "vec3", "GLSL's or the host's"), ("bright *", "while", "GLSL's or the host's")):
+            with self.subTest(name):
+                self.assertIn(why, self.at(client, "rename", scene, GOOD, word, newName=name)["error"]["message"])
+        self.assertIsNone(self.at(client, "prepareRename", scene, GOOD, "paint(p /")["result"])
+
+
+class Protocol(Lsp):
+    def test_damaged_messages_are_answered(self) -> None:
+        client = self.client()
+        for text, code in ((b"{", -32700), (b"\xff\xfe", -32700), (b"[]", -32600), (b"7", -32600), (b"[" * 100000, -32700),
+                           (b'{"jsonrpc": "2.0", "id": 1}', -32600)):
+            client.send_bytes(frame(text))
+            self.assertEqual(client.wait(lambda m: "error" in m)["error"]["code"], code)
+        self.assertEqual(client.request("textDocument/teapot", {})["error"]["code"], -32601)
+        for params in ({}, [], 7, {"textDocument": 7}, {"textDocument": {"uri": 7}}):
+            self.assertEqual(client.request("textDocument/hover", params)["error"]["code"], -32602)
+        self.assertEqual(client.close(), 0)
+
+    def test_files_that_cannot_be_read(self) -> None:
+        client = self.client()
+        for uri in ("untitled:Untitled-1", "http://x/a.glsl", "file://elsewhere/a.glsl", "file:///%zz", "file:///a%00b",
+                    (self.folder / "missing.glsl").as_uri()):
+            client.notify("textDocument/didChange", {"textDocument": {"uri": uri}, "contentChanges": [{"text": ""}]})
+            answer = client.request("textDocument/documentSymbol", {"textDocument": {"uri": uri}})
+            self.assertEqual(answer["error"]["code"], -32602, uri)
+        self.assertEqual(client.close(), 0)
+
+    def test_a_position_behind_the_end(self) -> None:
+        client, scene, _ = self.scene()
+        for line, character in ((10**6, 0), (0, 10**6), (2**40, 2**40)):
+            self.assertIn("result", client.at("hover", scene, line, character))
+
+    def test_the_order_of_life(self) -> None:
+        process = subprocess.Popen([PROGRAM, "lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment())
+        out, _ = process.communicate(frame(b'{"jsonrpc":"2.0","id":1,"method":"textDocument/hover"}') +
+                                     frame(b'{"jsonrpc":"2.0","method":"exit"}'), timeout=TIME_LIMIT)
+        self.assertIn(b"-32002", out)
+        self.assertEqual(process.returncode, 1)  # no shutdown came before
+
+    def test_a_stream_without_a_frame_ends_it(self) -> None:
+        done = subprocess.run([PROGRAM, "lsp"], input=b"hello\r\n\r\n", capture_output=True, env=environment(),
+                              timeout=TIME_LIMIT, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(b"Content-Length: N", done.stderr)
+
+
+NEOVIM = """
+vim.api.nvim_create_autocmd("DiagnosticChanged", { callback = function()
+  local found = vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR })
+  if #found > 0 then
+    for _, d in ipairs(found) do io.stdout:write(("%d:%d-%d %s\\n"):format(d.lnum, d.col, d.end_col, d.message)) end
+    vim.cmd("qall!")
+  end
+end })
+local client = vim.lsp.start_client({ name = "tidemark", cmd = { arg_program, "lsp" }, root_dir = vim.fn.getcwd() })
+vim.lsp.buf_attach_client(0, client)
+"""
+
+
+@unittest.skipUnless(shutil.which("nvim"), "there is no Neovim")
+class Neovim(Lsp):
+    def test_neovim_shows_what_the_driver_says(self) -> None:
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n  c = wrong;\n}\n")
+        self.write("start.lua", f"local arg_program = {PROGRAM!r}\n{NEOVIM}")
+        done = subprocess.run(["nvim", "--clean", "--headless", "a.glsl", "-c", "luafile start.lua"], cwd=self.folder,
+                              env=environment(), capture_output=True, timeout=TIME_LIMIT, check=False)
+        self.assertIn(b"1:6-11 `wrong' undeclared", done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    main()
