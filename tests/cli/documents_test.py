@@ -18,7 +18,7 @@ PROBES = ROOT / "runner" / "lab" / "check" / "README.md"
 DIRECTIVES = ROOT / "runner" / "scene" / "README.md"
 ROOMS = ROOT / "runner" / "README.md"
 HELP_PAGES = [ROOT / name / "README.md" for name in (
-    "runner/cli", "runner/cli/capture", "runner/cli/view", "runner/scene", "runner/lab", "runner/lab/check",
+    "runner/cli", "runner/cli/help", "runner/cli/capture", "runner/cli/view", "runner/scene", "runner/lab", "runner/lab/check",
     "runner/lab/study", "runner/lab/tune", "runner/lab/pixel", "runner/lsp", "shaders")]
 
 # Commands of the pages that are not run: they open a window, or take what no test machine can give.

@@ -8,7 +8,7 @@ import subprocess
 
 from support.program import PROGRAM, ROOT, environment
 
-PAGES = [ROOT / "runner" / "cli" / "README.md", ROOT / "runner" / "lab" / "README.md",
+PAGES = [ROOT / "runner" / "cli" / "help" / "README.md", ROOT / "runner" / "lab" / "README.md",
          ROOT / "runner" / "lab" / "tune" / "README.md", ROOT / "shaders" / "README.md"]
 # `<!-- options: check study -->`: those of these commands, less the rows that an earlier page has.
 BLOCK = re.compile(r"(<!-- options: ([a-z ,]+) -->\n)(.*?)(<!-- end of options -->\n)", re.DOTALL)

@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "lab/march/pass_function.hpp"
+#include "lab/stopwatch.hpp"
 #include "lab/study/verdict.hpp"
 #include "lab/tune/candidates.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 constexpr int k_small = 160;
 /// Parts of the seconds there are.
 constexpr double k_explore_timing = 0.25, k_last_timing = 0.3, k_proof = 0.05;
+/// Of each of the two studies, compiling and the truth included.
+constexpr double k_longest = 1.5;
 
 Extent small_of(Extent extent) {
     const int longer = std::max(extent.width, extent.height);
@@ -62,9 +65,23 @@ public:
     }
 
 private:
+    /// One study, in so much of the time; what it found when that was over says nothing.
     Result<Findings> measure(Study study, double part, size_t rounds) {
         study.proof_seconds = request_.goal.measure == Measure::wrong ? k_proof * request_.seconds : 0;
-        return conduct(scene_, study, {2, rounds, part * request_.seconds}, watch_, facts_);
+        const Stopwatch stopwatch;
+        bool late = false;
+        Watch limited = watch_;
+        limited.keep_going = [&] {
+            late = late || stopwatch.elapsed().wall * 1e-3 > k_longest * request_.seconds;
+            return !late && watch_.keep_going();
+        };
+        auto findings = conduct(scene_, study, {2, rounds, part * request_.seconds}, limited, facts_);
+        if (late)
+            return fail(
+                ErrorCode::check_failed,
+                fmt::format("cannot say: {:g} seconds are too few for this scene: give more with --for",
+                            request_.seconds));
+        return findings;
     }
 
     /// Where the truth does not converge in all settings at once, in those of the march alone.

@@ -141,10 +141,16 @@ class InputTexture {
         const {video} = this;
         if (!video)
             return;
+        // A picture may come later than the place is found, and does not come where it is the one that is there.
+        const come = new Promise(resolve => {
+            video.requestVideoFrameCallback?.(resolve);
+            setTimeout(resolve, 1000);
+        });
         await new Promise(resolve => {
             video.onseeked = resolve;
             video.currentTime = time % video.duration;
         });
+        await come;
     }
 }
 
