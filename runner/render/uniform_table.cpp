@@ -49,10 +49,17 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         {scene::k_camera_uniform, Source::camera},
         {scene::k_view_uniform, Source::view},
         {scene::k_mouse_button_uniform, Source::mouse_button},
-        // The VS Code extension fills these where a text declares them.
+        // The VS Code extension and glslsandbox.com fill these where a text declares them, …
         {"resolution", Source::resolution},
         {"time", Source::time},
         {"mouse", Source::relative_mouse},
+        // … glslViewer these.
+        {"u_resolution", Source::resolution},
+        {"u_time", Source::time},
+        {"u_mouse", Source::mouse},
+        {"u_frame", Source::frame},
+        {"u_delta", Source::time_delta},
+        {"u_date", Source::date},
     };
     const auto is_knob = [&](std::string_view name) {
         return std::any_of(knobs.begin(), knobs.end(),
