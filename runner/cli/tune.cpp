@@ -94,7 +94,7 @@ Result<std::vector<ChangedFile>> offer(const TuneOptions& options, const scene::
     if (!files && options.write)
         return files;
     if (!files) {
-        say(to_string(files.error()));
+        say(files.error().message);
         return std::vector<ChangedFile>{};
     }
     for (const ChangedFile& file : *files)
@@ -170,7 +170,7 @@ void add_tune(CLI::App& app, Action& chosen) {
         ->add_option("--views", options->views,
                      "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4 [1;10]")
         ->type_name("LIST");
-    command->add_option("--size", options->size, "Resolution in pixels [640x360]")->type_name("WxH");
+    command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
     command->add_option("--for", options->seconds, "Seconds for the search and the timing, compiling aside")
         ->type_name("S")
         ->capture_default_str();

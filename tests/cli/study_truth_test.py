@@ -98,7 +98,7 @@ class OwnError(Truth):
     def test_nothing_to_go_on_is_no_truth(self):
         text = scene("float x = FINE ? 0.25 : 0.5;", "#define FINE false")
         self.expect_no_truth(self.study(text, "--vary", "FINE=false,true"),
-                             "no knob of the study is a number that could go on; name a truth with --reference")
+                             "no knob of the study is a number that could go on")
         study = self.study(text, "--vary", "FINE=false,true", "--reference", "FINE=true")
         self.assertIsNone(study["references"]["picture"]["uncertainty"])
         self.assertEqual(study["points"][0]["all"]["picture"]["rmse"], 0.25)

@@ -164,6 +164,8 @@ private:
         const Remainder left = remainder(what);
         if (left.still || !left.error || changes(what).size() < k_wanted_changes)
             return left.still;
+        if (study_.enough && what == What::pictures)
+            return *left.error <= *study_.enough;
         return named() || *left.error <= k_settled * apart(what, first_, last_);
     }
 
@@ -272,7 +274,7 @@ private:
         if (left.error)
             standard.uncertainty = *left.error + (named() ? apart(what, first_, last_) : 0.0);
         else if (!named())
-            standard.none = left.how + "; name a truth with --reference";
+            standard.none = left.how;
         return standard;
     }
 
@@ -298,7 +300,7 @@ private:
                 std::ranges::count_if(view.distance, [](double distance) { return std::isnan(distance); }));
         refuse_blind(truth.standard, blind);
         refuse_blind(truth.hit_standard, blind_hits);
-        truth.settings = truth.standard.settings = std::move(best.settings);
+        truth.settings = std::move(best.settings);
         truth.views = std::move(best.pictures);
         truth.blind = std::move(blind_);
         truth.hits = std::move(best.hits);

@@ -7,6 +7,7 @@
 #include "lab/setting.hpp"
 #include "lab/study/view.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,8 @@ struct Study {
     std::vector<Axis> axes; ///< every knob from coarse to strict; empty: the series tell
     std::vector<Setting>
         reference; ///< empty: the strictest values of the axes, made stricter until nothing moves
+    std::optional<double>
+        enough{}; ///< own error of the truth about pictures, RMSE; none: by the points' errors
     std::vector<ErrorSource> sources;
     std::vector<Setting> model; ///< what the scene would be without its approximations of what it shows
     std::vector<std::string> omissions; ///< what was left out, and why

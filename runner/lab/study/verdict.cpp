@@ -116,7 +116,8 @@ void add_verdicts(const WorkPrecisionSet& set, std::vector<std::string>& found) 
                                     knob.name,
                                     knob.series == knob.name ? "the scene" : "'" + knob.series + "'"));
     if (!set.picture_standard.none.empty())
-        found.push_back("there is no truth about the pictures: " + set.picture_standard.none);
+        found.push_back("there is no truth about the pictures: " + set.picture_standard.none +
+                        "; --reference names one");
     if (all_idle(set))
         return;
     if (set.has_pictures() && set.picture_standard.none.empty()) // a promise is about what is to be seen

@@ -69,7 +69,6 @@ struct Standard {
     std::string check;                 ///< how the uncertainty was found, or why it is unknown
     std::string none{};                ///< why there is no truth after all; no error is told then
     size_t blind = 0;                  ///< pixels of all views that have no truth
-    std::vector<Setting> settings{};   ///< that it was drawn with, where it was drawn
 };
 
 /// A knob that changes nothing: all pictures of a curve, and where its rays end, are the same to the bit.

@@ -75,6 +75,14 @@ double error_by(Measure measure, const Outcome& outcome) {
     return std::nan("");
 }
 
+std::optional<double> sharpness(const Goal& goal) {
+    if (!goal.most_error || goal.measure == Measure::wrong)
+        return std::nullopt;
+    // FLIP has no error of its own: a tenth of a step of 8 bits, or a hundredth of what is allowed.
+    return goal.measure == Measure::flip ? std::max(k_part * k_part * *goal.most_error, k_part / 255)
+                                         : k_part * *goal.most_error;
+}
+
 std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most) {
     if (measure == Measure::wrong) {
         if (!set.has_hits())
@@ -89,10 +97,9 @@ std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most) {
     const auto own = set.picture_standard.uncertainty;
     if (!own)
         return "the truth's own error is unknown: " + set.picture_standard.check;
-    // FLIP has no error of its own: the truth must be as good as a tenth of a step of 8 bits, or of the
-    // limit.
-    const double enough =
-        measure == Measure::flip ? std::max(k_part * most * k_part, k_part / 255) : k_part * most;
+    if (!(most > 0))
+        return "it has no error that could be told from none: allow one with --max-error";
+    const double enough = *sharpness({measure, most, {}});
     return *own <= enough
                ? ""
                : fmt::format("the truth's own error (RMSE {}) is more than a tenth of what is asked ({})",

@@ -32,6 +32,9 @@ std::string to_string(const Goal& goal);
 /// NaN where it is not known.
 double error_by(Measure measure, const Outcome& outcome);
 
+/// What the own error of the truth about pictures may be, RMSE, to tell whether the goal is kept.
+std::optional<double> sharpness(const Goal& goal);
+
 /// The truth's own error where errors are compared with `most`: why it is too large to tell; empty: it is
 /// not.
 std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most);

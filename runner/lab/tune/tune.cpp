@@ -14,7 +14,7 @@ namespace tidemark::lab {
 namespace {
 
 /// Of the longer side of the pictures that are searched.
-constexpr int k_small = 160;
+constexpr int k_small = 96;
 /// Parts of the seconds there are.
 constexpr double k_explore_timing = 0.25, k_last_timing = 0.3, k_proof = 0.05;
 /// Of each of the two studies, compiling and the truth included.
@@ -55,7 +55,6 @@ public:
         const WorkPrecisionSet explored = TRY(explore());
         const auto found = candidates(explored, request_.settings, request_.goal, milliseconds(explored));
         Study last = study_of(found, request_.settings);
-        last.reference = explored.picture_standard.settings;
         last.extent = request_.extent;
         last.views = request_.views;
         last.views.push_back(unseen(request_.views));
@@ -68,6 +67,7 @@ private:
     /// One study, in so much of the time; what it found when that was over says nothing.
     Result<Findings> measure(Study study, double part, size_t rounds) {
         study.proof_seconds = request_.goal.measure == Measure::wrong ? k_proof * request_.seconds : 0;
+        study.enough = sharpness(request_.goal);
         const Stopwatch stopwatch;
         bool late = false;
         Watch limited = watch_;

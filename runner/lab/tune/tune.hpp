@@ -14,7 +14,7 @@ namespace tidemark::lab {
 
 struct TuneRequest {
     Goal goal{};
-    Extent extent{640, 360};   ///< that the verdict is about
+    Extent extent{320, 180};   ///< that the verdict is about
     std::vector<View> views{}; ///< that are searched; the verdict has one more
     std::vector<QualitySetting> settings{};
     double seconds = 60; ///< for all of it

@@ -108,7 +108,9 @@ TEST(Verdict, compares_no_hollow_points_and_counts_the_truths_own_error_against_
     judge(set);
     EXPECT_EQ(sentences(set)[0], "no verdict on PSNR >= 50 dB: the truth's own error is unknown");
     set.picture_standard.none = "it does not converge";
-    EXPECT_THAT(sentences(set), ElementsAre("there is no truth about the pictures: it does not converge"));
+    EXPECT_THAT(
+        sentences(set),
+        ElementsAre("there is no truth about the pictures: it does not converge; --reference names one"));
 }
 
 TEST(Verdict, never_names_a_point_that_is_idle) {
