@@ -90,6 +90,8 @@ Result<lab::TuneRequest> request_of(const TuneOptions& options, const scene::Sce
 /// What would change in the files, and that it did with --write.
 Result<std::vector<ChangedFile>> offer(const TuneOptions& options, const scene::Scene& scene,
                                        const lab::Tuned& tuned) {
+    if (tuned.chosen.empty())
+        return std::vector<ChangedFile>{};
     auto files = with_settings(scene, tuned.chosen);
     if (!files && options.write)
         return files;

@@ -14,7 +14,7 @@ void mainImage(out vec4 c, in vec2 p) {
     c = vec4(vec3(sum / float(STEPS) * p.x / iResolution.x), 1.0);
 }
 """
-QUICK = ("--size", "48x27", "--for", "3")
+QUICK = ("--size", "48x27", "--for", "10")
 
 
 class Tune(ProgramTest):
