@@ -60,6 +60,8 @@ Result<Goal> parse_goal(std::string_view text) {
 }
 
 std::string to_string(const Goal& goal) {
+    if (goal.most_milliseconds)
+        return fmt::format("{} ms a frame", figure(*goal.most_milliseconds));
     static constexpr std::array k_names{"RMSE", "FLIP", "wrong rays"};
     const std::string name = k_names[size_t(goal.measure)];
     const char* const unit = goal.measure == Measure::wrong ? " %" : "";

@@ -96,6 +96,7 @@ TEST(Goal, is_a_measure_and_a_number) {
     EXPECT_EQ(parse_goal("flip=0.02")->measure, Measure::flip);
     EXPECT_EQ(parse_goal("wrong=0.05%")->most_error, 0.05);
     EXPECT_EQ(to_string(*parse_goal("wrong=0.05%")), "wrong rays <= 0.05 %");
+    EXPECT_EQ(to_string(Goal{Measure::rmse, {}, 8.0}), "8 ms a frame");
     for (const char* bad :
          {"", "rmse", "rmse=", "rmse=x", "rmse=0", "rmse=-1", "rmse=nan", "rmse=0.1dB", "ssim=1"})
         EXPECT_EQ(parse_goal(bad).error().code, ErrorCode::usage) << bad;
