@@ -147,7 +147,9 @@ class Forms(ProgramTest):
         self.assertEqual(self.run_program("check", "--portable", "old.glsl", "--diagnostics", "gcc").stdout, b"")
 
     def test_a_limit_is_a_result_too(self) -> None:
-        run = self.sarif("capture", "broken.glsl", "--memory", "1M", code=5)
+        self.write("slow.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.0); for (int i = 0; i < 60000; ++i) "
+                   "c += sin(float(i) + p.x * c.y + iTime); }\n")  # long enough for its memory to be looked at
+        run = self.sarif("capture", "slow.glsl", "--memory", "1M", code=5)
         self.assertEqual([result["ruleId"] for result in run["results"]], ["limits"])
 
     def test_another_form_is_refused(self) -> None:
