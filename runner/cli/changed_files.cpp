@@ -5,6 +5,7 @@
 #include "glsl/overrides.hpp"
 #include "scene/knob_defaults.hpp"
 #include "scene/overrides.hpp"
+#include "text/lines.hpp"
 
 #include <fmt/format.h>
 
@@ -38,16 +39,6 @@ Result<std::map<std::string, Changes>> changes_by_file(scene::Scene scene,
     return files;
 }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
-    std::vector<std::string_view> lines;
-    while (!text.empty()) {
-        const size_t end = text.find('\n');
-        lines.push_back(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    }
-    return lines;
-}
-
 } // namespace
 
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
@@ -71,7 +62,7 @@ Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
 
 std::string difference(const ChangedFile& file) {
     std::string text = fmt::format("--- {}\n+++ {}\n", file.file, file.file);
-    const auto before = lines_of(file.before), after = lines_of(file.after);
+    const auto before = text::lines_of(file.before), after = text::lines_of(file.after);
     for (size_t i = 0; i < std::min(before.size(), after.size()); ++i)
         if (before[i] != after[i])
             text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", i + 1, before[i], after[i]);

@@ -1,5 +1,7 @@
 #include "lsp/comments.hpp"
 
+#include "text/lines.hpp"
+
 #include <algorithm>
 #include <vector>
 
@@ -25,16 +27,6 @@ bool is_line_comment(std::string_view line) {
     return trimmed(line).starts_with("//");
 }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
-    std::vector<std::string_view> lines;
-    for (size_t begin = 0; begin < text.size();) {
-        const size_t end = std::min(text.find('\n', begin), text.size());
-        lines.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return lines;
-}
-
 template <class Range>
 std::string joined(const Range& lines) {
     std::string comment;
@@ -48,7 +40,7 @@ std::string joined(const Range& lines) {
 
 std::string comment_above(std::string_view text, size_t offset) {
     const size_t line_begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
-    const auto lines = lines_of(text.substr(0, line_begin));
+    const auto lines = text::lines_of(text.substr(0, line_begin));
     auto first = lines.end();
     if (first == lines.begin())
         return {};
@@ -66,7 +58,7 @@ std::string comment_above(std::string_view text, size_t offset) {
 }
 
 std::string leading_comment(std::string_view text) {
-    const auto lines = lines_of(text);
+    const auto lines = text::lines_of(text);
     if (lines.empty())
         return {};
     auto end = lines.begin();

@@ -1,5 +1,7 @@
 #include "cli/view/editor.hpp"
 
+#include "base/argument_pointers.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -74,10 +76,7 @@ std::vector<std::string> place_words(Form form, const SourceLocation& where) {
 
 /// In a session of its own, with nothing of ours to read or write.
 int spawn(const std::vector<std::string>& words, pid_t& child) {
-    std::vector<char*> arguments;
-    for (const std::string& word : words)
-        arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
+    const std::vector<char*> arguments = argument_pointers(words);
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

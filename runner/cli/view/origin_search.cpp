@@ -1,5 +1,7 @@
 #include "cli/view/origin_search.hpp"
 
+#include "base/argument_pointers.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,10 +21,7 @@ constexpr const char* k_this_program = "/proc/self/exe";
 
 /// Its standard output goes into `pipe`; zero, or what is wrong.
 int spawn(const std::vector<std::string>& words, int pipe, pid_t& child) {
-    std::vector<char*> arguments;
-    for (const std::string& word : words)
-        arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
+    const std::vector<char*> arguments = argument_pointers(words);
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);

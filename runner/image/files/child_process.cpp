@@ -1,5 +1,7 @@
 #include "image/files/child_process.hpp"
 
+#include "base/argument_pointers.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -112,10 +114,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     Pipe input(1), output(0), words(0);
     if (!input.good() || !output.good() || !words.good())
         return cannot_run(arguments[0], errno);
-    std::vector<char*> argv;
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
+    const std::vector<char*> argv = argument_pointers(arguments);
     const SpawnPlan plan(kind, input.ends[0], output.ends[1], words.ends[1]);
     ChildProcess child;
     const int error =

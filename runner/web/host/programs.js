@@ -8,7 +8,7 @@ class SceneError extends Error {}
 const VERTEX_SHADER = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`;
 
-// A pass on its way through the driver. `link` gives its program; until then several compile side by side.
+// A pass on its way through the driver. `link` gives its program; until then several compile at the same time.
 class Compilation {
     constructor(gl, pass) {
         this.gl = gl;
