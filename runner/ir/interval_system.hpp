@@ -23,6 +23,7 @@ public:
     static std::pair<int64_t, int64_t> range(const Value& index);
     static Value hull(const Value& a, const Value& b) { return ir::hull(a, b); }
     static std::optional<std::pair<Value, Value>> split(Op op, std::span<const Value> operands);
+    static bool may_be_split(const Value& number) { return !number.point(); }
 };
 
 } // namespace tidemark::ir

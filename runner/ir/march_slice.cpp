@@ -1,5 +1,7 @@
 #include "ir/march_slice.hpp"
 
+#include "ir/dependence.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,29 +17,6 @@ constexpr uint64_t k_most_steps = 2'000'000;
 /// Instructions that count as one run: a field of seven octaves has a thousand.
 constexpr uint64_t k_long_run = 20'000;
 
-/// From the loop's entry to the test that looks at the distance of the first turn, which is at those
-/// `places`: stopped where it has come to that. The next turn, if it is that one's, goes on as the text does.
-template <class System>
-Ended run_to_test(Evaluator<System>& evaluator, const MarchingLoop& loop,
-                  const std::vector<typename System::Value>& places, Decisions& decisions) {
-    for (size_t i = 0; i < loop.carried.size(); ++i)
-        evaluator.pin(loop.cut(loop.carried[i]), places[i]);
-    int left = loop.in_next_turn ? 2 : 1;
-    const auto visit = [&](uint32_t block) {
-        if (block == loop.latch)
-            evaluator.unpin();
-        return block != loop.test || --left > 0;
-    };
-    const Ended ended = evaluator.run(decisions, visit, loop.header, loop.entry);
-    evaluator.unpin();
-    return ended;
-}
-
-template <class System, class Real>
-typename System::Value number_of(const Point<Real>& point, Scalar type) {
-    return type == Scalar::real ? System::number(double(point.real)) : System::constant(point.bits, type);
-}
-
 Interval difference(const Interval& distance, const Interval& threshold) {
     return distance - threshold;
 }
@@ -45,24 +24,9 @@ Tangent difference(const Tangent& distance, const Tangent& threshold) {
     return {distance.value - threshold.value, distance.slope - threshold.slope};
 }
 
-} // namespace
-
-template <class System>
-template <class Real>
-MarchSlice::Over<System>::Over(const Function& function, const PointEvaluator<Real>& entered)
-    : evaluator(function) {
-    evaluator.most_steps = k_most_steps;
-    for (Value value = 0; value < function.instructions.size(); ++value)
-        evaluator.value(value) = number_of<System>(entered.value(value), function.instructions[value].type);
-    for (size_t cell = 0; cell < function.cells.size(); ++cell)
-        memory.push_back(number_of<System>(entered.memory()[cell], function.cells[cell]));
-}
-
-template <class Real>
-MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop,
-                       const PointEvaluator<Real>& entered, Textures<Interval> textures, Surface surface)
-    : loop_(&loop), surface_(surface), intervals_(function, entered), tangents_(function, entered) {
-    tangents_.evaluator.textures = [textures](const Lookup& lookup, std::span<const Tangent> operands) {
+/// What is looked up at a place that changes may have any slope.
+Textures<Tangent> with_slopes(const Textures<Interval>& textures) {
+    return [textures](const Lookup& lookup, std::span<const Tangent> operands) {
         std::vector<Interval> places;
         for (const Tangent& operand : operands)
             places.push_back(operand.value);
@@ -70,18 +34,27 @@ MarchSlice::MarchSlice(const Function& function, const MarchingLoop& loop,
         return Tangent{textures ? textures(lookup, places) : everything(),
                        constant ? Interval{} : everything()};
     };
-    intervals_.evaluator.textures = std::move(textures);
-    for (const Carried& each : loop.carried) {
-        const bool itself = loop.by_parameter();
+}
+
+} // namespace
+
+template <class Real>
+MarchSlice::MarchSlice(const LoopSlice& slice, const PointEvaluator<Real>& entered,
+                       const Textures<Interval>& textures, Surface surface)
+    : loop_(&slice.loop), surface_(surface), intervals_(slice, entered, textures),
+      tangents_(slice, entered, with_slopes(textures)) {
+    intervals_.evaluator().most_steps = tangents_.evaluator().most_steps = k_most_steps;
+    for (const Carried& each : loop_->carried) {
+        const bool itself = loop_->by_parameter();
         first_.push_back(itself ? 0 : entered.value(each.phi).real);
         factor_.push_back(itself || each.factor == k_no_value ? 1 : entered.value(each.factor).real);
     }
-    start_ = loop.by_parameter() ? entered.value(loop.carried[0].phi).real : 0;
+    start_ = loop_->by_parameter() ? entered.value(loop_->carried[0].phi).real : 0;
 }
-template MarchSlice::MarchSlice(const Function&, const MarchingLoop&, const PointEvaluator<float>&,
-                                Textures<Interval>, Surface);
-template MarchSlice::MarchSlice(const Function&, const MarchingLoop&, const PointEvaluator<double>&,
-                                Textures<Interval>, Surface);
+template MarchSlice::MarchSlice(const LoopSlice&, const PointEvaluator<float>&, const Textures<Interval>&,
+                                Surface);
+template MarchSlice::MarchSlice(const LoopSlice&, const PointEvaluator<double>&, const Textures<Interval>&,
+                                Surface);
 
 double MarchSlice::parameter(const Turn& turn) const {
     size_t longest = 0;
@@ -101,18 +74,16 @@ double MarchSlice::unit() const {
 }
 
 template <class System>
-std::optional<typename System::Value> MarchSlice::run(Over<System>& over,
+std::optional<typename System::Value> MarchSlice::run(LoopTurn<System>& turn,
                                                       const std::vector<typename System::Value>& places,
                                                       Decisions& decisions, Surface surface) {
-    over.evaluator.memory() = over.memory;
-    const Ended ended = run_to_test(over.evaluator, *loop_, places, decisions);
-    evaluations_ += 1 + over.evaluator.steps() / k_long_run;
+    const Ended ended = turn.run(places, decisions);
+    evaluations_ += 1 + turn.evaluator().steps() / k_long_run;
     if (ended == Ended::left || ended == Ended::discarded)
         return std::nullopt;
     if (ended != Ended::stopped)
         return System::unknown();
-    return difference(over.evaluator.value(loop_->distance),
-                      surface == Surface::zero ? System::number(0) : over.evaluator.value(loop_->threshold));
+    return difference(turn.distance(), surface == Surface::zero ? System::number(0) : turn.threshold());
 }
 
 double MarchSlice::end(const March& march) const {
@@ -133,7 +104,7 @@ std::optional<Interval> MarchSlice::bounds(const Interval& parameter, Care care,
     std::vector<Interval> places;
     for (size_t i = 0; i < loop_->carried.size(); ++i)
         places.push_back(place(i, parameter));
-    intervals_.evaluator.splits = care != Care::quick;
+    intervals_.evaluator().splits = care != Care::quick;
     const int most_ways = care == Care::thorough ? k_many_ways : k_few_ways;
     Decisions decisions(k_most_decisions);
     std::optional<Interval> all;
@@ -201,21 +172,17 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
     return march;
 }
 
-bool is_faithful(const MarchingLoop& loop, const FloatEvaluator& entered, const March& march) {
-    FloatEvaluator evaluator = entered;
-    for (const Turn& turn : march.turns) {
-        evaluator.memory() = entered.memory();
+bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const March& march) {
+    LoopTurn<PointSystem<float>> own(slice, entered, entered.textures);
+    return std::ranges::all_of(march.turns, [&](const Turn& turn) {
         std::vector<Point<float>> places;
         for (const float each : turn.carried)
             places.push_back({each, 0});
         Decisions none(0);
-        if (run_to_test(evaluator, loop, places, none) != Ended::stopped)
-            return false;
-        const float distance = evaluator.value(loop.distance).real - evaluator.value(loop.threshold).real;
-        if (std::bit_cast<uint32_t>(distance) != std::bit_cast<uint32_t>(turn.distance))
-            return false;
-    }
-    return true;
+        const bool measured = own.run(places, none) == Ended::stopped;
+        const float distance = own.distance().real - own.threshold().real;
+        return measured && std::bit_cast<uint32_t>(distance) == std::bit_cast<uint32_t>(turn.distance);
+    });
 }
 
 } // namespace tidemark::ir

@@ -2,21 +2,14 @@
 // was when a pixel entered the loop. Evaluated over intervals, it bounds the field on a piece of the ray.
 #pragma once
 
-#include "ir/dependence.hpp"
-#include "ir/evaluate.hpp"
 #include "ir/interval_system.hpp"
-#include "ir/marching_loop.hpp"
-#include "ir/point.hpp"
+#include "ir/loop_turn.hpp"
 #include "ir/tangent_system.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace tidemark::ir {
-
-template <class Real>
-using PointEvaluator = Evaluator<PointSystem<Real>>;
-using FloatEvaluator = PointEvaluator<float>;
 
 /// One turn of the loop as the text makes it, in float.
 struct Turn {
@@ -48,8 +41,8 @@ inline Interval place_at(double parameter) {
 class MarchSlice {
 public:
     template <class Real>
-    MarchSlice(const Function& function, const MarchingLoop& loop, const PointEvaluator<Real>& entered,
-               Textures<Interval> textures = {}, Surface surface = Surface::threshold);
+    MarchSlice(const LoopSlice& slice, const PointEvaluator<Real>& entered,
+               const Textures<Interval>& textures = {}, Surface surface = Surface::threshold);
 
     /// Where the ray begins, in terms of its parameter.
     double start() const { return start_; }
@@ -79,27 +72,17 @@ public:
     uint64_t evaluations() const { return evaluations_; }
 
 private:
-    /// The slice over a number system.
-    template <class System>
-    struct Over {
-        Evaluator<System> evaluator;
-        std::vector<typename System::Value> memory{}; ///< as the loop is entered
-
-        template <class Real>
-        Over(const Function& function, const PointEvaluator<Real>& entered);
-    };
-
     std::optional<Interval> bounds(const Interval& parameter, Care care, Surface surface);
     template <class System>
-    std::optional<typename System::Value> run(Over<System>& over,
+    std::optional<typename System::Value> run(LoopTurn<System>& turn,
                                               const std::vector<typename System::Value>& places,
                                               Decisions& decisions, Surface surface);
     Interval place(size_t carried, const Interval& parameter) const;
 
     const MarchingLoop* loop_;
     Surface surface_;
-    Over<IntervalSystem> intervals_;
-    Over<TangentSystem> tangents_;
+    LoopTurn<IntervalSystem> intervals_;
+    LoopTurn<TangentSystem> tangents_;
     std::vector<double> first_, factor_;
     double start_ = 0;
     uint64_t evaluations_ = 0;
@@ -126,6 +109,6 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
 
 /// Whether the slice at the text's own places has the text's own distances, bit by bit: else something that
 /// the loop carries beside the place changes the distance.
-bool is_faithful(const MarchingLoop& loop, const FloatEvaluator& entered, const March& march);
+bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const March& march);
 
 } // namespace tidemark::ir

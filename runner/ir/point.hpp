@@ -133,6 +133,7 @@ public:
     static Value hull(const Value& a, const Value&) { return a; }
     /// Where the operation jumps within the operand: the two parts on the sides of the jump.
     static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+    static bool may_be_split(const Value&) { return false; }
 
 private:
     static Value bits_as(Scalar result, Scalar of, const Value& a) {

@@ -35,6 +35,7 @@ public:
     /// Of two cells of memory, of which either is read: the value may jump.
     static Value hull(const Value& a, const Value& b) { return {ir::hull(a.value, b.value), everything()}; }
     static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+    static bool may_be_split(const Value&) { return false; }
 };
 
 } // namespace tidemark::ir

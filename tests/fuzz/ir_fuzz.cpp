@@ -25,9 +25,10 @@ void look_along(const ir::Function& function, const std::vector<ir::MarchingLoop
     const ir::MarchingLoop& loop = loops[*index];
     const ir::FloatEvaluator entered = pixel;
     const ir::March march = ir::follow(pixel, function, loop);
-    if (march.turns.empty() || !ir::is_faithful(loop, entered, march))
+    const ir::LoopSlice turn = ir::slice_of(function, loop);
+    if (march.turns.empty() || !ir::is_faithful(turn, entered, march))
         return;
-    ir::MarchSlice slice(function, loop, entered);
+    ir::MarchSlice slice(turn, entered);
     const double end = slice.end(march);
     if (!std::isfinite(end) || end <= slice.start())
         return;

@@ -28,12 +28,11 @@ std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel, ir::Surface surface) 
     if (!index || !both)
         return ray;
     ray.loop = *index;
-    const ir::MarchingLoop& loop = function.loops()[*index];
+    const ir::LoopSlice& slice = function.slices()[*index];
     const ir::FloatEvaluator entered = in_float;
-    ray.march = ir::follow(in_float, function.function(), loop);
-    if (ir::is_faithful(loop, entered, ray.march))
-        ray.slice.emplace(function.function(), loop, in_double, ir::textures_in<ir::Interval>(textures_),
-                          surface);
+    ray.march = ir::follow(in_float, function.function(), slice.loop);
+    if (ir::is_faithful(slice, entered, ray.march))
+        ray.slice.emplace(slice, in_double, ir::textures_in<ir::Interval>(textures_), surface);
     return ray;
 }
 

@@ -72,6 +72,8 @@ Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene
     PassFunction result;
     result.function_ = *std::move(function);
     result.loops_ = ir::find_marching_loops(result.function_);
+    for (const ir::MarchingLoop& loop : result.loops_)
+        result.slices_.push_back(ir::slice_of(result.function_, loop));
     result.lines_ = source.lines();
     return result;
 }

@@ -23,6 +23,8 @@ public:
 
     const ir::Function& function() const { return function_; }
     const std::vector<ir::MarchingLoop>& loops() const { return loops_; }
+    /// Of each of them.
+    const std::vector<ir::LoopSlice>& slices() const { return slices_; }
     /// In the author's text.
     SourceLocation locate(int line) const { return lines_.locate(line); }
 
@@ -37,6 +39,7 @@ public:
 private:
     ir::Function function_;
     std::vector<ir::MarchingLoop> loops_;
+    std::vector<ir::LoopSlice> slices_;
     text::LineMap lines_;
 };
 

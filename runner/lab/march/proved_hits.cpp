@@ -67,10 +67,10 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
     if (!loop_index)
         return std::nullopt;
     ProvedRay ray{at, *loop_index};
-    const ir::MarchingLoop& loop = function.loops()[*loop_index];
+    const ir::LoopSlice& loop_slice = function.slices()[*loop_index];
     const ir::FloatEvaluator entered = evaluator;
     unknown = chooses_level = false; // from here on it is the march that reads
-    const ir::March march = ir::follow(evaluator, function.function(), loop);
+    const ir::March march = ir::follow(evaluator, function.function(), loop_slice.loop);
     ray.turns = march.turns.size();
     ray.at_base_level = chooses_level;
     if (unknown) {
@@ -81,11 +81,11 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
         ray.outcome = Outcome::agrees;
         return ray;
     }
-    if (!ir::is_faithful(loop, entered, march)) {
+    if (!ir::is_faithful(loop_slice, entered, march)) {
         ray.outcome = Outcome::unfaithful;
         return ray;
     }
-    ir::MarchSlice slice(function.function(), loop, entered, ir::textures_in<ir::Interval>(textures));
+    ir::MarchSlice slice(loop_slice, entered, ir::textures_in<ir::Interval>(textures));
     const double end = slice.end(march);
     if (!std::isfinite(end) || end <= slice.start()) {
         ray.reason = ir::FirstHit::Reason::not_finite;

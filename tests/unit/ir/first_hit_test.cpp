@@ -14,7 +14,8 @@ FirstHit hit_of(const std::string& field, float x, double last = 20,
     const Function function = marcher(field, march);
     const auto loops = find_marching_loops(function);
     EXPECT_EQ(loops.size(), 1u) << field;
-    MarchSlice slice(function, loops.at(0), entered(function, loops, x),
+    const LoopSlice turn = slice_of(function, loops.at(0));
+    MarchSlice slice(turn, entered(function, loops, x),
                      [](const Lookup&, std::span<const Interval>) {
                          return Interval{0, 1};
                      });

@@ -22,7 +22,7 @@ void expect_loop(const std::string& march, Kind kind, size_t carried) {
     const FloatEvaluator at_entry = evaluator;
     const March followed = follow(evaluator, function, loops[0]);
     EXPECT_GT(followed.turns.size(), 1u) << march;
-    EXPECT_TRUE(is_faithful(loops[0], at_entry, followed)) << march;
+    EXPECT_TRUE(is_faithful(slice_of(function, loops[0]), at_entry, followed)) << march;
 }
 
 TEST(MarchingLoop, is_found_in_the_forms_that_authors_write) {
@@ -72,7 +72,7 @@ TEST(MarchingLoop, that_remembers_more_than_its_place_is_not_faithful) {
     FloatEvaluator evaluator = entered(function, loops, 0);
     const FloatEvaluator at_entry = evaluator;
     const March followed = follow(evaluator, function, loops[0]);
-    EXPECT_FALSE(is_faithful(loops[0], at_entry, followed));
+    EXPECT_FALSE(is_faithful(slice_of(function, loops[0]), at_entry, followed));
 }
 
 } // namespace

@@ -12,7 +12,8 @@ StepScale scale_of(const std::string& field, float x, uint64_t most = 2'000) {
     const Function function = marcher(field, k_sphere_tracing);
     const auto loops = find_marching_loops(function);
     EXPECT_EQ(loops.size(), 1u) << field;
-    MarchSlice slice(function, loops.at(0), entered(function, loops, x), {}, Surface::zero);
+    const LoopSlice turn = slice_of(function, loops.at(0));
+    MarchSlice slice(turn, entered(function, loops, x), {}, Surface::zero);
     const FirstHit hit = first_hit(slice, 20);
     EXPECT_EQ(hit.verdict, FirstHit::Verdict::hit) << to_string(hit.reason);
     return step_scale(slice, hit.where, most);

@@ -1,0 +1,275 @@
+#include "ir/loop_slice.hpp"
+
+#include "ir/dependence.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace tidemark::ir {
+namespace {
+
+constexpr uint32_t k_no_block = ~uint32_t{0};
+
+/// What becomes of an instruction of the whole function.
+enum class Role : uint8_t { left_out, input, invariant, turn };
+
+bool overlap(const Access& a, const Access& b) {
+    return a.first < b.first + b.size && b.first < a.first + a.size;
+}
+
+class Slicer {
+public:
+    Slicer(const Function& whole, const MarchingLoop& loop)
+        : whole_(whole), loop_(loop), block_of_(blocks_of_instructions(whole)), kept_(whole.blocks.size()),
+          roles_(whole.instructions.size()), number_(whole.instructions.size(), k_no_value) {}
+
+    LoopSlice run() {
+        keep_blocks();
+        keep_instructions();
+        find_invariants();
+        result_.loop = loop_;
+        number_all();
+        number_cells();
+        write_blocks();
+        result_.function.lookups = whole_.lookups;
+        result_.turn = turn();
+        return std::move(result_);
+    }
+
+private:
+    /// Those on a way from the header to the test; of a test in the next turn, the whole loop.
+    void keep_blocks() {
+        const std::vector<bool> inside = natural_loop(whole_, loop_.header);
+        std::vector<uint32_t> open{loop_.header};
+        while (!open.empty()) {
+            const uint32_t block = open.back();
+            open.pop_back();
+            if (!inside[block] || kept_[block])
+                continue;
+            kept_[block] = true;
+            if (!ends_turn(block))
+                std::ranges::copy(whole_.blocks[block].successors, std::back_inserter(open));
+        }
+        for (Value value = 0; value < whole_.instructions.size(); ++value)
+            if (whole_.instructions[value].op == Op::store && kept_[block_of_[value]])
+                stores_.push_back(value);
+    }
+    bool ends_turn(uint32_t block) const { return block == loop_.test && !loop_.in_next_turn; }
+
+    bool is_cut(Value value) const {
+        return std::ranges::any_of(loop_.carried,
+                                   [&](const Carried& each) { return loop_.cut(each) == value; });
+    }
+
+    /// All that the distance, its threshold, and the way to them depend on.
+    void keep_instructions() {
+        keep(loop_.distance);
+        keep(loop_.threshold);
+        for (const Carried& each : loop_.carried)
+            keep(loop_.cut(each));
+        for (uint32_t block = 0; block < kept_.size(); ++block)
+            if (kept_[block] && !ends_turn(block) && whole_.blocks[block].condition != k_no_value)
+                keep(whole_.blocks[block].condition);
+        while (!open_.empty()) {
+            const Value value = open_.back();
+            open_.pop_back();
+            if (!is_given(value))
+                keep_operands(value);
+        }
+    }
+    /// The place on the ray, which is set from outside in the first turn: there is no other one.
+    bool is_given(Value value) const { return is_cut(value) && !kept_[loop_.latch]; }
+    void keep(Value value) {
+        if (roles_[value] != Role::left_out)
+            return;
+        const bool inside = whole_.instructions[value].op != Op::constant && kept_[block_of_[value]];
+        roles_[value] = inside ? Role::turn : Role::input;
+        if (inside)
+            open_.push_back(value);
+    }
+    void keep_operands(Value value) {
+        for (const Value operand : operands_of(value))
+            keep(operand);
+        if (whole_.instructions[value].op == Op::load)
+            for (const Value store : stores_)
+                if (may_change(store, value))
+                    keep(store);
+    }
+    bool may_change(Value store, Value load) const {
+        return overlap(whole_.accesses[whole_.instructions[store].immediate],
+                       whole_.accesses[whole_.instructions[load].immediate]);
+    }
+
+    /// Of a phi: what it is coming from blocks that are kept, or from the loop's entry.
+    std::vector<Value> operands_of(Value value) const {
+        const auto all = whole_.operands_of(whole_.instructions[value]);
+        if (whole_.instructions[value].op != Op::phi)
+            return {all.begin(), all.end()};
+        const auto& predecessors = whole_.blocks[block_of_[value]].predecessors;
+        std::vector<Value> operands;
+        for (size_t i = 0; i < all.size(); ++i)
+            if (is_way(predecessors[i]))
+                operands.push_back(all[i]);
+        return operands;
+    }
+    bool is_way(uint32_t predecessor) const { return predecessor == loop_.entry || kept_[predecessor]; }
+
+    /// What dominates an instruction stands in front of it, so one pass finds them all.
+    void find_invariants() {
+        for (Value value = 0; value < roles_.size(); ++value)
+            if (roles_[value] == Role::turn && is_invariant(value))
+                roles_[value] = Role::invariant;
+    }
+    bool is_invariant(Value value) const {
+        switch (whole_.instructions[value].op) {
+        case Op::phi:
+        case Op::store:
+        case Op::texel:
+        case Op::derivative_x:
+        case Op::derivative_y: return false;
+        case Op::load:
+            if (is_changed(value))
+                return false;
+            break;
+        default: break;
+        }
+        return !is_cut(value) && std::ranges::all_of(operands_of(value), [&](Value operand) {
+            return roles_[operand] == Role::input || roles_[operand] == Role::invariant;
+        });
+    }
+    bool is_changed(Value load) const {
+        return std::ranges::any_of(stores_, [&](Value store) {
+            return roles_[store] == Role::turn && may_change(store, load);
+        });
+    }
+
+    void number_all() {
+        Value next = 0;
+        const auto number = [&](Role role) {
+            for (Value value = 0; value < roles_.size(); ++value)
+                if (roles_[value] == role) {
+                    number_[value] = next++;
+                    order_.push_back(value);
+                }
+        };
+        number(Role::input);
+        result_.inputs = order_;
+        number(Role::invariant);
+        first_of_turn_ = next;
+        number(Role::turn);
+        block_number_.assign(kept_.size(), k_no_block);
+        uint32_t next_block = 1;
+        for (uint32_t block = 0; block < kept_.size(); ++block)
+            if (kept_[block])
+                block_number_[block] = next_block++;
+        leave_ = next_block;
+    }
+
+    void number_cells() {
+        std::vector<bool> used(whole_.cells.size());
+        for (const Value value : order_)
+            if (is_access(value)) {
+                const Access& access = whole_.accesses[whole_.instructions[value].immediate];
+                std::fill_n(used.begin() + access.first, access.size, true);
+            }
+        std::vector<uint32_t> number(whole_.cells.size());
+        for (uint32_t cell = 0; cell < used.size(); ++cell)
+            if (used[cell]) {
+                number[cell] = uint32_t(result_.cells.size());
+                result_.cells.push_back(cell);
+                result_.function.cells.push_back(whole_.cells[cell]);
+            }
+        result_.function.accesses = whole_.accesses;
+        for (Access& access : result_.function.accesses)
+            if (access.first < number.size()) // else it is of no cell
+                access.first = number[access.first];
+    }
+    bool is_access(Value value) const {
+        const Instruction& instruction = whole_.instructions[value];
+        return roles_[value] != Role::input &&
+               (instruction.op == Op::load || instruction.op == Op::store);
+    }
+
+    void write_blocks() {
+        Function& function = result_.function;
+        for (const Value value : order_)
+            write(value);
+        const auto inputs = uint32_t(result_.inputs.size());
+        function.blocks.push_back({.end = Block::End::jump,
+                                   .first = inputs,
+                                   .last = first_of_turn_,
+                                   .successors = {block_number_[loop_.header]}});
+        uint32_t at = first_of_turn_;
+        for (uint32_t block = 0; block < kept_.size(); ++block)
+            if (kept_[block])
+                function.blocks.push_back(block_of(whole_.blocks[block], at));
+        function.blocks.push_back({.end = Block::End::leave, .first = at, .last = at});
+    }
+    void write(Value value) {
+        Instruction instruction = whole_.instructions[value];
+        std::vector<Value> operands;
+        if (roles_[value] == Role::input) {
+            if (instruction.op != Op::constant)
+                instruction = {.op = Op::undefined, .type = instruction.type};
+        } else {
+            for (const Value operand : operands_of(value))
+                operands.push_back(number_[is_given(value) ? value : operand]);
+        }
+        instruction.first_operand = uint32_t(result_.function.operands.size());
+        instruction.operand_count = uint32_t(operands.size());
+        std::ranges::copy(operands, std::back_inserter(result_.function.operands));
+        result_.function.instructions.push_back(instruction);
+        result_.stores = result_.stores || instruction.op == Op::store;
+    }
+    /// With the instructions from `at` on that are kept of it.
+    Block block_of(const Block& whole, uint32_t& at) const {
+        Block block = whole;
+        block.first = at;
+        at += uint32_t(std::count(roles_.begin() + whole.first, roles_.begin() + whole.last, Role::turn));
+        block.last = at;
+        block.predecessors.clear();
+        for (const uint32_t each : whole.predecessors)
+            if (is_way(each))
+                block.predecessors.push_back(each == loop_.entry ? 0 : block_number_[each]);
+        for (uint32_t& each : block.successors)
+            each = block_number_[each] == k_no_block ? leave_ : block_number_[each];
+        block.condition = whole.condition == k_no_value ? k_no_value : number_[whole.condition];
+        return block;
+    }
+
+    MarchingLoop turn() const {
+        MarchingLoop turn = loop_;
+        turn.header = block_number_[loop_.header];
+        turn.entry = 0;
+        turn.latch = block_number_[loop_.latch];
+        turn.test = block_number_[loop_.test];
+        turn.distance = number_[loop_.distance];
+        turn.threshold = number_[loop_.threshold];
+        turn.far = turn.comparison = k_no_value;
+        for (Carried& each : turn.carried)
+            each = {number_[each.phi], number_[each.update], k_no_value};
+        return turn;
+    }
+
+    const Function& whole_;
+    const MarchingLoop& loop_;
+    std::vector<uint32_t> block_of_;
+    std::vector<bool> kept_; ///< blocks
+    std::vector<Role> roles_;
+    std::vector<Value> number_; ///< in the slice
+    std::vector<Value> order_;  ///< of the slice's instructions: those of the whole
+    std::vector<Value> open_;
+    std::vector<Value> stores_; ///< in the blocks that are kept
+    std::vector<uint32_t> block_number_;
+    Value first_of_turn_ = 0;
+    uint32_t leave_ = 0;
+    LoopSlice result_;
+};
+
+} // namespace
+
+LoopSlice slice_of(const Function& function, const MarchingLoop& loop) {
+    return Slicer(function, loop).run();
+}
+
+} // namespace tidemark::ir

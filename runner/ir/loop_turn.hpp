@@ -1,0 +1,88 @@
+// One turn of a marching loop over a number system, run as often as wanted: but for the places on the ray all
+// is as a pixel had it that has entered the loop.
+#pragma once
+
+#include "ir/evaluate.hpp"
+#include "ir/loop_slice.hpp"
+#include "ir/point.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+namespace tidemark::ir {
+
+template <class Real>
+using PointEvaluator = Evaluator<PointSystem<Real>>;
+using FloatEvaluator = PointEvaluator<float>;
+
+template <class System>
+class LoopTurn {
+public:
+    using Number = typename System::Value;
+
+    template <class Real>
+    LoopTurn(const LoopSlice& slice, const PointEvaluator<Real>& entered, Textures<Number> textures = {})
+        : turn_(&slice.turn), stores_(slice.stores), evaluator_(slice.function) {
+        evaluator_.textures = std::move(textures);
+        for (Value i = 0; i < slice.inputs.size(); ++i)
+            if (const Instruction& input = slice.function.instructions[i]; input.op != Op::constant)
+                evaluator_.value(i) = number_of(entered.value(slice.inputs[i]), input.type);
+        for (size_t i = 0; i < slice.cells.size(); ++i)
+            evaluator_.memory()[i] = number_of(entered.memory()[slice.cells[i]], slice.function.cells[i]);
+        if (stores_)
+            memory_ = evaluator_.memory();
+        compute_invariants(slice.function.blocks[0]);
+    }
+
+    Evaluator<System>& evaluator() { return evaluator_; }
+
+    /// Up to the test that looks at the distance at those places: stopped where it has come to that. The next
+    /// turn, if it is that one's, goes on as the text does.
+    Ended run(const std::vector<Number>& places, Decisions& decisions) {
+        if (stores_)
+            evaluator_.memory() = memory_;
+        for (size_t i = 0; i < turn_->carried.size(); ++i)
+            evaluator_.pin(turn_->cut(turn_->carried[i]), places[i]);
+        int left = turn_->in_next_turn ? 2 : 1;
+        const auto visit = [&](uint32_t block) {
+            if (block == turn_->latch)
+                evaluator_.unpin();
+            return block != turn_->test || --left > 0;
+        };
+        const Ended ended = evaluator_.run(decisions, visit, first_block_, turn_->entry);
+        evaluator_.unpin();
+        return ended;
+    }
+    const Number& distance() const { return evaluator_.value(turn_->distance); }
+    const Number& threshold() const { return evaluator_.value(turn_->threshold); }
+
+private:
+    template <class Real>
+    static Number number_of(const Point<Real>& point, Scalar type) {
+        if constexpr (std::is_same_v<Number, Point<Real>>)
+            return point;
+        else
+            return type == Scalar::real ? System::number(double(point.real))
+                                        : System::constant(point.bits, type);
+    }
+
+    /// Once for all turns; but where a jump within one of them may be gone through, each turn begins with
+    /// them.
+    void compute_invariants(const Block& block) {
+        Decisions none(0);
+        evaluator_.run(none, [](uint32_t) { return false; });
+        first_block_ = turn_->header;
+        for (Value value = block.first; value < block.last; ++value)
+            if (System::may_be_split(evaluator_.value(value)))
+                first_block_ = 0;
+    }
+
+    const MarchingLoop* turn_;
+    bool stores_;
+    Evaluator<System> evaluator_;
+    std::vector<Number> memory_{}; ///< as the loop is entered, where a turn changes it
+    uint32_t first_block_ = 0;
+};
+
+} // namespace tidemark::ir
