@@ -6,7 +6,6 @@
 #include "ir/function.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -154,19 +153,16 @@ private:
         }
     }
 
-    static constexpr size_t k_most_operands = 3;
-
     Number computed(const Instruction& instruction, std::span<const Value> operands, Decisions& decisions) {
-        std::array<Number, k_most_operands> numbers;
-        const size_t count = std::min(operands.size(), k_most_operands);
-        for (size_t i = 0; i < count; ++i)
-            numbers[i] = values_[operands[i]];
-        const std::span<const Number> given(numbers.data(), count);
+        static const Number k_zero{};
+        const Operands<Number> numbers{values_[operands[0]],
+                                       operands.size() > 1 ? values_[operands[1]] : k_zero,
+                                       operands.size() > 2 ? values_[operands[2]] : k_zero};
         if (splits)
-            if (auto parts = system_.split(instruction.op, given))
-                numbers[0] = values_[operands[0]] = decisions.decide() ? parts->second : parts->first;
+            if (const auto parts = system_.split(instruction.op, numbers))
+                values_[operands[0]] = decisions.decide() ? parts->second : parts->first;
         return system_.compute(instruction.op, instruction.type, function_->instructions[operands[0]].type,
-                               given);
+                               numbers);
     }
 
     Number looked_up(const Instruction& instruction, std::span<const Value> operands) {

@@ -106,6 +106,14 @@ enum class Op : uint8_t {
     derivative_y,
 };
 
+/// The numbers that an operation is made of; those that it does not have are zeros.
+template <class Number>
+struct Operands {
+    const Number& a;
+    const Number& b;
+    const Number& c;
+};
+
 struct Instruction {
     Op op = Op::undefined;
     Scalar type = Scalar::real;

@@ -1,6 +1,5 @@
 #include "ir/interval_system.hpp"
 
-#include <array>
 #include <bit>
 
 namespace tidemark::ir {
@@ -221,14 +220,14 @@ Interval bits_as(const Interval& a, Scalar of, Scalar result) {
     return {number(a.low), number(a.high)};
 }
 
-/// Where the operation jumps: at first + k unit for every whole k; a unit of 0: at `first` alone. Whether it
+/// Where the operation on an operand jumps, `period` being the other: at first + k unit for every whole k; a unit of 0: at `first` alone. Whether it
 /// has another value there than below, and than above.
 struct Jumps {
     double first = 0, unit = 1;
     bool from_below = true, from_above = false;
 };
 
-std::optional<Jumps> jumps_of(Op op, std::span<const Interval> operands) {
+std::optional<Jumps> jumps_of(Op op, const Interval& period) {
     switch (op) {
     case Op::floor:
     case Op::fract: return Jumps{};
@@ -238,14 +237,14 @@ std::optional<Jumps> jumps_of(Op op, std::span<const Interval> operands) {
     case Op::modulo:
     case Op::whole_multiple:
     case Op::nearest_rest:
-        if (operands[1].point() && operands[1].low != 0) {
-            const double unit = std::abs(operands[1].low);
-            const bool nearest = op == Op::nearest_rest, negative = operands[1].low < 0;
+        if (period.point() && period.low != 0) {
+            const double unit = std::abs(period.low);
+            const bool nearest = op == Op::nearest_rest, negative = period.low < 0;
             return Jumps{nearest ? unit / 2 : 0, unit, nearest || !negative, nearest || negative};
         }
         return std::nullopt;
     case Op::atan2: // from pi to -pi
-        if (operands[1].high < 0)
+        if (period.high < 0)
             return Jumps{0, 0};
         return std::nullopt;
     default: return std::nullopt;
@@ -277,32 +276,25 @@ Interval IntervalSystem::number(double real) {
     return std::isfinite(real) ? Interval{real, real} : everything();
 }
 
-Interval IntervalSystem::compute(Op op, Scalar result, Scalar of, std::span<const Interval> operands) const {
-    std::array<Interval, 3> at{};
-    std::ranges::copy(operands, at.begin());
+Interval IntervalSystem::compute(Op op, Scalar result, Scalar of, const Operands<Interval>& operands) const {
+    const auto& [a, b, c] = operands;
     const Scalar of_others = op == Op::select ? result : op == Op::ldexp ? Scalar::signed_int : of;
-    std::array<Point<float>, 3> points{};
-    bool exact = true;
-    for (size_t i = 0; i < operands.size() && exact; ++i) {
-        const Scalar type = i == 0 ? of : of_others;
-        exact = is_exact(operands[i], type);
-        if (exact)
-            points[i] = point_of(operands[i], type);
-    }
-    if (exact)
+    if (is_exact(a, of) && is_exact(b, of_others) && is_exact(c, of_others))
         return interval_of(
-            PointSystem<float>().compute(op, result, of, std::span(points.data(), operands.size())), result);
-    if (op == Op::to_real || op == Op::select || of == Scalar::boolean)
-        return op == Op::to_real ? at[0] : logical(op, at[0], at[1], at[2]);
+            PointSystem<float>().compute(op, result, of,
+                                         {point_of(a, of), point_of(b, of_others), point_of(c, of_others)}),
+            result);
     if (op == Op::to_int)
-        return to_int(at[0], result);
+        return to_int(a, result);
     if (op == Op::bits_as)
-        return bits_as(at[0], of, result);
+        return bits_as(a, of, result);
     if (op == Op::ldexp)
         return all_of(result);
     if (of == Scalar::real)
-        return real(op, at[0], at[1], at[2]);
-    const Interval answer = whole(op, of, at[0], at[1]);
+        return real(op, a, b, c);
+    if (op == Op::to_real || op == Op::select || of == Scalar::boolean)
+        return op == Op::to_real ? a : logical(op, a, b, c);
+    const Interval answer = whole(op, of, a, b);
     return result == Scalar::boolean ? Interval{std::max(answer.low, 0.0), std::min(answer.high, 1.0)}
                                      : answer;
 }
@@ -316,9 +308,9 @@ std::pair<int64_t, int64_t> IntervalSystem::range(const Interval& index) {
 }
 
 std::optional<std::pair<Interval, Interval>> IntervalSystem::split(Op op,
-                                                                   std::span<const Interval> operands) {
-    const Interval& a = operands[0];
-    const auto jumps = jumps_of(op, operands);
+                                                                   const Operands<Interval>& operands) {
+    const Interval& a = operands.a;
+    const auto jumps = jumps_of(op, operands.b);
     if (!jumps || a.partial || !(a.width() > 0 && a.width() < 1e9))
         return std::nullopt;
     const auto at = jump_in(a, *jumps);

@@ -17,12 +17,12 @@ public:
     static Value number(double real);
     static Value unknown() { return everything(); }
 
-    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const;
+    Value compute(Op op, Scalar result, Scalar of, const Operands<Value>& operands) const;
 
     static std::optional<bool> decide(const Value& condition);
     static std::pair<int64_t, int64_t> range(const Value& index);
     static Value hull(const Value& a, const Value& b) { return ir::hull(a, b); }
-    static std::optional<std::pair<Value, Value>> split(Op op, std::span<const Value> operands);
+    static std::optional<std::pair<Value, Value>> split(Op op, const Operands<Value>& operands);
     static bool may_be_split(const Value& number) { return !number.point(); }
 };
 

@@ -38,22 +38,12 @@ public:
         return {point, {point.real, point.bits}, StochasticSystem::all(point)};
     }
 
-    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) {
-        std::array<Point<float>, k_most> floats;
-        std::array<Point<double>, k_most> doubles;
-        std::array<Samples, k_most> samples;
-        const size_t count = std::min(operands.size(), k_most);
-        for (size_t i = 0; i < count; ++i) {
-            const bool decides = op == Op::select && i == 0;
-            const Value& operand = operands[i];
-            const Value own = decides ? exactly(operand.in_float) : operand;
-            floats[i] = own.in_float;
-            doubles[i] = own.in_double;
-            samples[i] = own.samples;
-        }
-        return {PointSystem<float>().compute(op, result, of, std::span(floats).first(count)),
-                PointSystem<double>().compute(op, result, of, std::span(doubles).first(count)),
-                stochastic_.compute(op, result, of, std::span(samples).first(count))};
+    Value compute(Op op, Scalar result, Scalar of, const Operands<Value>& operands) {
+        const Value a = op == Op::select ? exactly(operands.a.in_float) : operands.a; // it decides
+        const auto& [_, b, c] = operands;
+        return {PointSystem<float>().compute(op, result, of, {a.in_float, b.in_float, c.in_float}),
+                PointSystem<double>().compute(op, result, of, {a.in_double, b.in_double, c.in_double}),
+                stochastic_.compute(op, result, of, {a.samples, b.samples, c.samples})};
     }
 
     static std::optional<bool> decide(const Value& condition) { return condition.in_float.bits != 0; }
@@ -61,11 +51,9 @@ public:
         return PointSystem<float>::range(index.in_float);
     }
     static Value hull(const Value& a, const Value&) { return a; }
-    static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+    static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
 
 private:
-    static constexpr size_t k_most = 3;
-
     StochasticSystem stochastic_;
 };
 

@@ -101,9 +101,8 @@ public:
     static Value unknown() { return {std::numeric_limits<Real>::quiet_NaN(), 0}; }
 
     /// `of` is the type of the first operand.
-    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const {
-        const auto at = [&](size_t i) { return i < operands.size() ? operands[i] : Value(); };
-        const Value a = at(0), b = at(1), c = at(2);
+    Value compute(Op op, Scalar result, Scalar of, const Operands<Value>& operands) const {
+        const auto& [a, b, c] = operands;
         switch (op) {
         case Op::select: return a.bits ? b : c;
         case Op::to_real: return {of == Scalar::signed_int ? Real(int32_t(a.bits)) : Real(a.bits), 0};
@@ -132,7 +131,7 @@ public:
     }
     static Value hull(const Value& a, const Value&) { return a; }
     /// Where the operation jumps within the operand: the two parts on the sides of the jump.
-    static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+    static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
     static bool may_be_split(const Value&) { return false; }
 
 private:

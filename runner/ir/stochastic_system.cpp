@@ -85,18 +85,16 @@ float StochasticSystem::real_number(Op op, float a, float b, float c) {
 }
 
 /// As in CADNA, the last sample rounds opposite to the one before: so three never agree by chance.
-Samples StochasticSystem::compute(Op op, Scalar result, Scalar of, std::span<const Samples> operands) {
+Samples StochasticSystem::compute(Op op, Scalar result, Scalar of, const Operands<Samples>& operands) {
+    const auto& [a, b, c] = operands;
     Samples computed;
-    std::array<Point<float>, 3> own;
     uint64_t drawn = 0;
     for (size_t sample = 0; sample < k_samples; ++sample) {
-        for (size_t i = 0; i < operands.size() && i < own.size(); ++i)
-            own[i] = operands[i][sample];
         drawn = sample + 1 == k_samples ? ~drawn : draw();
         choices_ = drawn;
         computed[sample] = gives_real(op, result, of)
-                               ? Point<float>{real_number(op, own[0].real, own[1].real, own[2].real), 0}
-                               : PointSystem<float>().compute(op, result, of, own);
+                               ? Point<float>{real_number(op, a[sample].real, b[sample].real, c[sample].real), 0}
+                               : PointSystem<float>().compute(op, result, of, {a[sample], b[sample], c[sample]});
     }
     return computed;
 }

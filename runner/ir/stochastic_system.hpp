@@ -45,7 +45,7 @@ public:
         return result;
     }
 
-    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands);
+    Value compute(Op op, Scalar result, Scalar of, const Operands<Value>& operands);
 
     /// What most samples say.
     static std::optional<bool> decide(const Value& condition);
@@ -53,7 +53,7 @@ public:
         return PointSystem<float>::range(index[0]);
     }
     static Value hull(const Value& a, const Value&) { return a; }
-    static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+    static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
 
 private:
     /// One of the two floats around it, by the next choice; a float is itself.

@@ -47,7 +47,7 @@ std::optional<Interval> derivative(Op op, const Interval& a, const Interval& val
 
 /// Of what is one whole number over the piece, and of what is a rest beside one.
 bool is_one_number(Op op, const Interval& a) {
-    return IntervalSystem().compute(op, Scalar::real, Scalar::real, std::array{a}).point();
+    return IntervalSystem().compute(op, Scalar::real, Scalar::real, {a, {}, {}}).point();
 }
 
 Interval slope_beside_jumps(Op op, const Interval& value, const Tangent& a, const Tangent& b) {
@@ -79,13 +79,17 @@ Interval slope_of_power(const Interval& value, const Tangent& a, const Tangent& 
     return value * (b.slope * increasing(std::log, a.value, 0) + b.value * a.slope / a.value);
 }
 
+Interval slope_of_product(const Tangent& a, const Tangent& b) {
+    if (a.constant())
+        return a.value * b.slope;
+    return b.constant() ? a.slope * b.value : a.slope * b.value + a.value * b.slope;
+}
+
 Interval slope_of(Op op, const Interval& value, const Tangent& a, const Tangent& b, const Tangent& c) {
-    if (const auto factor = derivative(op, a.value, value))
-        return *factor * a.slope;
     switch (op) {
-    case Op::add: return a.slope + b.slope;
-    case Op::subtract: return a.slope - b.slope;
-    case Op::multiply: return a.slope * b.value + a.value * b.slope;
+    case Op::add: return b.constant() ? a.slope : a.constant() ? b.slope : a.slope + b.slope;
+    case Op::subtract: return b.constant() ? a.slope : a.slope - b.slope;
+    case Op::multiply: return slope_of_product(a, b);
     case Op::divide: return (a.slope - value * b.slope) / b.value;
     case Op::minimum: return slope_of_smaller(a, b);
     case Op::maximum: return -slope_of_smaller(negated(a), negated(b));
@@ -100,25 +104,24 @@ Interval slope_of(Op op, const Interval& value, const Tangent& a, const Tangent&
         return !way ? everything() : *way ? b.slope : c.slope;
     }
     case Op::narrowed: return intersection(a.slope, b.slope);
-    default: return slope_beside_jumps(op, value, a, b);
+    default: break;
     }
+    if (const auto factor = derivative(op, a.value, value))
+        return *factor * a.slope;
+    return slope_beside_jumps(op, value, a, b);
 }
 
 } // namespace
 
-Tangent TangentSystem::compute(Op op, Scalar result, Scalar of, std::span<const Tangent> operands) const {
-    std::array<Interval, 3> values{};
-    std::array<Tangent, 3> at{};
-    std::ranges::copy(operands, at.begin());
-    std::ranges::transform(operands, values.begin(), &Tangent::value);
-    const Interval value =
-        IntervalSystem().compute(op, result, of, std::span(values.data(), operands.size()));
+Tangent TangentSystem::compute(Op op, Scalar result, Scalar of, const Operands<Tangent>& operands) const {
+    const auto& [a, b, c] = operands;
+    const Interval value = IntervalSystem().compute(op, result, of, {a.value, b.value, c.value});
     if (value.point() && op != Op::narrowed)
         return {value, {}};
     if (result != Scalar::real || of != Scalar::real)
-        return {value, op == Op::select ? slope_of(op, value, at[0], at[1], at[2]) : everything()};
-    const bool constant = std::ranges::all_of(operands, &Tangent::constant);
-    return {value, constant ? Interval{} : slope_of(op, value, at[0], at[1], at[2])};
+        return {value, op == Op::select ? slope_of(op, value, a, b, c) : everything()};
+    const bool constant = a.constant() && b.constant() && c.constant();
+    return {value, constant ? Interval{} : slope_of(op, value, a, b, c)};
 }
 
 } // namespace tidemark::ir

@@ -24,7 +24,7 @@ public:
     static Value number(double real) { return {IntervalSystem::number(real), {}}; }
     static Value unknown() { return {everything(), everything()}; }
 
-    Value compute(Op op, Scalar result, Scalar of, std::span<const Value> operands) const;
+    Value compute(Op op, Scalar result, Scalar of, const Operands<Value>& operands) const;
 
     static std::optional<bool> decide(const Value& condition) {
         return IntervalSystem::decide(condition.value);
@@ -34,7 +34,7 @@ public:
     }
     /// Of two cells of memory, of which either is read: the value may jump.
     static Value hull(const Value& a, const Value& b) { return {ir::hull(a.value, b.value), everything()}; }
-    static std::optional<std::pair<Value, Value>> split(Op, std::span<const Value>) { return std::nullopt; }
+    static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
     static bool may_be_split(const Value&) { return false; }
 };
 

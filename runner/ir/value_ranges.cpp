@@ -306,7 +306,8 @@ private:
             return *kept;
         const std::span<const Interval> given(numbers.data(), count);
         const Scalar of = function_.instructions[operands[0]].type;
-        const Interval range = IntervalSystem().compute(instruction.op, instruction.type, of, given);
+        const Interval range = IntervalSystem().compute(instruction.op, instruction.type, of,
+                                                        {numbers[0], numbers[1], numbers[2]});
         if (instruction.type != Scalar::real || is_exact(instruction.op) ||
             std::ranges::all_of(given, &Interval::point))
             return range;

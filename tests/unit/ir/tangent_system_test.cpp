@@ -11,23 +11,23 @@ namespace {
 
 constexpr int k_pieces = 2'000; ///< of each operation
 
-using Operands = std::array<double, 3>;
+using Numbers = std::array<double, 3>;
 
-double value_of(Op op, size_t count, const Operands& operands) {
+double value_of(Op op, size_t count, const Numbers& operands) {
     std::array<Point<double>, 3> points{};
     for (size_t i = 0; i < count; ++i)
         points[i].real = operands[i];
     return PointSystem<double>()
-        .compute(op, Scalar::real, Scalar::real, std::span(points.data(), count))
+        .compute(op, Scalar::real, Scalar::real, {points[0], points[1], points[2]})
         .real;
 }
 
 /// Operands that go straight along the ray.
 struct Straight {
-    Operands begin{}, slope{};
+    Numbers begin{}, slope{};
 
-    Operands at(double t) const {
-        Operands result{};
+    Numbers at(double t) const {
+        Numbers result{};
         for (size_t i = 0; i < result.size(); ++i)
             result[i] = begin[i] + slope[i] * t;
         return result;
@@ -40,7 +40,7 @@ Tangent tangent_of(Op op, size_t count, const Straight& operands, const Interval
         const double a = operands.at(piece.low)[i], b = operands.at(piece.high)[i];
         tangents[i] = {{std::min(a, b), std::max(a, b)}, {operands.slope[i], operands.slope[i]}};
     }
-    return TangentSystem().compute(op, Scalar::real, Scalar::real, std::span(tangents.data(), count));
+    return TangentSystem().compute(op, Scalar::real, Scalar::real, {tangents[0], tangents[1], tangents[2]});
 }
 
 void expect_mean_values(Op op, size_t count, const Straight& operands, const Interval& piece, double part) {
