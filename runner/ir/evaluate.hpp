@@ -78,8 +78,7 @@ public:
     void unpin() { pinned_.clear(); }
     /// Whatever the text computes there, it is this number.
     void pin(Value at, const Number& number) {
-        pinned_.resize(values_.size());
-        pinned_[at] = true;
+        pinned_.push_back(at);
         values_[at] = number;
     }
 
@@ -98,9 +97,7 @@ public:
         while (true) {
             const Block& here = function_->blocks[block];
             enter(block, from);
-            for (uint32_t i = here.first; i < here.last; ++i)
-                if (!is_pinned(i))
-                    execute(i, decisions);
+            execute(here, decisions);
             steps_ += here.last - here.first + 1;
             if (decisions.exhausted())
                 return Ended::undecided;
@@ -132,8 +129,15 @@ public:
     }
 
 private:
-    bool is_pinned(Value value) const { return !pinned_.empty() && pinned_[value]; }
+    bool is_pinned(Value value) const { return std::ranges::find(pinned_, value) != pinned_.end(); }
 
+    void execute(const Block& block, Decisions& decisions) {
+        const bool pinned = std::ranges::any_of(
+            pinned_, [&](Value value) { return value >= block.first && value < block.last; });
+        for (uint32_t i = block.first; i < block.last; ++i)
+            if (!pinned || !is_pinned(i))
+                execute(i, decisions);
+    }
     void execute(uint32_t index, Decisions& decisions) {
         const Instruction& instruction = function_->instructions[index];
         const auto operands = function_->operands_of(instruction);
@@ -216,7 +220,7 @@ private:
     System system_;
     std::vector<Number> values_, memory_;
     std::vector<Number> entering_;
-    std::vector<bool> pinned_; ///< empty: none
+    std::vector<Value> pinned_; ///< few
     uint64_t steps_ = 0;
 };
 

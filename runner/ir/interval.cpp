@@ -12,21 +12,6 @@ constexpr double k_largest_angle = 1e9;
 /// Beyond that not every whole number is a double.
 constexpr double k_largest_whole = 4503599627370496; // 2^52
 
-bool partial(const Interval& a, const Interval& b) {
-    return a.partial || b.partial;
-}
-
-/// a b, rounded downwards. 0 * infinity is 0: an infinite bound stands for large numbers. Exact where fma,
-/// which rounds once, finds nothing lost; that itself may be lost near the smallest numbers.
-double product_below(double a, double b) {
-    constexpr double k_smallest = 1e-290;
-    if (a == 0 || b == 0)
-        return 0;
-    const double product = a * b;
-    const bool exact = std::abs(product) > k_smallest && std::fma(a, b, -product) >= 0;
-    return exact ? product : below(product);
-}
-
 Interval of_corners(const std::array<double, 4>& corners, bool is_partial) {
     const auto [low, high] = std::ranges::minmax(corners);
     if (std::ranges::any_of(corners, [](double each) { return std::isnan(each); }))
@@ -53,15 +38,6 @@ Interval wave(double (*function)(double), const Interval& a, double top) {
     return {std::max(result.low, -1.0), std::min(result.high, 1.0), a.partial};
 }
 
-/// a + b, rounded downwards. What is lost of the sum in double is known exactly (D. E. Knuth: The Art of
-/// Computer Programming 2, 4.2.2, theorem B), so that an exact sum stays what it is.
-double sum_below(double a, double b) {
-    const double sum = a + b;
-    const double rest = sum - a;
-    const double lost = (a - (sum - rest)) + (b - rest);
-    return lost >= 0 ? sum : below(sum);
-}
-
 /// The largest whole k with k b <= a; fma tells the sign of k b - a exactly.
 double whole_multiples(double a, double b) {
     double k = std::floor(a / b);
@@ -74,15 +50,6 @@ double whole_multiples(double a, double b) {
 
 } // namespace
 
-double below(double a) {
-    constexpr double k_unit = std::numeric_limits<double>::epsilon() / 2;
-    if (a == k_infinity)
-        return std::numeric_limits<double>::max();
-    if (a == -k_infinity)
-        return a;
-    return a - (k_unit * (1 + 2 * k_unit) * std::abs(a) + std::numeric_limits<double>::denorm_min());
-}
-
 Interval widened(Interval a, int steps) {
     for (int i = 0; i < steps; ++i) {
         a.low = below(a.low);
@@ -92,43 +59,12 @@ Interval widened(Interval a, int steps) {
 }
 
 Interval hull(const Interval& a, const Interval& b) {
-    return {std::min(a.low, b.low), std::max(a.high, b.high), partial(a, b)};
+    return {std::min(a.low, b.low), std::max(a.high, b.high), a.partial || b.partial};
 }
 
 Interval intersection(const Interval& a, const Interval& b) {
     const Interval both{std::max(a.low, b.low), std::min(a.high, b.high), a.partial && b.partial};
     return a.point() || both.low > both.high ? a : both; // a float of the text's own may be off by a rounding
-}
-
-Interval operator+(const Interval& a, const Interval& b) {
-    const double low = sum_below(a.low, b.low), high = -sum_below(-a.high, -b.high);
-    return std::isnan(low) || std::isnan(high) ? everything() : Interval{low, high, partial(a, b)};
-}
-
-Interval operator-(const Interval& a) {
-    return {-a.high, -a.low, a.partial};
-}
-
-Interval operator-(const Interval& a, const Interval& b) {
-    return a + -b;
-}
-
-/// The least product, rounded downwards: signs tell which bounds it is of.
-static double least_product(const Interval& a, const Interval& b) {
-    if (a.low >= 0)
-        return product_below(b.low >= 0 ? a.low : a.high, b.low);
-    if (a.high <= 0)
-        return product_below(b.high <= 0 ? a.high : a.low, b.high);
-    if (b.low >= 0)
-        return product_below(a.low, b.high);
-    if (b.high <= 0)
-        return product_below(a.high, b.low);
-    return std::min(product_below(a.low, b.high), product_below(a.high, b.low));
-}
-
-Interval operator*(const Interval& a, const Interval& b) {
-    const double low = least_product(a, b), high = -least_product(-a, b);
-    return std::isnan(low) || std::isnan(high) ? everything() : Interval{low, high, partial(a, b)};
 }
 
 /// a / b where 0 is a bound of b: the quotient is not bounded on one side.
@@ -144,31 +80,8 @@ Interval operator/(const Interval& a, const Interval& b) {
         return everything();
     if (b.low == 0 || b.high == 0)
         return beside_pole(a, b);
-    return of_corners({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high}, partial(a, b));
-}
-
-Interval absolute(const Interval& a) {
-    if (a.low >= 0)
-        return a;
-    if (a.high <= 0)
-        return -a;
-    return {0, std::max(-a.low, a.high), a.partial};
-}
-
-Interval square(const Interval& a) {
-    const Interval size = absolute(a);
-    return {product_below(size.low, size.low), -product_below(-size.high, size.high), a.partial};
-}
-
-Interval minimum(const Interval& a, const Interval& b) {
-    const double low = std::min(a.low, b.low);
-    if (partial(a, b)) // of NaN and a number it may be the number
-        return {low, std::max(a.partial ? b.high : a.high, b.partial ? a.high : b.high), true};
-    return {low, std::min(a.high, b.high)};
-}
-
-Interval maximum(const Interval& a, const Interval& b) {
-    return -minimum(-a, -b);
+    return of_corners({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high},
+                      a.partial || b.partial);
 }
 
 Interval sign(const Interval& a) {
@@ -216,7 +129,7 @@ Interval modulo(const Interval& a, const Interval& b) {
     const double first = std::floor(turns.low);
     if (std::isfinite(first) && first == std::floor(turns.high))
         return a - b * Interval{first, first};
-    return {std::min(b.low, 0.0), std::max(b.high, 0.0), partial(a, b)};
+    return {std::min(b.low, 0.0), std::max(b.high, 0.0), a.partial || b.partial};
 }
 
 Interval whole_multiple(const Interval& a, const Interval& b) {
@@ -231,7 +144,7 @@ Interval whole_multiple(const Interval& a, const Interval& b) {
 
 Interval nearest_rest(const Interval& a, const Interval& b) {
     if (!b.point() || b.low <= 0)
-        return everything(partial(a, b) || b.contains(0));
+        return everything(a.partial || b.partial || b.contains(0));
     const Interval half{b.low / 2, b.low / 2};
     Interval moved = a + half; // x modulo y, from -y / 2 on
     moved.from_below = a.from_below;
@@ -266,12 +179,12 @@ Interval atan2(const Interval& a, const Interval& b) {
     const bool above_cut = a.from_above && a.low == 0 && b.high < 0;
     const bool below_cut = a.from_below && a.high == 0 && b.high < 0;
     if (a.contains(0) && b.low <= 0 && !above_cut && !below_cut)
-        return {below(-k_pi), above(k_pi), partial(a, b) || b.high >= 0};
+        return {below(-k_pi), above(k_pi), a.partial || b.partial || b.high >= 0};
     const double a_low = above_cut ? 0.0 : a.low, a_high = below_cut ? -0.0 : a.high;
     const std::array<double, 4> corners{std::atan2(a_low, b.low), std::atan2(a_low, b.high),
                                         std::atan2(a_high, b.low), std::atan2(a_high, b.high)};
     const auto [low, high] = std::ranges::minmax(corners);
-    return widened({low, high, partial(a, b)}, k_library_ulps);
+    return widened({low, high, a.partial || b.partial}, k_library_ulps);
 }
 
 Interval cosh(const Interval& a) {
@@ -289,7 +202,7 @@ Interval pow(const Interval& a, const Interval& b) {
     const bool undefined = a.low < 0 || (base == 0 && b.low <= 0);
     const std::array<double, 4> corners{std::pow(base, b.low), std::pow(base, b.high),
                                         std::pow(a.high, b.low), std::pow(a.high, b.high)};
-    Interval result = of_corners(corners, partial(a, b) || undefined);
+    Interval result = of_corners(corners, a.partial || b.partial || undefined);
     result = widened(result, k_library_ulps - 1);
     result.low = std::max(result.low, 0.0);
     return result;

@@ -9,7 +9,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace tidemark::ir {
@@ -31,9 +33,42 @@ inline constexpr double k_infinity = std::numeric_limits<double>::infinity();
 inline constexpr int k_library_ulps = 3;
 
 /// A number below `a`, by one or two steps.
-double below(double a);
+inline double below(double a) {
+    constexpr double k_unit = std::numeric_limits<double>::epsilon() / 2;
+    if (a == k_infinity)
+        return std::numeric_limits<double>::max();
+    if (a == -k_infinity)
+        return a;
+    return a - (k_unit * (1 + 2 * k_unit) * std::abs(a) + std::numeric_limits<double>::denorm_min());
+}
 inline double above(double a) {
     return -below(-a);
+}
+
+/// a + b, rounded downwards. What is lost of the sum in double is known exactly (D. E. Knuth: The Art of
+/// Computer Programming 2, 4.2.2, theorem B), so that an exact sum stays what it is.
+inline double sum_below(double a, double b) {
+    const double sum = a + b;
+    const double rest = sum - a;
+    const double lost = (a - (sum - rest)) + (b - rest);
+    return lost >= 0 ? sum : below(sum);
+}
+
+/// Whether the product in double is sure to be exact: of two floats it is, and by a power of two.
+inline bool is_exact_product(double a, double b, double product) {
+    constexpr double k_smallest = 1e-290; // below that, what is lost may be lost itself
+    constexpr uint64_t k_fraction = (uint64_t{1} << 52) - 1, k_beyond_float = (uint64_t{1} << 29) - 1;
+    const auto of_a = std::bit_cast<uint64_t>(a), of_b = std::bit_cast<uint64_t>(b);
+    const bool floats = ((of_a | of_b) & k_beyond_float) == 0;
+    return (floats || (of_a & k_fraction) == 0 || (of_b & k_fraction) == 0) && std::abs(product) > k_smallest;
+}
+
+/// a b, rounded downwards. 0 * infinity is 0: an infinite bound stands for large numbers.
+inline double product_below(double a, double b) {
+    if (a == 0 || b == 0)
+        return 0;
+    const double product = a * b;
+    return is_exact_product(a, b, product) ? product : below(product);
 }
 
 inline Interval everything(bool partial = true) {
@@ -45,16 +80,55 @@ Interval hull(const Interval& a, const Interval& b);
 /// Of two bounds of one number.
 Interval intersection(const Interval& a, const Interval& b);
 
-Interval operator+(const Interval& a, const Interval& b);
-Interval operator-(const Interval& a, const Interval& b);
-Interval operator-(const Interval& a);
-Interval operator*(const Interval& a, const Interval& b);
+inline Interval operator-(const Interval& a) {
+    return {-a.high, -a.low, a.partial};
+}
+inline Interval operator+(const Interval& a, const Interval& b) {
+    const double low = sum_below(a.low, b.low), high = -sum_below(-a.high, -b.high);
+    return std::isnan(low) || std::isnan(high) ? everything() : Interval{low, high, a.partial || b.partial};
+}
+inline Interval operator-(const Interval& a, const Interval& b) {
+    return a + -b;
+}
+
+/// The least product, rounded downwards: signs tell which bounds it is of.
+inline double least_product(const Interval& a, const Interval& b) {
+    if (a.low >= 0)
+        return product_below(b.low >= 0 ? a.low : a.high, b.low);
+    if (a.high <= 0)
+        return product_below(b.high <= 0 ? a.high : a.low, b.high);
+    if (b.low >= 0)
+        return product_below(a.low, b.high);
+    if (b.high <= 0)
+        return product_below(a.high, b.low);
+    return std::min(product_below(a.low, b.high), product_below(a.high, b.low));
+}
+inline Interval operator*(const Interval& a, const Interval& b) {
+    const double low = least_product(a, b), high = -least_product(-a, b);
+    return std::isnan(low) || std::isnan(high) ? everything() : Interval{low, high, a.partial || b.partial};
+}
 Interval operator/(const Interval& a, const Interval& b);
 
-Interval square(const Interval& a);
-Interval absolute(const Interval& a);
-Interval minimum(const Interval& a, const Interval& b);
-Interval maximum(const Interval& a, const Interval& b);
+inline Interval absolute(const Interval& a) {
+    if (a.low >= 0)
+        return a;
+    if (a.high <= 0)
+        return -a;
+    return {0, std::max(-a.low, a.high), a.partial};
+}
+inline Interval square(const Interval& a) {
+    const Interval size = absolute(a);
+    return {product_below(size.low, size.low), -product_below(-size.high, size.high), a.partial};
+}
+inline Interval minimum(const Interval& a, const Interval& b) {
+    const double low = std::min(a.low, b.low);
+    if (a.partial || b.partial) // of NaN and a number it may be the number
+        return {low, std::max(a.partial ? b.high : a.high, b.partial ? a.high : b.high), true};
+    return {low, std::min(a.high, b.high)};
+}
+inline Interval maximum(const Interval& a, const Interval& b) {
+    return -minimum(-a, -b);
+}
 Interval sign(const Interval& a);
 Interval sqrt(const Interval& a);
 Interval inverse_sqrt(const Interval& a);

@@ -220,8 +220,8 @@ Interval bits_as(const Interval& a, Scalar of, Scalar result) {
     return {number(a.low), number(a.high)};
 }
 
-/// Where the operation on an operand jumps, `period` being the other: at first + k unit for every whole k; a unit of 0: at `first` alone. Whether it
-/// has another value there than below, and than above.
+/// Where the operation on an operand jumps, `period` being the other: at first + k unit for every whole k; a
+/// unit of 0: at `first` alone. Whether it has another value there than below, and than above.
 struct Jumps {
     double first = 0, unit = 1;
     bool from_below = true, from_above = false;

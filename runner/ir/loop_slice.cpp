@@ -138,9 +138,8 @@ private:
         });
     }
     bool is_changed(Value load) const {
-        return std::ranges::any_of(stores_, [&](Value store) {
-            return roles_[store] == Role::turn && may_change(store, load);
-        });
+        return std::ranges::any_of(
+            stores_, [&](Value store) { return roles_[store] == Role::turn && may_change(store, load); });
     }
 
     void number_all() {
@@ -186,8 +185,7 @@ private:
     }
     bool is_access(Value value) const {
         const Instruction& instruction = whole_.instructions[value];
-        return roles_[value] != Role::input &&
-               (instruction.op == Op::load || instruction.op == Op::store);
+        return roles_[value] != Role::input && (instruction.op == Op::load || instruction.op == Op::store);
     }
 
     void write_blocks() {

@@ -17,13 +17,6 @@ constexpr uint64_t k_most_steps = 2'000'000;
 /// Instructions that count as one run: a field of seven octaves has a thousand.
 constexpr uint64_t k_long_run = 20'000;
 
-Interval difference(const Interval& distance, const Interval& threshold) {
-    return distance - threshold;
-}
-Tangent difference(const Tangent& distance, const Tangent& threshold) {
-    return {distance.value - threshold.value, distance.slope - threshold.slope};
-}
-
 /// What is looked up at a place that changes may have any slope.
 Textures<Tangent> with_slopes(const Textures<Interval>& textures) {
     return [textures](const Lookup& lookup, std::span<const Tangent> operands) {
@@ -74,16 +67,15 @@ double MarchSlice::unit() const {
 }
 
 template <class System>
-std::optional<typename System::Value> MarchSlice::run(LoopTurn<System>& turn,
-                                                      const std::vector<typename System::Value>& places,
-                                                      Decisions& decisions, Surface surface) {
+auto MarchSlice::run(LoopTurn<System>& turn, const std::vector<typename System::Value>& places,
+                     Decisions& decisions) -> std::optional<Compared<typename System::Value>> {
     const Ended ended = turn.run(places, decisions);
     evaluations_ += 1 + turn.evaluator().steps() / k_long_run;
     if (ended == Ended::left || ended == Ended::discarded)
         return std::nullopt;
     if (ended != Ended::stopped)
-        return System::unknown();
-    return difference(turn.distance(), surface == Surface::zero ? System::number(0) : turn.threshold());
+        return Compared<typename System::Value>{System::unknown(), System::unknown()};
+    return Compared<typename System::Value>{turn.distance(), turn.threshold()};
 }
 
 double MarchSlice::end(const March& march) const {
@@ -100,20 +92,28 @@ Interval MarchSlice::place(size_t carried, const Interval& parameter) const {
            Interval{factor_[carried], factor_[carried]} * parameter;
 }
 
-std::optional<Interval> MarchSlice::bounds(const Interval& parameter, Care care, Surface surface) {
+std::optional<Interval> MarchSlice::distance(const Interval& parameter, Care care) {
+    const auto found = distances(parameter, care);
+    return found ? std::optional(found->own) : std::nullopt;
+}
+
+auto MarchSlice::distances(const Interval& parameter, Care care) -> std::optional<Distances> {
     std::vector<Interval> places;
     for (size_t i = 0; i < loop_->carried.size(); ++i)
         places.push_back(place(i, parameter));
     intervals_.evaluator().splits = care != Care::quick;
     const int most_ways = care == Care::thorough ? k_many_ways : k_few_ways;
     Decisions decisions(k_most_decisions);
-    std::optional<Interval> all;
+    std::optional<Distances> all;
     for (int way = 0; way == 0 || decisions.next(); ++way) {
-        const auto one = run(intervals_, places, decisions, surface);
+        const auto one = run(intervals_, places, decisions);
         if (way == most_ways || decisions.exhausted())
-            return everything(false); // too many ways: too many jumps
-        if (one)
-            all = all ? hull(*all, *one) : *one;
+            return Distances{everything(false), everything(false)}; // too many ways: too many jumps
+        if (!one)
+            continue;
+        const Interval above = one->distance - one->threshold;
+        const Interval own = surface_ == Surface::zero ? one->distance : above;
+        all = all ? Distances{hull(all->own, own), hull(all->above_threshold, above)} : Distances{own, above};
     }
     return all;
 }
@@ -123,9 +123,13 @@ std::optional<Tangent> MarchSlice::tangent(const Interval& parameter) {
     for (size_t i = 0; i < loop_->carried.size(); ++i)
         places.push_back({place(i, parameter), {factor_[i], factor_[i]}});
     Decisions none(0);
-    auto found = run(tangents_, places, none, surface_);
-    const bool known = found && !none.exhausted() && !found->value.partial && std::isfinite(found->slope.low);
-    return known ? found : std::nullopt;
+    const auto found = run(tangents_, places, none);
+    if (!found || none.exhausted())
+        return std::nullopt;
+    const auto& [distance, threshold] = *found;
+    const Tangent above{distance.value - threshold.value, distance.slope - threshold.slope};
+    const Tangent own = surface_ == Surface::zero ? distance : above;
+    return !own.value.partial && std::isfinite(own.slope.low) ? std::optional(own) : std::nullopt;
 }
 
 bool MarchSlice::excludes_hit(const std::optional<Interval>& distance) const {

@@ -55,13 +55,13 @@ public:
 
     /// Bounds, over that piece of the ray, of what is negative behind the surface; `partial` where NaN or an
     /// infinity may come of it. Nothing where the loop is left before it measures.
-    std::optional<Interval> distance(const Interval& parameter, Care care) {
-        return bounds(parameter, care, surface_);
-    }
-    /// Of distance - threshold, whatever the surface is.
-    std::optional<Interval> above_threshold(const Interval& parameter, Care care) {
-        return bounds(parameter, care, Surface::threshold);
-    }
+    std::optional<Interval> distance(const Interval& parameter, Care care);
+    /// That, and the distance above the loop's threshold, whatever the surface is.
+    struct Distances {
+        Interval own;
+        Interval above_threshold;
+    };
+    std::optional<Distances> distances(const Interval& parameter, Care care);
     /// The same with bounds of its slope, where all conditions are decided and nothing jumps: nothing else.
     std::optional<Tangent> tangent(const Interval& parameter);
 
@@ -72,11 +72,15 @@ public:
     uint64_t evaluations() const { return evaluations_; }
 
 private:
-    std::optional<Interval> bounds(const Interval& parameter, Care care, Surface surface);
+    /// What a turn compares.
+    template <class Number>
+    struct Compared {
+        Number distance, threshold;
+    };
     template <class System>
-    std::optional<typename System::Value> run(LoopTurn<System>& turn,
-                                              const std::vector<typename System::Value>& places,
-                                              Decisions& decisions, Surface surface);
+    std::optional<Compared<typename System::Value>> run(LoopTurn<System>& turn,
+                                                        const std::vector<typename System::Value>& places,
+                                                        Decisions& decisions);
     Interval place(size_t carried, const Interval& parameter) const;
 
     const MarchingLoop* loop_;

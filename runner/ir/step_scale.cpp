@@ -60,18 +60,16 @@ private:
         sample(low);
         const Interval piece{low, high};
         const Care care = high - low < way_ * k_looked_at ? Care::close : Care::quick;
-        const auto above = slice_.above_threshold(piece, care);
-        if (above && !(above->partial || above->high > 0))
-            return; // the march stops here
-        if (above)
-            pieces_.push({low, high, std::max(by_bounds(piece, care), by_slope(piece))});
+        const auto found = slice_.distances(piece, care);
+        if (!found)
+            return;
+        const Interval& above = found->above_threshold;
+        if (above.partial || above.high > 0) // else the march stops here
+            pieces_.push({low, high, std::max(by_bounds(piece, found->own), by_slope(piece))});
     }
 
-    double by_bounds(const Interval& piece, Care care) {
-        const auto distance = slice_.distance(piece, care);
-        if (!distance)
-            return k_infinity;
-        return distance->partial || !(distance->high > 0) ? 0 : (hit_.low - piece.high) / distance->high;
+    double by_bounds(const Interval& piece, const Interval& distance) const {
+        return distance.partial || !(distance.high > 0) ? 0 : (hit_.low - piece.high) / distance.high;
     }
 
     /// By the mean value theorem: the distance is at most so many times the way to its zero.
@@ -83,11 +81,10 @@ private:
     }
 
     void sample(double at) {
-        const auto distance = slice_.distance(place_at(at), Care::close);
-        const auto above = slice_.above_threshold(place_at(at), Care::close);
-        if (!distance || !above || distance->partial || !(above->low > 0) || !(distance->low > 0))
+        const auto found = slice_.distances(place_at(at), Care::close);
+        if (!found || found->own.partial || !(found->above_threshold.low > 0) || !(found->own.low > 0))
             return;
-        const double needed = (hit_.high - at) / distance->low;
+        const double needed = (hit_.high - at) / found->own.low;
         if (needed < found_.unsafe) {
             found_.unsafe = needed;
             found_.at = at;

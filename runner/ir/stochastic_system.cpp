@@ -92,9 +92,10 @@ Samples StochasticSystem::compute(Op op, Scalar result, Scalar of, const Operand
     for (size_t sample = 0; sample < k_samples; ++sample) {
         drawn = sample + 1 == k_samples ? ~drawn : draw();
         choices_ = drawn;
-        computed[sample] = gives_real(op, result, of)
-                               ? Point<float>{real_number(op, a[sample].real, b[sample].real, c[sample].real), 0}
-                               : PointSystem<float>().compute(op, result, of, {a[sample], b[sample], c[sample]});
+        computed[sample] =
+            gives_real(op, result, of)
+                ? Point<float>{real_number(op, a[sample].real, b[sample].real, c[sample].real), 0}
+                : PointSystem<float>().compute(op, result, of, {a[sample], b[sample], c[sample]});
     }
     return computed;
 }

@@ -15,10 +15,9 @@ FirstHit hit_of(const std::string& field, float x, double last = 20,
     const auto loops = find_marching_loops(function);
     EXPECT_EQ(loops.size(), 1u) << field;
     const LoopSlice turn = slice_of(function, loops.at(0));
-    MarchSlice slice(turn, entered(function, loops, x),
-                     [](const Lookup&, std::span<const Interval>) {
-                         return Interval{0, 1};
-                     });
+    MarchSlice slice(turn, entered(function, loops, x), [](const Lookup&, std::span<const Interval>) {
+        return Interval{0, 1};
+    });
     return first_hit(slice, last);
 }
 
