@@ -58,7 +58,7 @@ class Time(OverlayTest):
         self.write("count.glsl", COUNT.format(""))
         view = self.open_controls(probe.shader(COUNTED, '#iChannel0 "count.glsl"'))
         view.click_bar(PAUSE)
-        for seconds in ("5", "3", "0"):
+        for seconds in ("5", "3", "11.5", "0"):
             view.type_time(seconds)
             told = view.wait_until_told(COUNTED, lambda told: abs(told["iTime"] - float(seconds)) < 0.01)
             self.assertEqual(told["count"], 60 * float(seconds) + 1)

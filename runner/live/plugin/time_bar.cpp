@@ -45,12 +45,26 @@ void draw_speed(TimeField& time, Commands& commands) {
         commands.emplace_back(SetSpeed{time.speed});
 }
 
+/// A number that is typed is gone to when it is whole: the way to its first digit would take the bar away.
 void draw_scrubber(TimeField& time, Commands& commands) {
     constexpr double k_begin = 0;
+    constexpr float k_nothing = -1;
     const double end = bar_end(time);
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID typed = ImGui::GetID("typed time");
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time.seconds, &k_begin, &end, "%.2f s"))
-        commands.emplace_back(Seek{std::max(time.seconds, 0.0)});
+    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time.seconds, &k_begin, &end, "%.2f s")) {
+        const double wanted = std::max(time.seconds, 0.0);
+        if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
+            commands.emplace_back(Seek{wanted});
+        else
+            kept.SetFloat(typed, float(wanted));
+    }
+    if (!ImGui::IsItemDeactivated())
+        return;
+    if (const float wanted = kept.GetFloat(typed, k_nothing); wanted >= 0)
+        commands.emplace_back(Seek{wanted});
+    kept.SetFloat(typed, k_nothing);
 }
 
 void draw_clock(TimeField& time, Commands& commands) {
