@@ -30,6 +30,7 @@ using Clock = ChildProcess::Clock;
 
 constexpr int k_patience_ms = 60000;
 constexpr int k_longest_wait_ms = 1 << 30;
+constexpr size_t k_pipe_holds = size_t{1} << 16;
 constexpr std::string_view k_too_long = "the program that was started takes too long";
 
 std::string reason(int error_number) {
@@ -171,8 +172,11 @@ ChildProcess::~ChildProcess() {
 }
 
 void ChildProcess::read_words(std::string& words) {
+    if (words.size() > most_words_)
+        words.erase(0, words.size() - most_words_);
     std::array<char, 4096> block;
-    while (words_ >= 0) {
+    // No more than a pipe holds: who writes without end is not listened to without end.
+    for (size_t left = k_pipe_holds; words_ >= 0 && left > 0; left -= block.size()) {
         const ssize_t count = read_some(words_, block.data(), block.size());
         if (count > 0)
             words.append(block.data(), size_t(count));
@@ -202,6 +206,8 @@ bool ChildProcess::write(std::span<const std::byte> bytes, std::string& words) {
 
 Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words, Clock::time_point until) {
     while (output_ >= 0) {
+        if (Clock::now() >= until)
+            return fail(ErrorCode::timed_out, std::string(k_too_long));
         read_words(words);
         const ssize_t count = read_some(output_, to.data(), to.size());
         if (count > 0)
@@ -212,10 +218,8 @@ Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words, C
         }
         std::array<pollfd, 2> wait = {{{output_, POLLIN, 0}, {words_, POLLIN, 0}}};
         const int ready = ::poll(wait.data(), wait.size(), wait_ms(until));
-        if (ready == 0)
-            return until == Clock::time_point::max()
-                       ? fail(ErrorCode::load, "the program that was started says nothing for a minute")
-                       : fail(ErrorCode::timed_out, std::string(k_too_long));
+        if (ready == 0 && until == Clock::time_point::max())
+            return fail(ErrorCode::load, "the program that was started says nothing for a minute");
     }
     read_words(words);
     return size_t{0};
@@ -246,6 +250,7 @@ bool ChildProcess::succeeded() {
 Result<std::string> output_of(const std::vector<std::string>& arguments, const OutputLimits& limits,
                               std::string_view advice) {
     ChildProcess child = TRY(ChildProcess::start(arguments, ChildProcess::Input::none, advice));
+    child.most_words_ = k_pipe_holds;
     std::string output, words;
     std::array<std::byte, 1 << 14> block;
     while (const size_t count = TRY(child.read(block, words, limits.until))) {

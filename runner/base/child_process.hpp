@@ -17,6 +17,11 @@
 
 namespace tidemark {
 
+struct OutputLimits {
+    size_t bytes;
+    std::chrono::steady_clock::time_point until = std::chrono::steady_clock::time_point::max();
+};
+
 /// The child's standard output and error are read here; its standard input is empty, or written here. It is
 /// in a process group of its own, so that Ctrl-C in the terminal does not cut off its output.
 class ChildProcess {
@@ -32,12 +37,13 @@ public:
     ChildProcess(ChildProcess&& other) noexcept
         : process_(std::exchange(other.process_, -1)), input_(std::exchange(other.input_, -1)),
           output_(std::exchange(other.output_, -1)), words_(std::exchange(other.words_, -1)),
-          leftover_(std::move(other.leftover_)) {}
+          most_words_(other.most_words_), leftover_(std::move(other.leftover_)) {}
     ChildProcess& operator=(ChildProcess&& other) noexcept {
         std::swap(process_, other.process_);
         std::swap(input_, other.input_);
         std::swap(output_, other.output_);
         std::swap(words_, other.words_);
+        std::swap(most_words_, other.most_words_);
         std::swap(leftover_, other.leftover_);
         return *this;
     }
@@ -66,6 +72,8 @@ public:
     bool succeeded();
 
 private:
+    friend Result<std::string> output_of(const std::vector<std::string>&, const OutputLimits&,
+                                         std::string_view);
     ChildProcess() = default;
     void close_pipes();
 
@@ -73,12 +81,8 @@ private:
     int input_ = -1;
     int output_ = -1;
     int words_ = -1;
+    size_t most_words_ = std::string::npos; ///< bytes; beyond, the oldest are forgotten
     Leftover leftover_;
-};
-
-struct OutputLimits {
-    size_t bytes;
-    ChildProcess::Clock::time_point until = ChildProcess::Clock::time_point::max();
 };
 
 /// All that a program prints on standard output. Fails when it fails: the message is the last line of its

@@ -28,14 +28,12 @@ bool is_document(const fs::path& path) {
     return ending == ".json" || ending == ".html" || ending == ".htm" || ::access(path.c_str(), X_OK) != 0;
 }
 
-/// One word where that is a file's name, however many blanks it has.
+/// One word where that is the path of a file, however many blanks it has. A name without a folder is looked
+/// for in PATH alone, as shells do: what lies in the current folder may be a stranger's.
 std::vector<std::string> words_of(const std::string& command) {
     std::error_code ignored;
-    if (!fs::is_regular_file(command, ignored))
-        return split_words(command);
-    const bool has_folder =
-        command.find('/') != command.npos; // without, the name would be looked for in PATH
-    return {has_folder ? command : "./" + command};
+    const bool is_path = command.find('/') != command.npos && fs::is_regular_file(command, ignored);
+    return is_path ? std::vector{command} : split_words(command);
 }
 
 /// What the command prints for that ID.

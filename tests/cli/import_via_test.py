@@ -60,7 +60,12 @@ class OfACommand(Via):
     def test_a_program_with_blanks_in_its_name(self) -> None:
         self.program(f"print({json.dumps(PROJECT)!r})")
         (self.folder / "fetch").rename(self.folder / "my fetch")
-        self.imported("abCD12", "--via", "my fetch")
+        self.imported("abCD12", "--via", "./my fetch")
+
+    def test_what_lies_in_the_current_folder_is_run_by_its_path_alone(self) -> None:
+        self.program("open('ran', 'w')")
+        self.expect_failure_like(["import", "abCD12", "--via", "fetch"], 3,
+                                 "tidemark: error: 'fetch abCD12': there is no program 'fetch' in PATH: .*")
 
     def test_that_fails(self) -> None:
         self.program("sys.exit('first\\nno such shader')")

@@ -57,6 +57,12 @@ class Named(ProgramTest):
             self.succeed("new", kind[2:], kind)
             self.assertEqual({file.name for file in (self.folder / kind[2:]).iterdir()}, files)
 
+    def test_a_folder_may_end_in_a_slash(self) -> None:
+        self.succeed("new", "pond/", "--buffers")
+        self.assertTrue((self.folder / "pond/image.glsl").is_file())
+        self.expect_failure(["new", "pond/"], 2,
+                            "tidemark: error: 'pond/' is no name: give one as in `tidemark new waves`")
+
     def test_nothing_is_written_over(self) -> None:
         self.write("a.glsl", "mine")
         self.write("b/mine.txt", "mine")

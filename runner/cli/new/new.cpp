@@ -29,21 +29,24 @@ struct NewOptions {
 Result<const SceneTemplate*> template_of(const NewOptions& options) {
     if (options.chosen.empty())
         return &scene_templates().front();
-    if (options.chosen.front() != options.chosen.back())
-        return fail(ErrorCode::usage, fmt::format("{} and {} are two scenes: give one of them",
-                                                  options.chosen.front()->flag, options.chosen.back()->flag));
-    return options.chosen.front();
+    const SceneTemplate* first = options.chosen.front();
+    for (const SceneTemplate* other : options.chosen)
+        if (other != first)
+            return fail(ErrorCode::usage,
+                        fmt::format("{} and {} are two scenes: give one of them", first->flag, other->flag));
+    return first;
 }
 
 /// NAME is a folder's, or that of a file with or without its ending.
-Result<fs::path> scene_path(const fs::path& name, const SceneTemplate& scene) {
+Result<fs::path> scene_path(fs::path name, const SceneTemplate& scene) {
+    if (scene.is_folder() && name.filename().empty())
+        name = name.parent_path(); // pond/
     if (name.filename().empty() || name.filename() == "." || name.filename() == "..")
         return fail(ErrorCode::usage,
                     fmt::format("'{}' is no name: give one as in `tidemark new waves`", name.string()));
     if (scene.is_folder() || name.extension() == ".glsl" || name.extension() == ".frag")
         return name;
-    fs::path file = name;
-    return file += ".glsl";
+    return name += ".glsl";
 }
 
 /// Also a link that leads nowhere is somebody's.
