@@ -1,11 +1,10 @@
 # CHANGELOG.md, the one place where the version and what is new stand, in the forms that others want.
 # Versions are `## 1.2.3 (2026-11-22)`, with `* ` items below them; what a line begins with two blanks goes on.
-set(changelog ${CMAKE_CURRENT_LIST_DIR}/../../CHANGELOG.md)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${changelog})
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../../CHANGELOG.md)
 
 # Sets `variable` to the newest version.
 function(newest_version variable)
-  file(STRINGS ${changelog} heading REGEX "^## " LIMIT_COUNT 1)
+  file(STRINGS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../CHANGELOG.md heading REGEX "^## " LIMIT_COUNT 1)
   if(NOT heading MATCHES "^## ([0-9]+\\.[0-9]+\\.[0-9]+) \\([0-9]+-[0-9]+-[0-9]+\\)$")
     message(FATAL_ERROR "CHANGELOG.md: '${heading}' is no version; write it as in '## 1.2.3 (2026-11-22)'")
   endif()
@@ -16,7 +15,7 @@ endfunction()
 function(debian_changelog variable maintainer)
   set(text "")
   set(signature "")
-  file(STRINGS ${changelog} lines REGEX "^(## |[*] |  )")
+  file(STRINGS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../CHANGELOG.md lines REGEX "^(## |[*] |  )")
   foreach(line IN LISTS lines)
     if(line MATCHES "^## (.*) \\((.*)\\)$")
       string(APPEND text "${signature}tidemark (${CMAKE_MATCH_1}) stable; urgency=medium\n\n")

@@ -1,5 +1,5 @@
 // The scenes that `new` begins with, as texts: they are the files of scenes/, and lie in the program
-// (runner/CMakeLists.txt).
+// (runner/CMakeLists.txt). Another one is its files, their names there, and a row in the table beside this.
 #pragma once
 
 #include <span>

@@ -2,7 +2,8 @@
 //
 // The march is the library's (`tidemark help library`): this text says how far away the water is at least, in
 // march_field, and SOLVER says how that is used. `tidemark check` proves where rays first hit and whether a step can
-// pass a wave; `tidemark study` draws error against run time over the knobs. Lengths are metres, angles radians.
+// pass a wave; `tidemark study FILE --vary SOLVER=MARCH_SPHERE,MARCH_BRACKET --vary MAX_STEPS=16,64,256` draws error
+// against run time. Lengths are metres, angles radians.
 
 #define SOLVER MARCH_BRACKET // or MARCH_SPHERE, MARCH_ENHANCED, MARCH_AUTO, MARCH_CERTIFIED, MARCH_FIXED
 #define MAX_STEPS 512        // field samples along a ray
