@@ -40,7 +40,7 @@ ROOMS = {
             "check": ["", "march", "trace"]},
     # What runs in a browser, and includes nothing.
     "web": {"": [], "host": []},
-    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""], "lsp": [""]},
+    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""], "lsp": [""], "new": [""]},
 }
 
 # Modules whose files (a .cpp and its .hpp count as one) never lead back to where they started.

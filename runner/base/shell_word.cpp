@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tidemark {
 namespace {
 
@@ -46,6 +48,17 @@ std::string shell_words(std::span<const std::string> words) {
     for (const std::string& word : words)
         line += (line.empty() ? "" : " ") + shell_word(word);
     return line;
+}
+
+std::vector<std::string> split_words(std::string_view words) {
+    std::vector<std::string> found;
+    while (true) {
+        words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
+        if (words.empty())
+            return found;
+        found.emplace_back(words.substr(0, words.find(' ')));
+        words.remove_prefix(found.back().size());
+    }
 }
 
 } // namespace tidemark

@@ -1,9 +1,10 @@
-// Words of a command line that is printed for a person to run again.
+// Words of a command line: one that is printed for a person to run again, one that a person named.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tidemark {
 
@@ -13,5 +14,8 @@ std::string shell_word(std::string_view word);
 
 /// Several, with blanks between them.
 std::string shell_words(std::span<const std::string> words);
+
+/// What stands between blanks, as in `EDITOR="code --wait"`: nothing is quoted, and no shell looks at it.
+std::vector<std::string> split_words(std::string_view words);
 
 } // namespace tidemark

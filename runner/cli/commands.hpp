@@ -26,6 +26,7 @@ void add_check(CLI::App& app, Action& chosen);
 void add_import(CLI::App& app, Action& chosen);
 void add_gather(CLI::App& app, Action& chosen);
 void add_export(CLI::App& app, Action& chosen);
+void add_new(CLI::App& app, Action& chosen);
 void add_lsp(CLI::App& app, Action& chosen);
 void add_bake(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);

@@ -4,7 +4,8 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
-#include "cli/output_name.hpp"
+#include "cli/project_source.hpp"
+#include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "scene/project_files.hpp"
 
@@ -29,7 +30,7 @@ constexpr const char* k_receipt = ".tidemark-import";
 using Receipt = std::map<std::string, std::string>; ///< SHA-256 by file
 
 struct ImportOptions {
-    fs::path file;
+    ProjectSource source;
     fs::path folder;
     bool force = false;
     bool json = false;
@@ -82,10 +83,9 @@ Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool
 }
 
 Result<int> import(const ImportOptions& options) {
-    const auto json = TRY(read_file(options.file));
-    const auto files = TRY(scene::split_project(json, options.file.string()));
-    const OutputPath output =
-        OutputPath::typed_or(options.folder, name_after_scene(options.file, "")).sparing({options.file});
+    const auto project = TRY(find_project(options.source));
+    const auto files = TRY(scene::split_project(project.json, project.from));
+    const OutputPath output = OutputPath::typed_or(options.folder, project.name).sparing(project.read);
     TRY(make_folder(output));
     const fs::path& folder = output.path();
     const Receipt old = read_receipt(folder);
@@ -117,10 +117,23 @@ Result<int> import(const ImportOptions& options) {
 
 void add_import(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ImportOptions>();
-    CLI::App* command = app.add_subcommand("import", "Makes a scene folder of ShaderToy's JSON");
-    command->add_option("FILE", options->file, "A project as ShaderToy's API or site gives it")->required();
-    command->add_option("-o,--output", options->folder, "Folder (default: the name of the file)")
+    CLI::App* command = app.add_subcommand("import", "Makes a scene folder of a ShaderToy project");
+    command
+        ->add_option("FILE", options->source.project,
+                     "A project's JSON or a saved page of it; with --via its ID or address")
+        ->required();
+    command->add_option("-o,--output", options->folder, "Folder (default: the name of the file, or the ID)")
         ->type_name("FOLDER");
+    CLI::Option* via = command->add_option(
+        "--via", options->source.via, "A file that holds the project, or a program of yours that prints it");
+    via->type_name("FILE|COMMAND");
+    command
+        ->add_option("--timeout", options->source.timeout,
+                     "Gives the command of --via up after so many seconds")
+        ->type_name("S")
+        ->needs(via)
+        ->check(number<double>("a number of seconds above 0", 1e-3, 1e6))
+        ->capture_default_str();
     command->add_flag("--force", options->force, "Write into a folder that holds other files too");
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] { chosen = [options] { return import(*options); }; });

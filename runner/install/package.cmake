@@ -1,17 +1,12 @@
 # The Debian package: `cpack` in the build folder, or `./dev package`, which tries it too.
-set(changelog ${CMAKE_CURRENT_SOURCE_DIR}/changelog)
+set(maintainer "The Tidemark authors <maintainers@tidemark.example>")
 set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
 file(MAKE_DIRECTORY ${documents})
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${changelog} ${PROJECT_SOURCE_DIR}/LICENSE)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/LICENSE)
 
-# The changelog is in Debian's form, because dpkg's tools read it; its first line says whose it is.
-file(STRINGS ${changelog} newest LIMIT_COUNT 1)
-if(NOT newest MATCHES "^tidemark \\(${PROJECT_VERSION}\\) ")
-  message(FATAL_ERROR "runner/install/changelog does not say what is new in ${PROJECT_VERSION}")
-endif()
-file(STRINGS ${changelog} maintainer REGEX "^ -- " LIMIT_COUNT 1)
-string(REGEX REPLACE "^ -- (.*>)  .*" "\\1" maintainer "${maintainer}")
-execute_process(COMMAND gzip -9nc INPUT_FILE ${changelog}
+debian_changelog(changelog "${maintainer}")
+file(WRITE ${documents}/changelog "${changelog}")
+execute_process(COMMAND gzip -9nc INPUT_FILE ${documents}/changelog
   OUTPUT_FILE ${documents}/changelog.gz COMMAND_ERROR_IS_FATAL ANY)
 
 # LICENSE as a field of a file of fields: indented, with a dot for an empty line.

@@ -1,4 +1,5 @@
 """The pages say what is: options, probes and directives, commands and what they print, links, names of files."""
+import json
 import pathlib
 import re
 import shlex
@@ -25,6 +26,7 @@ HELP_PAGES = [ROOT / name / "README.md" for name in (
 NOT_RUN = (
     r"tidemark (view )?\S+\.glsl( |$)",  # a window
     r"tidemark view ",
+    r"tidemark import .*my-fetch",  # a person's own program
 )
 # Commands whose words are times, which differ from run to run.
 NOT_COMPARED = (r"tidemark (study|tune) ",)
@@ -91,6 +93,9 @@ class Commands(ProgramTest):
         self.write("my_shader.glsl", "#define MAX_STEPS 64\nvoid mainImage(out vec4 c, in vec2 p) {\n    float sum = 0.0;\n"
                    "    for (int i = 1; i <= MAX_STEPS; ++i)\n        sum += sin(float(i) * p.x) / float(i * i);\n"
                    "    c = vec4(vec3(sum), 1.0);\n}\n")
+        project = {"info": {"id": "XxXxXx"}, "renderpass": [{"type": "image", "code": "void mainImage() {}"}]}
+        self.write("project.json", json.dumps(project))
+        self.write("all.json", json.dumps({"shaders": [project, project]}))
         self.write("my_map.png", png.encode(64, 64, 3, self.island()))
 
     @staticmethod

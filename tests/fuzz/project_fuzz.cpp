@@ -1,12 +1,20 @@
-// ShaderToy's JSON in all its dialects: read, or refused with words; every pass gets a name of its own.
+// ShaderToy's JSON in all its dialects, and pages that hold it: read, or refused with words; every pass gets
+// a name of its own.
 #include "fuzz.hpp"
+#include "scene/page_json.hpp"
 #include "scene/project.hpp"
+#include "scene/saved_project.hpp"
 
 #include <set>
 
 using namespace tidemark;
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    for (const char* id : {"", "abCD12"}) {
+        const auto saved = scene::saved_project(text_of(data, size), id, "x.html");
+        REQUIRE(saved || !to_string(saved.error()).empty());
+    }
+    (void)scene::projects_in_page(text_of(data, size));
     for (const scene::CodeIn code : {scene::CodeIn::json, scene::CodeIn::files}) {
         const auto project = scene::read_project(text_of(data, size), "x.json", code);
         if (!project) {

@@ -1,6 +1,7 @@
 #include "cli/view/editor.hpp"
 
 #include "base/argument_pointers.hpp"
+#include "base/shell_word.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -50,17 +51,6 @@ KnownEditor known(std::string_view program) {
     return found == std::end(k_editors) ? KnownEditor{"", Form::plus_line, false} : *found;
 }
 
-std::vector<std::string> split(std::string_view words) {
-    std::vector<std::string> found;
-    while (true) {
-        words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
-        if (words.empty())
-            return found;
-        found.emplace_back(words.substr(0, words.find(' ')));
-        words.remove_prefix(found.back().size());
-    }
-}
-
 std::vector<std::string> place_words(Form form, const SourceLocation& where) {
     const int line = std::max(where.line, 1);
     const int column = std::max(where.column, 1);
@@ -100,7 +90,7 @@ const char* chosen_editor() {
 } // namespace
 
 std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where) {
-    std::vector<std::string> words = split(editor);
+    std::vector<std::string> words = split_words(editor);
     if (words.empty())
         return words;
     const KnownEditor kind = known(words.front());

@@ -1,7 +1,7 @@
 #include "image/files/video_frames.hpp"
 
+#include "base/child_process.hpp"
 #include "base/file.hpp"
-#include "image/files/child_process.hpp"
 #include "image/files/video_check.hpp"
 #include "image/files/video_times.hpp"
 
@@ -36,7 +36,7 @@ Result<void> replace_guessed_times(const std::filesystem::path& path, VideoTimes
     for (const char* argument :
          {"-map", "0:V:0", "-vf", "showinfo=checksum=0", "-fps_mode", "passthrough", "-f", "null", "-"})
         arguments.emplace_back(argument);
-    Result<ChildProcess> child = ChildProcess::start(arguments);
+    Result<ChildProcess> child = ChildProcess::start(arguments, ChildProcess::Input::none, k_get_ffmpeg);
     if (!child)
         return fail(std::move(child.error()));
     std::string words;
@@ -85,7 +85,8 @@ struct TimedFrame {
 class Decoder {
 public:
     static Result<Decoder> start(const std::filesystem::path& path, const VideoTimes& times, size_t from) {
-        Result<ChildProcess> child = ChildProcess::start(decoder_arguments(path, times, from));
+        Result<ChildProcess> child = ChildProcess::start(decoder_arguments(path, times, from),
+                                                         ChildProcess::Input::none, k_get_ffmpeg);
         if (!child)
             return fail(std::move(child.error()));
         return Decoder(std::move(*child), times.extent);
@@ -211,7 +212,7 @@ Result<void> VideoFrames::State::advance_to(size_t index) {
 Result<VideoFrames> VideoFrames::open(const std::filesystem::path& path) {
     if (const std::string why = why_unreadable(path); !why.empty())
         return refuse(path, why);
-    const Result<std::string> text = output_of(video_times_arguments(path), k_most_text);
+    const Result<std::string> text = output_of(video_times_arguments(path), {k_most_text}, k_get_ffmpeg);
     if (!text) {
         std::string why = text.error().message;
         const std::string prefix = "file:" + path.string() + ": ";

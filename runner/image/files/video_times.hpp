@@ -47,4 +47,7 @@ std::vector<std::string> video_input_arguments(const std::filesystem::path& path
 
 std::vector<std::string> video_times_arguments(const std::filesystem::path& path);
 
+/// Behind "there is no program 'ffmpeg' in PATH".
+inline constexpr std::string_view k_get_ffmpeg = ", which videos need; install the package ffmpeg";
+
 } // namespace tidemark::image

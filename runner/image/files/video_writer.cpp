@@ -3,6 +3,7 @@
 #include "base/try.hpp"
 #include "image/files/video_encoding.hpp"
 #include "image/files/video_note.hpp"
+#include "image/files/video_times.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -79,7 +80,7 @@ tl::unexpected<Error> failure(const fs::path& video, const std::string& words) {
 }
 
 Result<ChildProcess> start(const Words& words, const fs::path& video) {
-    auto encoder = ChildProcess::start(words, ChildProcess::Input::written);
+    auto encoder = ChildProcess::start(words, ChildProcess::Input::written, k_get_ffmpeg);
     if (!encoder)
         return fail(ErrorCode::write,
                     fmt::format("cannot write '{}': {}", video.string(), encoder.error().message));

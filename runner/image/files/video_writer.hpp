@@ -2,9 +2,9 @@
 // are joined to a video without being decoded.
 #pragma once
 
+#include "base/child_process.hpp"
 #include "base/file.hpp"
 #include "base/result.hpp"
-#include "image/files/child_process.hpp"
 #include "image/image.hpp"
 
 #include <filesystem>

@@ -1,12 +1,12 @@
 #include "lab/study/report.hpp"
 
 #include "base/base64.hpp"
+#include "base/child_process.hpp"
 #include "base/file.hpp"
 #include "base/scratch_folder.hpp"
 #include "base/try.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/flip.hpp"
-#include "image/files/child_process.hpp"
 #include "image/files/picture_file.hpp"
 #include "lab/study/diagram.hpp"
 #include "lab/study/report_data.hpp"
@@ -84,8 +84,8 @@ private:
             folder.insert(at, 1, '\'');
         const auto written = write_file(file, script);
         const auto drawn =
-            written ? image::output_of({"gnuplot", "-d", "-e", fmt::format("cd '{}'", folder), file.string()},
-                                       size_t{1} << 16)
+            written ? output_of({"gnuplot", "-d", "-e", fmt::format("cd '{}'", folder), file.string()},
+                                {size_t{1} << 16}, "; install the package gnuplot-nox")
                     : Result<std::string>(fail(written.error()));
         if (!drawn) {
             remark(fmt::format("no diagrams: {} (the data are in points.csv, the script is {}.gp)",

@@ -1,4 +1,4 @@
-#include "image/files/child_process.hpp"
+#include "base/child_process.hpp"
 #include "image/files/video_frames.hpp"
 #include "image/files/video_times.hpp"
 #include "unit/image/picture_support.hpp"
@@ -99,8 +99,8 @@ TEST(VideoTimes, a_frame_lasts_until_the_next_and_the_last_to_the_end) {
 }
 
 bool has_ffmpeg() {
-    return bool(ChildProcess::start({"ffmpeg", "-version"})) &&
-           bool(ChildProcess::start({"ffprobe", "-version"}));
+    return output_of({"ffmpeg", "-version"}, {1 << 20}, "") &&
+           output_of({"ffprobe", "-version"}, {1 << 20}, "");
 }
 
 bool has_children() {
@@ -131,7 +131,7 @@ protected:
                                               std::to_string(frames)};
         arguments.insert(arguments.end(), encoder.begin(), encoder.end());
         arguments.push_back("file:" + in_folder(name).string());
-        const Result<std::string> made = output_of(arguments, 1 << 20);
+        const Result<std::string> made = output_of(arguments, {1 << 20}, "");
         EXPECT_TRUE(made) << made.error().message;
         return in_folder(name);
     }
@@ -271,7 +271,7 @@ TEST_F(Video, what_is_wrong_is_said) {
               in("t.mp4") + "it is no video that ffmpeg reads (Invalid data found when processing input)");
     ASSERT_TRUE(output_of({"ffmpeg", "-v", "error", "-f", "lavfi", "-i", "sine=duration=0.1", "-c:a",
                            "libvorbis", "file:" + in_folder("s.ogg").string()},
-                          1000));
+                          {1000}, ""));
     EXPECT_EQ(message(in_folder("s.ogg")), in("s.ogg") + "there is no video in it");
 }
 
@@ -350,39 +350,6 @@ TEST_F(NoVideo, without_ffmpeg_the_package_is_named) {
                                          "': there is no program 'ffprobe' in PATH, which videos need; "
                                          "install the package ffmpeg");
     EXPECT_FALSE(has_children());
-}
-
-TEST(ChildProcess, output_and_words_are_kept_apart_and_no_shell_is_between) {
-    const Result<std::string> output = output_of({"printf", "%s|", "a b", "$HOME", "*"}, 1000);
-    ASSERT_TRUE(output) << output.error().message;
-    EXPECT_EQ(*output, "a b|$HOME|*|");
-    Result<ChildProcess> child = ChildProcess::start({"sh", "-c", "echo words >&2; echo output; exit 3"});
-    ASSERT_TRUE(child);
-    std::string words, text;
-    std::array<std::byte, 3> block;
-    for (size_t count; (count = child->read(block, words).value()) > 0;)
-        text.append(reinterpret_cast<const char*>(block.data()), count);
-    EXPECT_EQ(text, "output\n");
-    EXPECT_EQ(words, "words\n");
-    EXPECT_FALSE(child->succeeded());
-}
-
-TEST(ChildProcess, neither_pipe_blocks_the_other) {
-    const Result<std::string> output =
-        output_of({"sh", "-c",
-                   "head -c 1000000 /dev/zero >&2; head -c 1000000 /dev/zero; head -c 1000000 /dev/zero >&2"},
-                  2000000);
-    ASSERT_TRUE(output) << output.error().message;
-    EXPECT_EQ(output->size(), 1000000u);
-}
-
-TEST(ChildProcess, too_much_output_and_failure_are_errors) {
-    EXPECT_EQ(output_of({"head", "-c", "3000000", "/dev/zero"}, 1 << 20).error().message,
-              "'head' prints more than 1 MiB");
-    EXPECT_EQ(output_of({"sh", "-c", "echo one >&2; echo two >&2; false"}, 10).error().message, "two");
-    EXPECT_EQ(output_of({"no-such-program-here"}, 10).error().message,
-              "there is no program 'no-such-program-here' in PATH, which videos need; install the package "
-              "ffmpeg");
 }
 
 } // namespace

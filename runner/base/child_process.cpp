@@ -1,6 +1,8 @@
-#include "image/files/child_process.hpp"
+#include "base/child_process.hpp"
 
 #include "base/argument_pointers.hpp"
+#include "base/descriptor.hpp"
+#include "base/try.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,27 +12,36 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <system_error>
 
+extern "C" { // glibc 2.36 leaves it to us
+#include <sys/pidfd.h>
+}
+
 extern char** environ;
 
-namespace tidemark::image {
+namespace tidemark {
 namespace {
 
+using Clock = ChildProcess::Clock;
+
 constexpr int k_patience_ms = 60000;
+constexpr int k_longest_wait_ms = 1 << 30;
+constexpr size_t k_pipe_holds = size_t{1} << 16;
+constexpr std::string_view k_too_long = "the program that was started takes too long";
 
 std::string reason(int error_number) {
     return std::generic_category().message(error_number);
 }
 
-tl::unexpected<Error> cannot_run(const std::string& program, int error_number) {
+tl::unexpected<Error> cannot_run(const std::string& program, int error_number, std::string_view advice) {
     if (error_number == ENOENT)
         return fail(ErrorCode::load,
-                    fmt::format("there is no program '{0}' in PATH, which videos need; install the package "
-                                "ffmpeg",
-                                program));
+                    fmt::format("there is no program '{}'{}{}", program,
+                                program.find('/') == program.npos ? " in PATH" : "", advice));
     return fail(ErrorCode::load, fmt::format("cannot run '{}': {}", program, reason(error_number)));
 }
 
@@ -101,6 +112,14 @@ ssize_t read_some(int fd, void* to, size_t size) {
     return count;
 }
 
+/// For poll(): how long until then; a minute where that is never.
+int wait_ms(Clock::time_point until) {
+    if (until == Clock::time_point::max())
+        return k_patience_ms;
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    return int(std::clamp<int64_t>(left, 0, k_longest_wait_ms));
+}
+
 std::string last_line(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
         text.pop_back();
@@ -110,10 +129,11 @@ std::string last_line(std::string text) {
 
 } // namespace
 
-Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments, Input kind) {
+Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments, Input kind,
+                                         std::string_view advice) {
     Pipe input(1), output(0), words(0);
     if (!input.good() || !output.good() || !words.good())
-        return cannot_run(arguments[0], errno);
+        return cannot_run(arguments[0], errno, advice);
     const std::vector<char*> argv = argument_pointers(arguments);
     const SpawnPlan plan(kind, input.ends[0], output.ends[1], words.ends[1]);
     ChildProcess child;
@@ -121,7 +141,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
         ::posix_spawnp(&child.process_, argv[0], plan.actions(), plan.attributes(), argv.data(), environ);
     if (error != 0) {
         child.process_ = -1;
-        return cannot_run(arguments[0], error);
+        return cannot_run(arguments[0], error, advice);
     }
     child.leftover_ = Leftover::child(child.process_);
     if (kind == Input::written)
@@ -146,14 +166,17 @@ ChildProcess::~ChildProcess() {
     if (process_ <= 0)
         return;
     leftover_.forget(); // its number may soon be another's
-    ::kill(process_, SIGKILL);
+    ::kill(-process_, SIGKILL);
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
 }
 
 void ChildProcess::read_words(std::string& words) {
+    if (words.size() > most_words_)
+        words.erase(0, words.size() - most_words_);
     std::array<char, 4096> block;
-    while (words_ >= 0) {
+    // No more than a pipe holds: who writes without end is not listened to without end.
+    for (size_t left = k_pipe_holds; words_ >= 0 && left > 0; left -= block.size()) {
         const ssize_t count = read_some(words_, block.data(), block.size());
         if (count > 0)
             words.append(block.data(), size_t(count));
@@ -181,8 +204,10 @@ bool ChildProcess::write(std::span<const std::byte> bytes, std::string& words) {
     return bytes.empty();
 }
 
-Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words) {
+Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words, Clock::time_point until) {
     while (output_ >= 0) {
+        if (Clock::now() >= until)
+            return fail(ErrorCode::timed_out, std::string(k_too_long));
         read_words(words);
         const ssize_t count = read_some(output_, to.data(), to.size());
         if (count > 0)
@@ -192,12 +217,22 @@ Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words) {
             break;
         }
         std::array<pollfd, 2> wait = {{{output_, POLLIN, 0}, {words_, POLLIN, 0}}};
-        const int ready = ::poll(wait.data(), wait.size(), k_patience_ms);
-        if (ready == 0)
-            return fail(ErrorCode::load, "the program that decodes it says nothing for a minute");
+        const int ready = ::poll(wait.data(), wait.size(), wait_ms(until));
+        if (ready == 0 && until == Clock::time_point::max())
+            return fail(ErrorCode::load, "the program that was started says nothing for a minute");
     }
     read_words(words);
     return size_t{0};
+}
+
+bool ChildProcess::ends_before(Clock::time_point until) const {
+    const Descriptor process(::pidfd_open(process_, 0));
+    pollfd ended = {process.get(), POLLIN, 0};
+    int ready;
+    do
+        ready = ::poll(&ended, 1, wait_ms(until));
+    while (ready < 0 && errno == EINTR);
+    return ready != 0;
 }
 
 bool ChildProcess::succeeded() {
@@ -212,26 +247,23 @@ bool ChildProcess::succeeded() {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-Result<std::string> output_of(const std::vector<std::string>& arguments, size_t most) {
-    Result<ChildProcess> child = ChildProcess::start(arguments);
-    if (!child)
-        return fail(std::move(child.error()));
+Result<std::string> output_of(const std::vector<std::string>& arguments, const OutputLimits& limits,
+                              std::string_view advice) {
+    ChildProcess child = TRY(ChildProcess::start(arguments, ChildProcess::Input::none, advice));
+    child.most_words_ = k_pipe_holds;
     std::string output, words;
     std::array<std::byte, 1 << 14> block;
-    for (;;) {
-        const Result<size_t> count = child->read(block, words);
-        if (!count)
-            return fail(count.error());
-        if (*count == 0)
-            break;
-        output.append(reinterpret_cast<const char*>(block.data()), *count);
-        if (output.size() > most)
+    while (const size_t count = TRY(child.read(block, words, limits.until))) {
+        output.append(reinterpret_cast<const char*>(block.data()), count);
+        if (output.size() > limits.bytes)
             return fail(ErrorCode::load,
-                        fmt::format("'{}' prints more than {} MiB", arguments[0], most >> 20));
+                        fmt::format("'{}' prints more than {} MiB", arguments[0], limits.bytes >> 20));
     }
-    if (!child->succeeded())
+    if (limits.until != Clock::time_point::max() && !child.ends_before(limits.until))
+        return fail(ErrorCode::timed_out, std::string(k_too_long));
+    if (!child.succeeded())
         return fail(ErrorCode::load, last_line(std::move(words)));
     return output;
 }
 
-} // namespace tidemark::image
+} // namespace tidemark

@@ -1,0 +1,28 @@
+// Where `import` has a ShaderToy project from: a file, or what a person's own program fetches. Nothing here
+// asks a network.
+#pragma once
+
+#include "base/result.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+struct ProjectSource {
+    std::string project;   ///< a file; with `via` a project's ID or address
+    std::string via;       ///< a file that holds it, or the words of a command that prints it
+    double timeout = 60.0; ///< seconds that the command may take
+};
+
+struct FoundProject {
+    std::string json;
+    std::string from;                        ///< for messages
+    std::filesystem::path name;              ///< what a folder of it is called
+    std::vector<std::filesystem::path> read; ///< not to be written over
+};
+
+Result<FoundProject> find_project(const ProjectSource& source);
+
+} // namespace tidemark::cli
