@@ -8,6 +8,7 @@
 #include "cli/options.hpp"
 #include "cli/view/rehearsal.hpp"
 #include "cli/view/viewer.hpp"
+#include "cli/view/window_screen.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
 #include "render/sound_renderer.hpp"
@@ -89,8 +90,15 @@ Result<int> view(const ViewOptions& options) {
         settings.date = settings.frames.state.date;
     if (!settings.record.empty())
         TRY(check_writable(settings.record));
+    const Extent size = settings.frames.state.extent;
+    const auto corner = settings.left ? settings.left->place : std::nullopt;
     Interrupt interrupt;
-    auto viewer = TRY(Viewer::open(std::move(settings)));
+    auto viewer = TRY(Viewer::open(std::move(settings), [&](const std::string& title) {
+        return platform::Window::create(size, title, corner)
+            .map([](platform::Window window) -> std::unique_ptr<Screen> {
+                return std::make_unique<WindowScreen>(std::move(window));
+            });
+    }));
     const Interrupt::Waking waking(interrupt, platform::Window::wake);
     auto outcome = viewer.run(interrupt);
     if (viewer.busy()) { // a driver that compiles cannot be waited for

@@ -21,7 +21,7 @@ void Viewer::toggle_controls() {
     settled_ = false;
     scene_.stop_settling();
     if (stage_ && stage_->share() && !scene_.building_since())
-        scene_.build_anew(turned_scene(), window_, view(), LiveScene::Settle::no);
+        scene_.build_anew(turned_scene(), view(), LiveScene::Settle::no);
 }
 
 /// 1 to 9, of the pictures in the controls; 0 and the same again: the scene's own.
@@ -44,14 +44,7 @@ void Viewer::toggle_help() {
 
 /// It is drawn without a new frame of the scene, which brings it along while the scene moves.
 bool Viewer::overlay_due() const {
-    return (stale_overlay_ || overlay_.wants_frame()) && !moving();
-}
-
-void Viewer::show_overlay(live::Model model) {
-    if (auto shown = overlay_.show(std::move(model), {window_.framebuffer_extent(), window_.content_scale()});
-        !shown)
-        say(to_string(shown.error()));
-    overlay_.draw();
+    return (stale_overlay_ || screen_->wants_frame()) && !moving();
 }
 
 live::Model Viewer::overlay_model() {
@@ -80,7 +73,7 @@ live::Model Viewer::overlay_model() {
 }
 
 void Viewer::obey_overlay() {
-    for (const live::Command& command : overlay_.take_commands())
+    for (const live::Command& command : screen_->take_commands())
         std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
 }
 
@@ -107,7 +100,7 @@ void Viewer::carry_out(const live::CopyKnobs&) {
         if (knob.value != knob.initial)
             words.insert(words.end(), {"--set", fmt::format("{}={}", knob.name, to_string(knob))});
     const std::string text = shell_words(words);
-    window_.set_clipboard(text);
+    screen_->set_clipboard(text);
     say(words.empty() ? "nothing to copy: every knob is as the file has it" : "copied: " + text);
 }
 
@@ -126,11 +119,11 @@ void Viewer::carry_out(const live::OpenEditor& command) {
 }
 
 void Viewer::carry_out(const live::Define& command) {
-    scene_.define(command.name, command.value, window_, view());
+    scene_.define(command.name, command.value, view());
 }
 
 void Viewer::carry_out(const live::Undefine& command) {
-    scene_.define(command.name, std::nullopt, window_, view());
+    scene_.define(command.name, std::nullopt, view());
 }
 
 /// A program that has the values of knobs in it would be wrong soon.
