@@ -25,6 +25,8 @@ HELP_PAGES = [ROOT / name / "README.md" for name in (
 NOT_RUN = (
     r"tidemark (view )?\S+\.glsl( |$)",  # a window
     r"tidemark view ",
+    r"tidemark serve ",  # until it is told to end
+    r"ssh ",  # another machine
 )
 # Commands whose words are times, which differ from run to run.
 NOT_COMPARED = (r"tidemark (study|tune) ",)

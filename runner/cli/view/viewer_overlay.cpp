@@ -78,9 +78,12 @@ void Viewer::obey_overlay() {
 }
 
 void Viewer::carry_out(const live::TurnKnob& command) {
+    if (!stage_)
+        return;
     const auto& knobs = stage_->renderer().scene().knobs;
     const auto knob = std::ranges::find(knobs, command.name, &scene::Knob::name);
-    if (knob != knobs.end())
+    const auto taken = [&](double number) { return live::takes(*knob, number); };
+    if (knob != knobs.end() && std::ranges::all_of(command.value, taken))
         control(KnobTurned{{command.name, to_string(*knob, command.value)}});
 }
 
@@ -89,12 +92,16 @@ void Viewer::carry_out(const live::ResetKnob& command) {
 }
 
 void Viewer::carry_out(const live::ResetKnobs&) {
+    if (!stage_)
+        return;
     for (const scene::Knob& knob : stage_->renderer().scene().knobs)
         if (value_after(knob, shown_.knobs) != knob.initial)
             carry_out(live::ResetKnob{knob.name});
 }
 
 void Viewer::carry_out(const live::CopyKnobs&) {
+    if (!stage_)
+        return;
     std::vector<std::string> words;
     for (const scene::Knob& knob : turned_scene().knobs)
         if (knob.value != knob.initial)
@@ -106,6 +113,8 @@ void Viewer::carry_out(const live::CopyKnobs&) {
 
 /// The reload that follows finds every knob where it is.
 void Viewer::carry_out(const live::WriteKnobs&) {
+    if (!stage_)
+        return;
     auto written = write_knobs(turned_scene().knobs);
     if (!written)
         return say(to_string(written.error()));
