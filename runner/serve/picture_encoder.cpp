@@ -1,5 +1,6 @@
 #include "serve/picture_encoder.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace tidemark::serve {
@@ -33,14 +34,19 @@ void PictureEncoder::run() {
         changed_.wait(lock, [this] { return ending_ || waiting_; });
         if (ending_)
             return;
-        const Job job = *std::exchange(waiting_, std::nullopt);
+        Job job = *std::exchange(waiting_, std::nullopt);
         lock.unlock();
-        done_({job.number, picture_message(job.head, encode_(job.picture))});
+        const auto begun = std::chrono::steady_clock::now();
+        const std::string file = encode_(job.picture);
+        job.head.encode_ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+        done_({job.head.number, picture_message(job.head, file)});
         lock.lock();
     }
 }
 
-SharedMessage picture_message(const std::string& head, const std::string& file) {
+SharedMessage picture_message(const PictureHead& picture, const std::string& file) {
+    const std::string head = to_text(picture);
     std::string bytes;
     bytes.reserve(4 + head.size() + file.size());
     for (int byte = 0; byte < 4; ++byte)

@@ -3,6 +3,7 @@
 
 #include "image/image.hpp"
 #include "serve/audience.hpp"
+#include "serve/state_text.hpp"
 
 #include <condition_variable>
 #include <functional>
@@ -15,11 +16,9 @@ namespace tidemark::serve {
 
 class PictureEncoder {
 public:
-    /// A picture of RGBA in bytes with what stands before it in its message.
     struct Job {
-        image::Image picture;
-        uint32_t number = 0;
-        std::string head; ///< JSON
+        image::Image picture; ///< RGBA in bytes
+        PictureHead head;
     };
     using Encode = std::function<std::string(const image::Image&)>;
     using Done = std::function<void(NumberedPicture)>;
@@ -47,7 +46,7 @@ private:
     std::thread thread_;
 };
 
-/// A head and a file as one message: the head's length in four bytes, the lowest first, the head, the file.
-SharedMessage picture_message(const std::string& head, const std::string& file);
+/// One message: the head's length in four bytes, the lowest first, the head as JSON, the file.
+SharedMessage picture_message(const PictureHead& head, const std::string& file);
 
 } // namespace tidemark::serve

@@ -2,7 +2,6 @@
 
 #include "web/knob_data.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -69,6 +68,10 @@ Json errors_of(const std::vector<live::ErrorField>& fields) {
     return errors;
 }
 
+double in_hundredths(double value) {
+    return std::round(value * 100) / 100;
+}
+
 /// Names of files may be no UTF-8.
 std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -88,14 +91,16 @@ std::string state_text(const live::Model& model, Extent extent, bool keyboard) {
                    {"errors", errors_of(model.errors)}}}});
 }
 
-std::string picture_head(uint32_t number, double seconds, int frame,
-                         const std::vector<live::PictureField>& pictures) {
-    constexpr double k_digits = 100;
+std::string to_text(const PictureHead& head) {
     Json costs = Json::array();
-    for (const live::PictureField& field : pictures)
-        costs.push_back(field.milliseconds ? Json(std::round(*field.milliseconds * k_digits) / k_digits)
-                                           : Json());
-    return dump({{"number", number}, {"seconds", seconds}, {"frame", frame}, {"costs", std::move(costs)}});
+    for (const auto& cost : head.costs)
+        costs.push_back(cost ? Json(in_hundredths(*cost)) : Json());
+    return dump({{"number", head.number},
+                 {"seconds", head.seconds},
+                 {"frame", head.frame},
+                 {"costs", std::move(costs)},
+                 {"draw", in_hundredths(head.draw_ms)},
+                 {"encode", in_hundredths(head.encode_ms)}});
 }
 
 std::string line_text(const char* name, const std::string& line) {

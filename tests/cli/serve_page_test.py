@@ -84,6 +84,12 @@ class Steering(Page):
         self.browser.wait_for(f"{FIGURE}.head.seconds === 0")
         self.press_button("Play")
         self.browser.wait_for(f"{FIGURE}.head.seconds > 0.2")
+        self.press_button("B")
+        self.browser.wait_for(f"{FIGURE}.state.time.to > 0.2")
+        self.browser.evaluate(f"{FIGURE}.link.send('loop', {{from: 0.01, to: 0.05}})")
+        self.browser.wait_for(f"{FIGURE}.state.time.from === 0.01 && {FIGURE}.head.seconds < 0.2")
+        self.browser.evaluate("[...document.querySelectorAll('button')].find(b => b.textContent === 'A 0.01 s').click()")
+        self.browser.wait_for(f"{FIGURE}.state.time.from === null")
 
     def test_the_copied_command(self):
         self.open()

@@ -298,7 +298,7 @@ class Access(Serve):
         self.expect_failure(["serve", "a.glsl", "--port", "65536"], 2, "tidemark: error: --port: give a whole number from 0 to 65535, "
                             "not '65536'")
         everywhere = self.serve("a.glsl", "--host", "0.0.0.0")
-        self.assertRegex(everywhere.address, r"^http://0\.0\.0\.0:\d+/\?token=")
+        self.assertTrue(everywhere.address.startswith(f"http://{socket.gethostname()}:"))
         everywhere.process.send_signal(signal.SIGTERM)
         self.assertRegex(everywhere.end()[1], "^warning: everybody who can reach this machine can read along")
 

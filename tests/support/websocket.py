@@ -37,6 +37,7 @@ def request(address: str, path: str, headers: dict[str, str] | None, method: str
     """The connection, the status of the answer, and what came behind its header so far."""
     at = urllib.parse.urlsplit(address)
     connection = socket.create_connection((at.hostname, at.port), PATIENCE)
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)  # as browsers do
     lines = [f"{method} {path} HTTP/1.1"] + [f"{name}: {value}" for name, value in {"Host": at.netloc, **(headers or {})}.items()]
     connection.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
     received = b""

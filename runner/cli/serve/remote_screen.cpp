@@ -1,6 +1,7 @@
 #include "cli/serve/remote_screen.hpp"
 
 #include "base/try.hpp"
+#include "cli/view/wall_clock.hpp"
 #include "serve/page.hpp"
 #include "serve/plug_in.hpp"
 #include "serve/state_text.hpp"
@@ -69,6 +70,7 @@ std::string RemoteScreen::address() const {
 
 std::vector<platform::InputEvent> RemoteScreen::wait(double seconds) {
     serve::Inbox::Content content = inbox_.wait(seconds);
+    woken_at_ = now_seconds();
     was_asked_ |= !content.commands.empty();
     commands_.insert(commands_.end(), std::make_move_iterator(content.commands.begin()),
                      std::make_move_iterator(content.commands.end()));
@@ -113,10 +115,12 @@ void RemoteScreen::send_picture(const live::Model& model, const ShownMoment& mom
     fresh_ = false;
     large_ = model.large;
     const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
-    ++number_;
-    encoder_->push({.picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_),
-                    .number = number_,
-                    .head = serve::picture_head(number_, moment.seconds, moment.frame, model.pictures)});
+    image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
+    serve::PictureHead head{.number = ++number_, .seconds = moment.seconds, .frame = moment.frame};
+    for (const live::PictureField& field : model.pictures)
+        head.costs.push_back(field.milliseconds);
+    head.draw_ms = (now_seconds() - woken_at_) * 1000;
+    encoder_->push({std::move(picture), std::move(head)});
 }
 
 void RemoteScreen::set_title(const std::string& title) {

@@ -68,6 +68,7 @@ private:
     uint32_t number_ = 0;                       ///< of the picture that was sent last
     std::string told_;                          ///< the state that viewers know
     bool was_asked_ = false;
+    double woken_at_ = 0; ///< as now_seconds counts
 };
 
 } // namespace tidemark::cli

@@ -17,7 +17,7 @@ class Remote {
         sendPointer(canvas, link, () => this.state.size);
         sendKeys(canvas, link, () => this.state.keyboard, () => this.toggleFullScreen());
         document.addEventListener("visibilitychange", () => this.#tellSeen());
-        setInterval(() => this.#offerPasses(), 1000); // numbers to be read stand still for so long
+        setInterval(() => this.#showCosts(), 1000); // numbers to be read stand still for so long
         canvas.focus();
     }
 
@@ -32,12 +32,15 @@ class Remote {
         this.speed = choice("Speed", value => link.send("speed", {speed: Number(value)}));
         this.copy = wordButton("Copy command", () => this.#press(67));
         this.camera = wordButton("Reset camera", () => this.#press(82));
+        this.loop = {from: wordButton("A", () => this.#loop("from")), to: wordButton("B", () => this.#loop("to"))};
+        this.stay = wordButton("Stay here", ask("give up seek"));
         this.knobs = new Knobs(link);
         this.definitions = new Definitions(link);
         this.steer = wordButton("Steer", ask("steer"));
         this.status = element("output", {className: "tidemark-status"});
         this.notice = element("pre", {className: "tidemark-message", hidden: true});
-        const more = element("div", {className: "tidemark-bar"}, this.pass.element, this.speed.element, this.copy, this.camera);
+        const more = element("div", {className: "tidemark-bar"}, this.pass.element, this.loop.from, this.loop.to, this.speed.element,
+                             this.stay, this.copy, this.camera);
         this.fields = element("fieldset", {disabled: true}, this.bar.element, more, this.knobs.element, this.definitions.element);
         this.div.append(this.picture, element("div", {className: "tidemark-bar"}, this.steer, this.status), this.notice, this.fields);
     }
@@ -67,11 +70,24 @@ class Remote {
         const {pictures, large, time, errors, knobs, definitions} = state;
         showErrors(this.errors, errors);
         this.#offerPasses();
-        offer(this.speed, SPEEDS.filter(speed => speed > 0 || time.turnsBack).map(speed => [speed, `${speed}×`]), time.speed);
-        this.speed.element.hidden = !time.hasSpeed;
+        this.#showTime(time);
         this.pass.element.hidden = pictures.length < 2 && large === null;
         this.knobs.show(knobs);
         this.definitions.show(definitions);
+    }
+
+    // Time goes round between A and B; a second press takes one away.
+    #loop(end) {
+        const {from, to} = this.state.time;
+        this.link.send("loop", {from, to, [end]: this.state.time[end] === null ? this.head?.seconds ?? 0 : null});
+    }
+
+    #showTime(time) {
+        for (const [end, letter] of [["from", "A"], ["to", "B"]])
+            this.loop[end].textContent = time[end] === null ? letter : `${letter} ${time[end].toFixed(2)} s`;
+        offer(this.speed, SPEEDS.filter(speed => speed > 0 || time.turnsBack).map(speed => [speed, `${speed}×`]), time.speed);
+        this.speed.element.hidden = !time.hasSpeed;
+        this.stay.hidden = !time.stepping; // on the way to a frame, through all that lead to it
         if (this.head)
             this.bar.show(this.#moment(), time.paused, false);
     }
@@ -81,6 +97,12 @@ class Remote {
         const {pictures, large} = this.state, costs = this.head?.costs ?? [];
         const label = (name, i) => costs[i] == null ? name : `${name} (${costs[i].toFixed(1)} ms)`;
         offer(this.pass, [["", "the scene"], ...pictures.map((name, i) => [i, label(name, i)])], large ?? "");
+    }
+
+    #showCosts() {
+        this.#offerPasses();
+        if (this.head)
+            this.status.title = `drawn in ${this.head.draw.toFixed(1)} ms, encoded in ${this.head.encode.toFixed(1)} ms`;
     }
 
     async #see(head, file) {

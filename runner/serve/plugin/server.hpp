@@ -53,7 +53,7 @@ public:
     /// From any thread. A viewer that does not read what it is sent is dropped.
     virtual void send(ViewerId viewer, SharedMessage message) = 0;
 
-    /// `127.0.0.1:8080`, `[::1]:8080`.
+    /// `127.0.0.1:8080`, `[::1]:8080`; where it listens at every address, the machine's name and the port.
     virtual std::string place() const = 0;
     virtual bool is_loopback() const = 0;
 };

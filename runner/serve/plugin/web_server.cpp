@@ -4,6 +4,7 @@
 #include "serve/plugin/server.hpp"
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/host_name.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <fmt/format.h>
@@ -70,8 +71,11 @@ public:
 
     std::string place() const override {
         const tcp::endpoint at = acceptor_.local_endpoint();
-        const std::string address = at.address().to_string();
-        return fmt::format("{}:{}", at.address().is_v6() ? "[" + address + "]" : address, at.port());
+        ErrorWord ignored;
+        const std::string name = at.address().is_unspecified() ? asio::ip::host_name(ignored)
+                                 : at.address().is_v6()        ? "[" + at.address().to_string() + "]"
+                                                               : at.address().to_string();
+        return fmt::format("{}:{}", name, at.port());
     }
 
     bool is_loopback() const override { return acceptor_.local_endpoint().address().is_loopback(); }

@@ -162,18 +162,28 @@ TEST(PictureEncoder, takes_the_newest) {
         },
         [&](const NumberedPicture& picture) {
             numbers.push_back(picture.number);
-            EXPECT_EQ(picture.message->bytes, std::string("\4\0\0\0headfile", 12));
+            EXPECT_TRUE(picture.message->bytes.ends_with("}file"));
             done.count_down();
         });
-    encoder.push({{}, 1, "head"});
+    encoder.push({{}, {.number = 1}});
     begun.wait();
     EXPECT_TRUE(encoder.has_room());
-    encoder.push({{}, 2, "head"});
+    encoder.push({{}, {.number = 2}});
     EXPECT_FALSE(encoder.has_room());
-    encoder.push({{}, 3, "head"});
+    encoder.push({{}, {.number = 3}});
     go_on.count_down();
     done.wait();
     EXPECT_THAT(numbers, ElementsAre(1, 3));
+}
+
+TEST(StateText, a_picture_has_a_head) {
+    const auto message = picture_message(
+        {.number = 3, .seconds = 2.5, .frame = 150, .costs = {1.234, {}}, .draw_ms = 4, .encode_ms = 0.5},
+        "file");
+    const std::string head =
+        R"({"number":3,"seconds":2.5,"frame":150,"costs":[1.23,null],"draw":4.0,"encode":0.5})";
+    EXPECT_EQ(message->bytes, std::string({char(head.size()), 0, 0, 0}) + head + "file");
+    EXPECT_TRUE(message->binary);
 }
 
 TEST(StateText, has_what_the_page_shows) {
