@@ -21,8 +21,9 @@ ALLOWED = {
     "lsp": ["base", "text", "scene", "glsl"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
     "web": ["base", "text", "scene", "glsl", "image"],
+    "serve": ["base", "text", "scene", "image", "platform", "live", "web"],
     "lab": ["base", "text", "scene", "glsl", "ir", "gl", "image", "render"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "lsp", "render", "web", "lab"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "lsp", "render", "web", "serve", "lab"],
     "install": [],
     "main.cpp": ["cli"],
 }
@@ -40,11 +41,12 @@ ROOMS = {
             "check": ["", "march", "trace"]},
     # What runs in a browser, and includes nothing.
     "web": {"": [], "host": []},
-    "cli": {"": [], "capture": [""], "view": [""], "inspect": [""], "check": [""], "bake": [""], "help": [""], "lsp": [""], "new": [""]},
+    "serve": {"": ["plugin"], "plugin": [""], "page": []},
+    "cli": {"": [], "capture": [""], "view": [""], "serve": ["", "view"], "inspect": [""], "check": [""], "bake": [""], "help": [""], "lsp": [""], "new": [""]},
 }
 
 # Modules whose files (a .cpp and its .hpp count as one) never lead back to where they started.
-WITHOUT_CIRCLES = ["base", "text", "scene", "ir", "gl", "sound", "platform", "lsp"]
+WITHOUT_CIRCLES = ["base", "text", "scene", "ir", "gl", "sound", "platform", "serve", "lsp"]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/(?:([a-z_]+)/)?', re.MULTILINE)
 

@@ -25,8 +25,8 @@ constexpr AddCommand k_commands[] = {
 #ifdef TIDEMARK_WINDOW
     add_view,
 #endif
-    add_new,  add_capture, add_gather, add_inspect, add_check, add_trace,      add_compare, add_study,
-    add_tune, add_import,  add_export, add_bake,    add_lsp,   add_completion, add_help,
+    add_new,   add_serve, add_capture, add_gather, add_inspect, add_check, add_trace,      add_compare,
+    add_study, add_tune,  add_import,  add_export, add_bake,    add_lsp,   add_completion, add_help,
 };
 
 constexpr const char* k_footer =
@@ -192,7 +192,7 @@ int run_or_throw(int argc, const char* const* argv) {
         return report(bounds.error());
     // A window's own process stays with it, as an editor's does: what they do not know yet is tried in
     // another.
-    if (const std::string name = called(app).get_name(); name != "view" && name != "lsp")
+    if (const std::string name = called(app).get_name(); name != "view" && name != "serve" && name != "lsp")
         if (const auto ended = supervise(*bounds)) {
             finish_diagnostics(false); // of how it ended: the child wrote its own
             return *ended;

@@ -36,6 +36,7 @@ void add_help(CLI::App& app, Action& chosen);
 void add_tune(CLI::App& app, Action& chosen);
 void add_trace(CLI::App& app, Action& chosen);
 void add_view(CLI::App& app, Action& chosen);
+void add_serve(CLI::App& app, Action& chosen);
 
 /// The whole program.
 int run(int argc, const char* const* argv);

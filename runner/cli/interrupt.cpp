@@ -32,9 +32,9 @@ Interrupt::Interrupt() {
     started_.wait();
 }
 
-void Interrupt::wake_by(void (*wake)()) {
+void Interrupt::wake_by(std::function<void()> wake) {
     const std::lock_guard lock(mutex_);
-    wake_ = wake;
+    wake_ = std::move(wake);
 }
 
 Interrupt::~Interrupt() {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <functional>
 #include <latch>
 #include <mutex>
 #include <thread>
@@ -37,7 +38,9 @@ public:
     /// While it lives a request calls `wake`, on a thread of its own: for whoever waits for something else.
     class Waking {
     public:
-        Waking(Interrupt& interrupt, void (*wake)()) : interrupt_(interrupt) { interrupt_.wake_by(wake); }
+        Waking(Interrupt& interrupt, std::function<void()> wake) : interrupt_(interrupt) {
+            interrupt_.wake_by(std::move(wake));
+        }
         ~Waking() { interrupt_.wake_by(nullptr); }
         Waking(const Waking&) = delete;
         Waking& operator=(const Waking&) = delete;
@@ -49,7 +52,7 @@ public:
     static constexpr int k_exit_code = 130; ///< as shells report SIGINT
 
 private:
-    void wake_by(void (*wake)());
+    void wake_by(std::function<void()> wake);
 
     sigset_t signals_{};
     sigset_t previous_mask_{};
@@ -57,7 +60,7 @@ private:
     std::atomic<bool> immediate_ = false;
     std::atomic<bool> ending_ = false;
     std::mutex mutex_;
-    void (*wake_)() = nullptr; ///< under the mutex
+    std::function<void()> wake_; ///< under the mutex
     std::latch started_{1};
     std::thread listener_;
 };

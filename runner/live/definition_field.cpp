@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace tidemark::live {
 
@@ -11,7 +12,7 @@ std::optional<DefinitionField> definition_field(std::string_view name, std::stri
     DefinitionField field{.name = std::string(name), .held = held};
     const std::string_view digits = text.substr(text.starts_with('+') ? 1 : 0);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), field.value);
-    if (error != std::errc{} || end != digits.data() + digits.size())
+    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(field.value))
         return std::nullopt;
     field.whole = digits.find_first_of(".eE") == std::string_view::npos;
     return field;

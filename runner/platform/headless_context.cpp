@@ -188,24 +188,6 @@ std::string gl_string(GLenum name) {
     return text ? reinterpret_cast<const char*>(text) : "";
 }
 
-/// Puts back, when it goes, what was current on this thread when it came.
-class CurrentKeeper {
-public:
-    CurrentKeeper() = default;
-    CurrentKeeper(const CurrentKeeper&) = delete;
-    CurrentKeeper& operator=(const CurrentKeeper&) = delete;
-    ~CurrentKeeper() {
-        if (context_ != EGL_NO_CONTEXT)
-            eglMakeCurrent(display_, draw_, read_, context_);
-    }
-
-private:
-    EGLDisplay display_ = eglGetCurrentDisplay();
-    EGLSurface draw_ = eglGetCurrentSurface(EGL_DRAW);
-    EGLSurface read_ = eglGetCurrentSurface(EGL_READ);
-    EGLContext context_ = eglGetCurrentContext();
-};
-
 HeadlessDevice describe(const Place& place) {
     HeadlessDevice device{place.name, place.kind, {}, {}, {}};
     const ContextOrReason context = make_context(place, DebugContext::no);
@@ -254,6 +236,10 @@ Result<void> HeadlessContext::make_current() {
     return {};
 }
 
+Result<SharedContext> HeadlessContext::create_context() {
+    return SharedContext::create(state_->context->display, state_->context->context, EGL_NO_SURFACE);
+}
+
 const std::string& HeadlessContext::device() const {
     return state_->device;
 }
@@ -271,7 +257,7 @@ std::vector<HeadlessDevice> list_headless_devices() {
 
 void list_headless_devices(const std::function<void(const HeadlessDevice&, bool tried)>& seen,
                            size_t skipped) {
-    const CurrentKeeper keeper;
+    const KeepCurrent current;
     for (const Place& place : list_places()) {
         if (skipped > 0) {
             --skipped;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "platform/shared_context.hpp"
 
 #include <functional>
 #include <memory>
@@ -28,6 +29,8 @@ public:
 
     /// Needed only where a process has more than one context.
     Result<void> make_current();
+    /// Another one that knows the same textures, current nowhere.
+    Result<SharedContext> create_context();
     /// The name that `create` takes for this very device; never "auto".
     const std::string& device() const;
 

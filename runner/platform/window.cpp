@@ -255,29 +255,9 @@ void Window::make_current() {
     glfwMakeContextCurrent(state_->window.get());
 }
 
-Result<WindowContext> Window::create_context() {
-    WindowContext made;
-    made.display_ = glfwGetEGLDisplay();
-    made.window_ = glfwGetEGLSurface(state_->window.get());
-    const EGLContext first = glfwGetEGLContext(state_->window.get());
-    EGLint wanted[] = {EGL_CONFIG_ID, 0, EGL_NONE};
-    EGLConfig config = nullptr;
-    EGLint count = 0;
-    eglQueryContext(made.display_, first, EGL_CONFIG_ID, &wanted[1]);
-    eglChooseConfig(made.display_, wanted, &config, 1, &count);
-    constexpr EGLint k_version[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    4,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    5,
-                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                    EGL_NONE};
-    eglBindAPI(EGL_OPENGL_API);
-    made.context_ = eglCreateContext(made.display_, config, first, k_version);
-    if (made.context_)
-        return made;
-    return fail(ErrorCode::no_context,
-                fmt::format("the driver gives no second OpenGL context: EGL error {:#06x}", eglGetError()));
+Result<SharedContext> Window::create_context() {
+    GLFWwindow* window = state_->window.get();
+    return SharedContext::create(glfwGetEGLDisplay(), glfwGetEGLContext(window), glfwGetEGLSurface(window));
 }
 
 std::vector<InputEvent> Window::poll() {

@@ -5,7 +5,7 @@
 #include "base/extent.hpp"
 #include "base/result.hpp"
 #include "platform/input.hpp"
-#include "platform/window_context.hpp"
+#include "platform/shared_context.hpp"
 
 #include <memory>
 #include <optional>
@@ -37,7 +37,7 @@ public:
 
     void make_current();
     /// Another context for the same window, current nowhere. All of them know each other's textures.
-    Result<WindowContext> create_context();
+    Result<SharedContext> create_context();
 
     /// What happened since the last call, in order; never waits.
     std::vector<InputEvent> poll();

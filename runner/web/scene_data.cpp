@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "web/input_data.hpp"
+#include "web/knob_data.hpp"
 #include "web/pass_data.hpp"
 
 #include <nlohmann/json.hpp>
@@ -33,25 +34,6 @@ Json sampler_of(const scene::Sampling& sampling) {
             {"minify", k_filter[size_t(sampling.minify)]},
             {"mipmaps", k_mipmaps[size_t(sampling.mipmaps)]},
             {"wrap", k_wrap[size_t(sampling.wrap)]}};
-}
-
-Json numbers(const scene::KnobValue& value, int count) {
-    return Json(std::vector<double>(value.begin(), value.begin() + count));
-}
-
-Json knob_data(const scene::Knob& knob) {
-    const scene::KnobTypeInfo& type = info(knob.type);
-    Json data = {{"name", knob.name},
-                 {"colour", knob.type == scene::KnobType::color3},
-                 {"whole", type.whole},
-                 {"value", numbers(knob.value, type.components)}};
-    if (knob.range) {
-        data["low"] = numbers(knob.range->low, type.components);
-        data["high"] = numbers(knob.range->high, type.components);
-    }
-    if (knob.step)
-        data["step"] = numbers(*knob.step, type.components);
-    return data;
 }
 
 class Collector {

@@ -27,6 +27,8 @@ NOT_RUN = (
     r"tidemark (view )?\S+\.glsl( |$)",  # a window
     r"tidemark view ",
     r"tidemark import .*my-fetch",  # a person's own program
+    r"tidemark serve ",  # until it is told to end
+    r"ssh ",  # another machine
 )
 # Commands whose words are times, which differ from run to run.
 NOT_COMPARED = (r"tidemark (study|tune) ",)

@@ -47,8 +47,8 @@ bool is_final(const Error& error) {
 
 } // namespace
 
-LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher)
-    : request_(std::move(request)), watcher_(std::move(watcher)), builder_([] { platform::Window::wake(); }) {
+LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher, const std::function<void()>& wake)
+    : request_(std::move(request)), watcher_(std::move(watcher)), builder_(wake) {
     scene::Scene named;
     named.file = request_.path;
     name_ = named.name();
@@ -67,13 +67,13 @@ LiveScene::Loading LiveScene::load(const SceneRequest& request, const std::vecto
     return loading;
 }
 
-Result<LiveScene> LiveScene::create(SceneRequest request, Loading first, platform::Window& window,
-                                    const View& view) {
-    auto watcher = platform::FileWatcher::create([] { platform::Window::wake(); });
+Result<LiveScene> LiveScene::create(SceneRequest request, Loading first, const View& view,
+                                    const std::function<void()>& wake) {
+    auto watcher = platform::FileWatcher::create(wake);
     if (!watcher)
         return fail(std::move(watcher.error()));
-    LiveScene live(std::move(request), *std::move(watcher));
-    if (auto begun = live.begin(live.watched(std::move(first)), window, view); !begun) {
+    LiveScene live(std::move(request), *std::move(watcher), wake);
+    if (auto begun = live.begin(live.watched(std::move(first)), view); !begun) {
         if (is_final(begun.error()))
             return fail(std::move(begun.error()));
         live.fail_with(std::move(begun.error()));
@@ -134,15 +134,15 @@ std::vector<platform::FileWatcher::Change> LiveScene::changed() {
     return changes;
 }
 
-Result<void> LiveScene::begin(Loading loading, platform::Window& window, const View& view) {
+Result<void> LiveScene::begin(Loading loading, const View& view) {
     if (!loading.scene)
         return fail(std::move(loading.scene.error()));
     held_ = std::move(loading.held);
-    return build(*std::move(loading.scene), window, view);
+    return build(*std::move(loading.scene), view);
 }
 
-Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, const View& view, Settle settle) {
-    auto context = TRY(window.create_context());
+Result<void> LiveScene::build(scene::Scene scene, const View& view, Settle settle) {
+    auto context = TRY(view.make_context());
     building_since_ = now_seconds();
     settling_ = settle == Settle::yes;
     builder_.start(
@@ -150,21 +150,20 @@ Result<void> LiveScene::build(scene::Scene scene, platform::Window& window, cons
     return {};
 }
 
-void LiveScene::build_anew(const scene::Scene& scene, platform::Window& window, const View& view,
-                           Settle settle) {
-    (void)build(scene, window, view, settle); // where it fails, what shows the scene now goes on doing so
+void LiveScene::build_anew(const scene::Scene& scene, const View& view, Settle settle) {
+    (void)build(scene, view, settle); // where it fails, what shows the scene now goes on doing so
 }
 
 std::optional<double> LiveScene::building_since() const {
     return builder_.building() && !settling_ ? std::optional(building_since_) : std::nullopt;
 }
 
-Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const View& view, double now) {
+Result<std::optional<Stage>> LiveScene::follow(const View& view, double now) {
     if (const auto changes = changed(); !changes.empty()) {
         saved_ = true;
         const auto last = std::ranges::max(changes, {}, &platform::FileWatcher::Change::at).at;
         times_ = ReloadTimes{seconds_of(last), now};
-        reload(window, view);
+        reload(view);
     }
     if (report_at_ && now >= *report_at_)
         report_failure();
@@ -186,11 +185,11 @@ Result<std::optional<Stage>> LiveScene::follow(platform::Window& window, const V
     return std::move(**built);
 }
 
-void LiveScene::reload(platform::Window& window, const View& view) {
+void LiveScene::reload(const View& view) {
     builder_.abandon();
     Loading loading = watched(load(request_, held_on_show_));
     times_->loaded = now_seconds();
-    if (auto begun = begin(std::move(loading), window, view); !begun)
+    if (auto begun = begin(std::move(loading), view); !begun)
         fail_with(std::move(begun.error()));
 }
 
@@ -223,8 +222,7 @@ void LiveScene::stop_settling() {
         builder_.abandon();
 }
 
-void LiveScene::define(const std::string& name, const std::optional<std::string>& value,
-                       platform::Window& window, const View& view) {
+void LiveScene::define(const std::string& name, const std::optional<std::string>& value, const View& view) {
     std::vector<std::string> defines = request_.defines;
     std::erase_if(defines, [&](const std::string& text) {
         const auto split = scene::split_setting(text, "--define");
@@ -232,15 +230,15 @@ void LiveScene::define(const std::string& name, const std::optional<std::string>
     });
     if (value)
         defines.push_back(fmt::format("{}={}", name, *value));
-    hold(std::move(defines), window, view);
+    hold(std::move(defines), view);
 }
 
-void LiveScene::hold(std::vector<std::string> defines, platform::Window& window, const View& view) {
+void LiveScene::hold(std::vector<std::string> defines, const View& view) {
     request_.defines = std::move(defines);
     saved_ = true;
     const double now = now_seconds();
     times_ = ReloadTimes{file_clock_seconds(), now};
-    reload(window, view);
+    reload(view);
 }
 
 void LiveScene::give_up() {

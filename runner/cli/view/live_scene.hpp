@@ -7,9 +7,9 @@
 #include "cli/view/held_values.hpp"
 #include "cli/view/stage_builder.hpp"
 #include "platform/file_watcher.hpp"
-#include "platform/window.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +35,7 @@ public:
 
     /// How the picture is built: what `follow` needs to know of the window.
     struct View {
+        std::function<Result<platform::SharedContext>()> make_context;
         render::RenderOptions options;
         render::FrameInputs inputs; ///< of the next frame, about
         std::shared_ptr<Rehearsal> rehearsal{};
@@ -45,28 +46,27 @@ public:
     static Loading load(const SceneRequest& request, const std::vector<HeldValue>& before = {});
 
     /// Watches the files of `request`, of which `first` is the first look, and begins to build it or waits
-    /// for what mends it. `window` is woken when there is something to do: it must live longer.
-    static Result<LiveScene> create(SceneRequest request, Loading first, platform::Window& window,
-                                    const View& view);
+    /// for what mends it. `wake` is called, on any thread, when there is something to do.
+    static Result<LiveScene> create(SceneRequest request, Loading first, const View& view,
+                                    const std::function<void()>& wake);
 
     /// Looks after changed files and finished work. Gives a Stage once it is good. Fails where no save can
     /// help: the options do not fit the scene that it was created with, or there is no context.
-    Result<std::optional<Stage>> follow(platform::Window& window, const View& view, double now);
+    Result<std::optional<Stage>> follow(const View& view, double now);
 
     enum class Settle { no, yes };
     /// Begins to build the scene on show again: as it was first, or to look for a quicker program, which
     /// `follow` gives if there is one. A reload goes first.
-    void build_anew(const scene::Scene& scene, platform::Window& window, const View& view, Settle settle);
+    void build_anew(const scene::Scene& scene, const View& view, Settle settle);
 
     /// A quicker program that is looked for is not wanted any more.
     void stop_settling();
 
     /// Holds a definition at a value as `--define` does; none: it is the files' own again. A reload follows.
-    void define(const std::string& name, const std::optional<std::string>& value, platform::Window& window,
-                const View& view);
+    void define(const std::string& name, const std::optional<std::string>& value, const View& view);
 
     /// The same of all of them: `NAME=VALUE`.
-    void hold(std::vector<std::string> defines, platform::Window& window, const View& view);
+    void hold(std::vector<std::string> defines, const View& view);
 
     /// The build under way is not wanted any more.
     void give_up();
@@ -86,12 +86,11 @@ public:
     bool busy() const { return builder_.busy(); }
 
 private:
-    LiveScene(SceneRequest request, platform::FileWatcher watcher);
+    LiveScene(SceneRequest request, platform::FileWatcher watcher, const std::function<void()>& wake);
 
-    Result<void> build(scene::Scene scene, platform::Window& window, const View& view,
-                       Settle settle = Settle::no);
-    void reload(platform::Window& window, const View& view);
-    Result<void> begin(Loading loading, platform::Window& window, const View& view);
+    Result<void> build(scene::Scene scene, const View& view, Settle settle = Settle::no);
+    void reload(const View& view);
+    Result<void> begin(Loading loading, const View& view);
     Loading watched(Loading loading);
     std::vector<std::filesystem::path> files_of(const Result<scene::Scene>& scene) const;
     std::vector<platform::FileWatcher::Change> changed();

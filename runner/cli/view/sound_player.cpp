@@ -34,7 +34,7 @@ std::string text_to_play(const scene::Scene& scene, const scene::Pass& pass) {
 /// A Sound pass and the device it is heard on; lives on the player's thread.
 class SoundPlayer::Voice {
 public:
-    Voice(platform::WindowContext context, render::SoundRenderer renderer, sound::Playback device)
+    Voice(platform::SharedContext context, render::SoundRenderer renderer, sound::Playback device)
         : context_(std::move(context)), renderer_(std::move(renderer)), device_(std::move(device)) {}
 
     /// Hands over what is to be heard next, `time` being iTime now.
@@ -73,7 +73,7 @@ private:
         return std::span(drawn_).subspan(2 * size_t(first - begin));
     }
 
-    platform::WindowContext context_;
+    platform::SharedContext context_;
     render::SoundRenderer renderer_;
     sound::Playback device_;
     std::vector<int16_t> drawn_;
@@ -93,7 +93,7 @@ SoundPlayer::~SoundPlayer() {
     thread_.join();
 }
 
-void SoundPlayer::play(platform::WindowContext context, const scene::Scene& scene,
+void SoundPlayer::play(platform::SharedContext context, const scene::Scene& scene,
                        glsl::Precision precision) {
     const scene::Pass& pass = *scene.find(scene::PassKind::sound);
     const std::lock_guard lock(mutex_);

@@ -4,7 +4,7 @@
 
 #include "base/result.hpp"
 #include "glsl/dialect.hpp"
-#include "platform/window_context.hpp"
+#include "platform/shared_context.hpp"
 #include "scene/scene.hpp"
 
 #include <condition_variable>
@@ -24,7 +24,7 @@ public:
     ~SoundPlayer();
 
     /// From now on the Sound pass of `scene`, unless it is the one that plays already.
-    void play(platform::WindowContext context, const scene::Scene& scene, glsl::Precision precision);
+    void play(platform::SharedContext context, const scene::Scene& scene, glsl::Precision precision);
     /// There is nothing to hear.
     void stop();
     /// What iTime is at the moment, and whether it runs.
@@ -35,7 +35,7 @@ public:
 
 private:
     struct Order {
-        platform::WindowContext context;
+        platform::SharedContext context;
         scene::Scene scene;
         glsl::Precision precision;
     };

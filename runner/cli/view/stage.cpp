@@ -19,7 +19,7 @@ constexpr double k_rest_per_second_of_compiling = 20;
 
 } // namespace
 
-Result<Stage> Stage::create(platform::WindowContext context, scene::Scene scene,
+Result<Stage> Stage::create(platform::SharedContext context, scene::Scene scene,
                             const render::RenderOptions& options, const render::FrameInputs& first) {
     TRY(context.make_current());
     const double start = now_seconds();
@@ -35,7 +35,7 @@ Result<Stage> Stage::create(platform::WindowContext context, scene::Scene scene,
     return stage;
 }
 
-Result<Stage> Stage::settle(platform::WindowContext context, const scene::Scene& scene,
+Result<Stage> Stage::settle(platform::SharedContext context, const scene::Scene& scene,
                             const render::RenderOptions& options, const render::FrameInputs& shown) {
     TRY(context.make_current());
     render::RenderOptions settled = options;

@@ -2,7 +2,7 @@
 // window's. A scene's first one compiles the author's text as it is; a settled one is its quicker twin.
 #pragma once
 
-#include "platform/window_context.hpp"
+#include "platform/shared_context.hpp"
 #include "render/renderer.hpp"
 
 #include <memory>
@@ -14,11 +14,11 @@ class Stage {
 public:
     /// Compiles the scene and has the driver finish what it puts off until the first draw. The context is
     /// current on the calling thread meanwhile, and nowhere afterwards.
-    static Result<Stage> create(platform::WindowContext context, scene::Scene scene,
+    static Result<Stage> create(platform::SharedContext context, scene::Scene scene,
                                 const render::RenderOptions& options, const render::FrameInputs& first);
     /// The same scene by a specialised program, if there is one that draws the same bytes in frame 0 and in
     /// `shown` and takes clearly less time: else it fails, and there is nothing to tell anybody.
-    static Result<Stage> settle(platform::WindowContext context, const scene::Scene& scene,
+    static Result<Stage> settle(platform::SharedContext context, const scene::Scene& scene,
                                 const render::RenderOptions& options, const render::FrameInputs& shown);
     Stage(Stage&&) = default;
     Stage& operator=(Stage&&) = delete;
@@ -38,10 +38,10 @@ public:
     std::optional<double> share() const { return share_; }
 
 private:
-    Stage(platform::WindowContext context, std::unique_ptr<render::Renderer> renderer)
+    Stage(platform::SharedContext context, std::unique_ptr<render::Renderer> renderer)
         : context_(std::move(context)), renderer_(std::move(renderer)) {}
 
-    platform::WindowContext context_;
+    platform::SharedContext context_;
     std::unique_ptr<render::Renderer> renderer_;
     std::optional<double> seconds_to_settle_;
     std::optional<double> share_;

@@ -17,7 +17,7 @@ class StageBuilder {
 public:
     /// What a Stage is made of.
     struct Order {
-        platform::WindowContext context;
+        platform::SharedContext context;
         scene::Scene scene;
         render::RenderOptions options;
         render::FrameInputs first;              ///< inputs of its first frame

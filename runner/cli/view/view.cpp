@@ -1,20 +1,10 @@
-#include "base/file.hpp"
 #include "base/try.hpp"
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
-#include "cli/diagnostics.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/limits.hpp"
-#include "cli/options.hpp"
-#include "cli/view/rehearsal.hpp"
-#include "cli/view/viewer.hpp"
-#include "platform/headless_context.hpp"
-#include "render/renderer.hpp"
-#include "render/sound_renderer.hpp"
+#include "cli/view/viewer_options.hpp"
+#include "cli/view/window_screen.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -24,37 +14,11 @@ namespace {
 
 /// X11 counts the pixels of a window in 16 bits, half of them below zero; beyond that it takes another size.
 constexpr int k_largest_window = 32767;
-constexpr Extent k_played{16, 16};
 
-struct ViewOptions {
-    SceneRequest scene;
-    FrameOptions frames;
-    std::string record;
+struct ViewOptions : ViewerOptions {
     bool plain = false;
     bool fresh = false;
-    LimitOptions limits;
 };
-
-/// In a process of its own: all that the window will have its driver do, once, small and in no window. What
-/// is wrong otherwise, the window's own driver says.
-void play(const SceneRequest& request, const std::string& pass) {
-    const auto context = platform::HeadlessContext::create();
-    if (!context)
-        return;
-    auto scene = load(request);
-    if (!scene)
-        return;
-    if (scene->find(scene::PassKind::sound))
-        if (auto sound = render::SoundRenderer::create(*scene, {}, precision_of(request)))
-            sound->draw_rows(0, 1);
-    auto renderer = render::Renderer::create(*std::move(scene),
-                                             {k_played, image::SampleType::u8, pass, precision_of(request)});
-    if (!renderer)
-        return;
-    renderer->warm_up({});
-    renderer->draw({});
-    renderer->read_back();
-}
 
 /// How the last window was left, less what is typed now.
 std::optional<Remembered> left_before(const ViewOptions& options, FrameSequence& frames) {
@@ -72,34 +36,23 @@ std::optional<Remembered> left_before(const ViewOptions& options, FrameSequence&
 
 Result<int> view(const ViewOptions& options) {
     auto frames = TRY(resolve(options.frames));
-    const bool remembers = !options.frames.input && options.record.empty();
+    const bool remembers = !options.by_frames();
     auto left = remembers && !options.fresh ? left_before(options, frames) : std::nullopt;
-    if (const Extent size = frames.state.extent; std::max(size.width, size.height) > k_largest_window)
+    const Extent size = frames.state.extent;
+    if (std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
                                                   size.width, size.height, k_largest_window));
-    const auto limits = TRY(resolve(options.limits));
-    Viewer::Settings settings{options.scene, std::move(frames)};
-    settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits.memory);
-    settings.record = OutputPath::typed(options.record);
+    auto settings = TRY(resolve(options, std::move(frames)));
     settings.plain = options.plain;
     settings.remembers = remembers;
     settings.left = std::move(left);
-    // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
-    if (options.frames.date || options.frames.input || !options.record.empty())
-        settings.date = settings.frames.state.date;
-    if (!settings.record.empty())
-        TRY(check_writable(settings.record));
-    Interrupt interrupt;
-    auto viewer = TRY(Viewer::open(std::move(settings)));
-    const Interrupt::Waking waking(interrupt, platform::Window::wake);
-    auto outcome = viewer.run(interrupt);
-    if (viewer.busy()) { // a driver that compiles cannot be waited for
-        if (!outcome)
-            say(outcome.error());
-        finish_diagnostics(true);
-        ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
-    }
-    return outcome;
+    const auto corner = settings.left ? settings.left->place : std::nullopt;
+    return show(std::move(settings), [&](const std::string& title) {
+        return platform::Window::create(size, title, corner)
+            .map([](platform::Window window) -> std::unique_ptr<Screen> {
+                return std::make_unique<WindowScreen>(std::move(window));
+            });
+    });
 }
 
 } // namespace
@@ -108,17 +61,7 @@ void add_view(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ViewOptions>();
     CLI::App* command =
         app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
-    add_scene_options(*command, options->scene);
-    add_precision_options(*command, options->scene);
-    add_picture_options(*command, options->frames);
-    command
-        ->add_option("--record", options->record,
-                     "Writes what mouse and keyboard do, for --input; iTime goes by frames")
-        ->type_name("FILE")
-        ->excludes("--input");
-    command->get_option("--fps")->description(
-        "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
-    add_memory_option(*command, options->limits);
+    add_viewer_options(*command, *options);
     command->add_flag("--plain", options->plain,
                       "Stays with the scene's text as it is when nobody touches it for a while");
     command->add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");

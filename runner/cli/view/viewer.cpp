@@ -8,9 +8,7 @@
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
-#include "gl/render_target.hpp"
 #include "image/files/picture_file.hpp"
-#include "platform/window_loss.hpp"
 
 #include <fmt/format.h>
 
@@ -41,19 +39,19 @@ std::string headline(const Error& error) {
     return error.message;
 }
 
-render::RenderOptions options_for(const platform::Window& window, const Viewer::Settings& settings) {
-    render::RenderOptions options{window.framebuffer_extent(), image::SampleType::u8,
-                                  settings.frames.state.pass, precision_of(settings.scene)};
+render::RenderOptions options_for(const Screen& screen, const Viewer::Settings& settings) {
+    render::RenderOptions options{screen.extent(), image::SampleType::u8, settings.frames.state.pass,
+                                  precision_of(settings.scene)};
     options.marks_non_finite = true;
     return options;
 }
 
 } // namespace
 
-Viewer::Viewer(Settings settings, platform::Window window, LiveScene scene)
-    : settings_(std::move(settings)), window_(std::move(window)), scene_(std::move(scene)),
+Viewer::Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scene)
+    : settings_(std::move(settings)), screen_(std::move(screen)), scene_(std::move(scene)),
       sound_(std::make_unique<SoundPlayer>()), clock_(clock_from(now_seconds())),
-      controls_(settings_.frames.state.camera) {
+      controls_(settings_.frames.state.camera), controls_open_(settings_.controls) {
     // Somebody who records sees the recording: there is nothing that it could show otherwise.
     if (settings_.frames.input || recording())
         replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.state.camera);
@@ -67,7 +65,7 @@ render::LiveClock Viewer::clock_from(double now) const {
     return render::LiveClock(now, by_frames ? std::optional(settings_.frames.state.fps) : std::nullopt);
 }
 
-Result<Viewer> Viewer::open(Settings settings) {
+Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
     auto first = LiveScene::load(settings.scene);
     if (!first.scene && first.scene.error().code == ErrorCode::usage)
         return fail(std::move(first.scene.error()));
@@ -77,19 +75,19 @@ Result<Viewer> Viewer::open(Settings settings) {
     if (!settings.record.empty())
         TRY(settings.record.place());
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
-    auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark",
-                                           settings.left ? settings.left->place : std::nullopt);
-    if (!window) // nothing can be waited for
-        return fail(std::move(first.scene ? window.error() : first.scene.error()));
-    auto live = LiveScene::create(settings.scene, std::move(first), *window,
-                                  {options_for(*window, settings), {}, settings.rehearsal});
+    auto screen = open_screen(name + " - tidemark");
+    if (!screen) // nothing can be waited for
+        return fail(std::move(first.scene ? screen.error() : first.scene.error()));
+    const LiveScene::View view{
+        [&] { return (*screen)->create_context(); }, options_for(**screen, settings), {}, settings.rehearsal};
+    auto live = LiveScene::create(settings.scene, std::move(first), view, [&on = **screen] { on.wake(); });
     if (!live)
         return fail(std::move(live.error()));
-    return Viewer(std::move(settings), *std::move(window), *std::move(live));
+    return Viewer(std::move(settings), *std::move(screen), *std::move(live));
 }
 
 Result<int> Viewer::run(const Interrupt& interrupt) {
-    const platform::WhenDisplayIsLost rescue([this] {
+    const auto rescue = screen_->when_lost([this] {
         const auto saved = finish();
         say(to_string(saved ? Error{ErrorCode::no_context, "the display is gone"} : saved.error()));
         exit_at_once(exit_code(ErrorCode::no_context));
@@ -118,10 +116,11 @@ void Viewer::listen() {
     const auto handle_all = [this](const std::vector<platform::InputEvent>& events) {
         for (const platform::InputEvent& event : events) {
             stale_overlay_ |= magnifier_.follow(event);
-            if (!overlay_.take(event))
+            if (!screen_->take(event))
                 std::visit([this](const auto& happened) { handle(happened); }, event);
             obey_overlay();
         }
+        obey_overlay();
     };
     double now = now_seconds();
     held_seconds_ = now - listened_at_;
@@ -129,12 +128,12 @@ void Viewer::listen() {
     if (std::exchange(drew_, false))
         slow_ = of_the_hold_;
     if (of_the_hold_) {
-        handle_all(window_.poll());
+        handle_all(screen_->wait(0));
         next_draw_ = std::max(next_draw_, now + k_breath_seconds);
         now = now_seconds();
     }
     of_the_hold_ = false;
-    handle_all(window_.wait(closing_ ? 0 : seconds_to_sleep(now)));
+    handle_all(screen_->wait(closing_ ? 0 : seconds_to_sleep(now)));
     listened_at_ = now_seconds();
 }
 
@@ -155,9 +154,8 @@ Result<void> Viewer::finish() {
 }
 
 bool Viewer::wants_frame(double now) const {
-    const Extent extent = window_.framebuffer_extent();
-    if (extent.width == 0 || extent.height == 0)
-        return false; // minimised
+    if (!screen_->is_watched())
+        return false;
     if (overlay_due())
         return true;
     if (waits_for_better() || (slow_ && now < next_draw_))
@@ -172,9 +170,10 @@ bool Viewer::moving() const {
 
 double Viewer::seconds_to_sleep(double now) const {
     double until = std::numeric_limits<double>::infinity();
-    if ((stale_ && !slow_) || overlay_due() || stepping_)
+    const bool watched = screen_->is_watched();
+    if ((watched && ((stale_ && !slow_) || overlay_due())) || stepping_)
         return 0;
-    if ((stale_ || moving()) && !waits_for_better())
+    if (watched && (stale_ || moving()) && !waits_for_better())
         until = next_draw_;
     if (scene_.building_since())
         until = std::min(until, now + k_title_seconds);
@@ -188,7 +187,7 @@ void Viewer::draw(double now) {
     const bool due = stale_ || (moving() && now >= next_draw_);
     const bool stale = std::exchange(stale_, false);
     if (!stage_ || given_up_ || stepping_ || !due)
-        return present();
+        return present(false);
     render::Renderer& renderer = stage_->renderer();
     next_draw_ = std::max(next_draw_ + 1 / settings_.frames.state.fps, now);
     shown_ = clock_.next_frame(now);
@@ -202,8 +201,8 @@ void Viewer::draw(double now) {
     drew_ = true;
     renderer.draw(inputs_of(shown_), controls_open_ ? costs_.next_frame() : nullptr);
     const bool drawn = renderer.passes_drawn() != drawn_before;
-    if (drawn || stale || stale_overlay_ || overlay_.wants_frame())
-        present();
+    if (drawn || stale || stale_overlay_ || screen_->wants_frame())
+        present(drawn);
     controls_.frame_drawn();
     if (drawn)
         finite_.frame_drawn();
@@ -216,18 +215,19 @@ void Viewer::draw(double now) {
 }
 
 /// The picture as it was drawn last, and what lies over it.
-void Viewer::present() {
+void Viewer::present(bool fresh) {
     stale_overlay_ = false;
-    const gl::Texture* marked = marked_picture(); // draws, as the magnifier does: before the window's turn
+    const gl::Texture* marked = marked_picture(); // draws, as the magnifier does: before the screen's turn
     live::Model model = overlay_model();
-    if (stage_)
-        gl::blit_to_window(stage_->renderer().target(), window_.framebuffer_extent());
-    else
-        gl::clear_window();
+    screen_->begin(stage_ ? &stage_->renderer().target() : nullptr, fresh);
     if (marked)
-        marks_->draw(*marked, window_.framebuffer_extent());
-    show_overlay(std::move(model));
-    window_.swap();
+        marks_->draw(*marked, screen_->extent());
+    if (auto shown = screen_->finish(std::move(model), shown_moment()); !shown)
+        say(to_string(shown.error()));
+}
+
+ShownMoment Viewer::shown_moment() const {
+    return {shown_.seconds(), shown_.frame, stage_ && reads_keyboard(stage_->renderer())};
 }
 
 /// Said once of a text: a window shows them as what it likes.
@@ -276,12 +276,12 @@ void Viewer::show_title(double now) {
     if (title == title_)
         return;
     title_ = std::move(title);
-    window_.set_title(title_);
+    screen_->set_title(title_);
 }
 
 /// Uniforms follow the mouse and the keys; a paused picture is drawn anew when they do.
 void Viewer::control(const ControlEvent& event) {
-    if (!controls_.handle(event, window_.framebuffer_extent().height))
+    if (!controls_.handle(event, screen_->extent().height))
         return;
     touched_at_ = now_seconds();
     stale_ = true;
@@ -291,7 +291,7 @@ void Viewer::control(const ControlEvent& event) {
 
 void Viewer::handle(const platform::KeyPressed& event) {
     const auto owner = keys_.press(event, stage_ && reads_keyboard(stage_->renderer()));
-    if (owner == WindowKeys::Owner::window)
+    if (owner == WindowKeys::Owner::window && screen_->has(event.key))
         obey(event.key, now_seconds());
     else if (owner == WindowKeys::Owner::scene)
         control(event);
@@ -325,7 +325,7 @@ void Viewer::obey(Key key, double now) {
         forget_what_follows();
         break;
     case Key::r: return control(CameraReset{});
-    case Key::f: window_.toggle_full_screen(); break;
+    case Key::f: screen_->toggle_full_screen(); break;
     case Key::escape: escape(now); break;
     case Key::c: return copy_moment();
     case Key::k: return keep_moment();
@@ -395,11 +395,12 @@ void Viewer::save_picture() {
 }
 
 LiveScene::View Viewer::view() const {
-    return {options_for(window_, settings_), inputs_of(shown_), settings_.rehearsal};
+    return {[this] { return screen_->create_context(); }, options_for(*screen_, settings_), inputs_of(shown_),
+            settings_.rehearsal};
 }
 
 Result<void> Viewer::follow_scene(double now) {
-    auto fresh = TRY(scene_.follow(window_, view(), now));
+    auto fresh = TRY(scene_.follow(view(), now));
     stale_overlay_ |= errors_.show(scene_.failure());
     if (scene_.failure())
         going_to_.reset();
@@ -454,7 +455,7 @@ Result<void> Viewer::swap_in(Stage fresh) {
                                                        stage_->renderer().scene().knobs, shown_.knobs))
             say(line);
     }
-    if (const Extent extent = window_.framebuffer_extent(); extent != stage_->renderer().extent())
+    if (const Extent extent = screen_->extent(); extent != stage_->renderer().extent())
         handle(platform::FramebufferResized{extent}); // it has changed meanwhile
     return {};
 }
@@ -468,14 +469,14 @@ void Viewer::settle_after_rest(double now) {
     if (!rest || now - touched_at_ < *rest)
         return;
     settled_ = true;
-    scene_.build_anew(turned_scene(), window_, view(), LiveScene::Settle::yes);
+    scene_.build_anew(turned_scene(), view(), LiveScene::Settle::yes);
 }
 
 void Viewer::play_sound() {
     const scene::Scene& scene = stage_->renderer().scene();
-    if (!scene.find(scene::PassKind::sound))
+    if (!settings_.sounds || !scene.find(scene::PassKind::sound))
         return sound_->stop();
-    if (auto context = window_.create_context())
+    if (auto context = screen_->create_context())
         sound_->play(*std::move(context), scene, precision_of(settings_.scene));
     else
         say(to_string(context.error()));

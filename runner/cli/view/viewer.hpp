@@ -1,5 +1,5 @@
-// A scene in a window: draws it, feeds it what people do to the window, and reloads it when its files are
-// saved. Whatever is wrong with the files is said and waited for, with the last good picture running.
+// A scene on a screen: draws it, feeds it what people do there, and reloads it when its files are saved.
+// Whatever is wrong with the files is said and waited for, with the last good picture running.
 #pragma once
 
 #include "cli/controls.hpp"
@@ -16,13 +16,12 @@
 #include "cli/view/origin_search.hpp"
 #include "cli/view/pass_costs.hpp"
 #include "cli/view/remembered.hpp"
+#include "cli/view/screen.hpp"
 #include "cli/view/sound_player.hpp"
 #include "cli/view/stage.hpp"
 #include "cli/view/stepping_there.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "cli/view/window_keys.hpp"
-#include "live/overlay.hpp"
-#include "platform/window.hpp"
 #include "render/live_clock.hpp"
 #include "render/number_marks.hpp"
 
@@ -42,21 +41,26 @@ public:
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
         bool plain = false;     ///< never settles
         bool remembers = false; ///< leaves its state for the next window
+        bool controls = false;  ///< open from the start
+        bool sounds = true;     ///< its Sound pass is to be heard here
         std::optional<Remembered> left = {};       ///< by the last one
         std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
 
-    /// Opens the window and begins to compile. Fails where options are wrong, and as Window does.
-    static Result<Viewer> open(Settings settings);
+    /// Opens the screen and begins to compile. Fails where options are wrong, and as `open_screen` does.
+    static Result<Viewer> open(Settings settings, const OpenScreen& open_screen);
 
     /// Until the person closes it or interrupts the program. Fails as LiveScene::follow does.
     Result<int> run(const Interrupt& interrupt);
+
+    /// Has `run` look after what happened. From any thread.
+    void wake() const { screen_->wake(); }
 
     /// A thread is at work in the driver, which cannot be stopped: whoever wants to end must end the process.
     bool busy() const { return scene_.busy() || sound_->busy(); }
 
 private:
-    Viewer(Settings settings, platform::Window window, LiveScene scene);
+    Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scene);
     bool recording() const { return !settings_.record.empty(); }
     render::LiveClock clock_from(double now) const;
 
@@ -94,7 +98,6 @@ private:
     void toggle_controls();
     void show_picture_of(platform::Key digit);
     void toggle_help();
-    void show_overlay(live::Model model);
     live::Model overlay_model();
     void obey_overlay();
     void carry_out(const live::TurnKnob& command);
@@ -141,7 +144,8 @@ private:
     bool compiles_for_long(double now) const;
 
     void draw(double now);
-    void present();
+    void present(bool fresh);
+    ShownMoment shown_moment() const;
     void look_for_numbers(double now);
     std::vector<std::string> trace_words() const;
     void show_title(double now);
@@ -152,7 +156,7 @@ private:
     bool moving() const;
 
     Settings settings_;
-    platform::Window window_; ///< owns the context: first in, last out
+    std::unique_ptr<Screen> screen_; ///< owns the first context: first in, last out
     LiveScene scene_;
     std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
@@ -175,7 +179,6 @@ private:
     bool given_up_ = false; ///< frames take too long: none until somebody asks for one, or saves
     double touched_at_ = 0; ///< when somebody last changed what is drawn, or its size
     WindowKeys keys_;
-    live::Overlay overlay_;
     ErrorBoard errors_;
     PassCosts costs_; ///< while the controls are open
     Magnifier magnifier_;

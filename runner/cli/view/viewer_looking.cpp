@@ -28,7 +28,7 @@ render::ShownFloats& Viewer::floats() {
 std::optional<live::MagnifierField> Viewer::magnifier_field() {
     if (!magnifier_.is_open() || !stage_ || stepping_)
         return std::nullopt;
-    return magnifier_.field(stage_->renderer(), inputs_of(shown_), window_.framebuffer_extent(), floats());
+    return magnifier_.field(stage_->renderer(), inputs_of(shown_), screen_->extent(), floats());
 }
 
 /// What the marks are drawn from, while there are any.
@@ -63,11 +63,10 @@ void Viewer::trace_pixel() {
         stale_overlay_ = true;
         return;
     }
-    const Rectangle pixel =
-        magnifier_.pixel(stage_->renderer().target().extent(), window_.framebuffer_extent());
+    const Rectangle pixel = magnifier_.pixel(stage_->renderer().target().extent(), screen_->extent());
     std::vector<std::string> words = trace_words();
     words.insert(words.end(), {"--pixel", fmt::format("{},{}", pixel.x, pixel.y), "--json"});
-    auto started = OriginSearch::start(words, platform::Window::wake);
+    auto started = OriginSearch::start(words, [&on = *screen_] { on.wake(); });
     if (!started)
         return say(to_string(started.error()));
     search_ = *std::move(started);

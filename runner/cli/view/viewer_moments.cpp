@@ -40,7 +40,7 @@ void Viewer::copy_moment() {
     state.fps = settings_.frames.state.fps;
     state.date = settings_.frames.state.date;
     const std::string command = capture_command(copied);
-    window_.set_clipboard(command);
+    screen_->set_clipboard(command);
     say("copied: " + command);
 }
 
@@ -69,7 +69,7 @@ void Viewer::carry_out(const live::GoToView& command) {
     if (kept.scene.defines == scene_.request().defines)
         return seek(state.seconds(), now);
     going_to_ = state.seconds();
-    scene_.hold(kept.scene.defines, window_, view());
+    scene_.hold(kept.scene.defines, view());
 }
 
 void Viewer::carry_out(const live::ForgetView& command) {
@@ -94,7 +94,7 @@ void Viewer::take_up(const Remembered& left) {
 /// For the next window of the scene.
 void Viewer::leave() const {
     if (settings_.remembers && stage_)
-        remember(settings_.scene.path, {moment(), window_.place(), controls_open_, views_});
+        remember(settings_.scene.path, {moment(), screen_->place(), controls_open_, views_});
 }
 
 } // namespace tidemark::cli

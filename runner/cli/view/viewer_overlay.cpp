@@ -21,7 +21,7 @@ void Viewer::toggle_controls() {
     settled_ = false;
     scene_.stop_settling();
     if (stage_ && stage_->share() && !scene_.building_since())
-        scene_.build_anew(turned_scene(), window_, view(), LiveScene::Settle::no);
+        scene_.build_anew(turned_scene(), view(), LiveScene::Settle::no);
 }
 
 /// 1 to 9, of the pictures in the controls; 0 and the same again: the scene's own.
@@ -44,14 +44,7 @@ void Viewer::toggle_help() {
 
 /// It is drawn without a new frame of the scene, which brings it along while the scene moves.
 bool Viewer::overlay_due() const {
-    return (stale_overlay_ || overlay_.wants_frame()) && !moving();
-}
-
-void Viewer::show_overlay(live::Model model) {
-    if (auto shown = overlay_.show(std::move(model), {window_.framebuffer_extent(), window_.content_scale()});
-        !shown)
-        say(to_string(shown.error()));
-    overlay_.draw();
+    return (stale_overlay_ || screen_->wants_frame()) && !moving();
 }
 
 live::Model Viewer::overlay_model() {
@@ -80,14 +73,17 @@ live::Model Viewer::overlay_model() {
 }
 
 void Viewer::obey_overlay() {
-    for (const live::Command& command : overlay_.take_commands())
+    for (const live::Command& command : screen_->take_commands())
         std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
 }
 
 void Viewer::carry_out(const live::TurnKnob& command) {
+    if (!stage_)
+        return;
     const auto& knobs = stage_->renderer().scene().knobs;
     const auto knob = std::ranges::find(knobs, command.name, &scene::Knob::name);
-    if (knob != knobs.end())
+    const auto taken = [&](double number) { return live::takes(*knob, number); };
+    if (knob != knobs.end() && std::ranges::all_of(command.value, taken))
         control(KnobTurned{{command.name, to_string(*knob, command.value)}});
 }
 
@@ -96,23 +92,29 @@ void Viewer::carry_out(const live::ResetKnob& command) {
 }
 
 void Viewer::carry_out(const live::ResetKnobs&) {
+    if (!stage_)
+        return;
     for (const scene::Knob& knob : stage_->renderer().scene().knobs)
         if (value_after(knob, shown_.knobs) != knob.initial)
             carry_out(live::ResetKnob{knob.name});
 }
 
 void Viewer::carry_out(const live::CopyKnobs&) {
+    if (!stage_)
+        return;
     std::vector<std::string> words;
     for (const scene::Knob& knob : turned_scene().knobs)
         if (knob.value != knob.initial)
             words.insert(words.end(), {"--set", fmt::format("{}={}", knob.name, to_string(knob))});
     const std::string text = shell_words(words);
-    window_.set_clipboard(text);
+    screen_->set_clipboard(text);
     say(words.empty() ? "nothing to copy: every knob is as the file has it" : "copied: " + text);
 }
 
 /// The reload that follows finds every knob where it is.
 void Viewer::carry_out(const live::WriteKnobs&) {
+    if (!stage_)
+        return;
     auto written = write_knobs(turned_scene().knobs);
     if (!written)
         return say(to_string(written.error()));
@@ -126,11 +128,11 @@ void Viewer::carry_out(const live::OpenEditor& command) {
 }
 
 void Viewer::carry_out(const live::Define& command) {
-    scene_.define(command.name, command.value, window_, view());
+    scene_.define(command.name, command.value, view());
 }
 
 void Viewer::carry_out(const live::Undefine& command) {
-    scene_.define(command.name, std::nullopt, window_, view());
+    scene_.define(command.name, std::nullopt, view());
 }
 
 /// A program that has the values of knobs in it would be wrong soon.

@@ -55,16 +55,17 @@ const byteOf = value => Math.round(255 * Math.min(1, Math.max(0, value)));
 const hexOf = colour => `#${colour.map(value => byteOf(value).toString(HEX).padStart(2, "0")).join("")}`;
 const colourOf = hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), HEX) / 255);
 
-// A colour, a check box for two values, a slider for each component of a range, else a field for a number.
+// A colour, a check box for two values, a slider for each component of a range, else a field for a number. `changed` is
+// told which knob was.
 function knobWidgets(knob, changed) {
     const turn = (i, value) => {
         knob.value[i] = value;
-        changed();
+        changed(knob);
     };
     if (knob.colour)
         return [element("input", {type: "color", value: hexOf(knob.value), ariaLabel: knob.name, oninput: event => {
             knob.value = colourOf(event.target.value);
-            changed();
+            changed(knob);
         }})];
     const {low, high, step} = knob;
     if (low && step && knob.value.length === 1 && high[0] - low[0] === step[0])

@@ -1,12 +1,6 @@
 
 // ---- Mouse and keyboard of the figure
 
-// Where an event is in the picture: pixels from the bottom left.
-function placeIn(canvas, {clientX, clientY}) {
-    const {left, top, width, height} = canvas.getBoundingClientRect();
-    return [(clientX - left) * canvas.width / width, canvas.height - (clientY - top) * canvas.height / height];
-}
-
 // What a drag does; as in the window.
 class Drag {
     last = null; // its latest place

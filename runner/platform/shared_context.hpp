@@ -1,18 +1,21 @@
-// A context of its own beside a window's first one, so that a thread can prepare what the window shows later.
-// Shares textures and programs with it.
+// A context of its own beside a first one, a window's or a headless one, so that a thread can prepare what is
+// shown later. Shares textures and programs with it.
 #pragma once
 
 #include "base/result.hpp"
 
 namespace tidemark::platform {
 
-/// Made by Window::create_context, and must not outlive the window. Current on one thread at a time.
-class WindowContext {
+/// Must not outlive the one that it was made beside. Current on one thread at a time.
+class SharedContext {
 public:
-    WindowContext(WindowContext&& other) noexcept;
-    WindowContext& operator=(WindowContext&& other) noexcept;
+    /// Beside `first`, which belongs to `display`; `surface`: of its window, null where it has none. All are
+    /// EGL's. ErrorCode::no_context, with the reason, when the driver gives none.
+    static Result<SharedContext> create(void* display, void* first, void* surface);
+    SharedContext(SharedContext&& other) noexcept;
+    SharedContext& operator=(SharedContext&& other) noexcept;
     /// Must be current on no other thread.
-    ~WindowContext();
+    ~SharedContext();
 
     /// On the calling thread. What is drawn into the window's own framebuffer is lost.
     Result<void> make_current();
@@ -22,8 +25,7 @@ public:
     void leave();
 
 private:
-    friend class Window;
-    WindowContext() = default;
+    SharedContext() = default;
     Result<void> make_current_with(void* surface);
 
     void* display_ = nullptr; ///< EGL's, as are the others

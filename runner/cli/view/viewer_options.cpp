@@ -1,0 +1,84 @@
+#include "cli/view/viewer_options.hpp"
+
+#include "base/file.hpp"
+#include "base/try.hpp"
+#include "cli/console.hpp"
+#include "cli/diagnostics.hpp"
+#include "cli/view/rehearsal.hpp"
+#include "platform/headless_context.hpp"
+#include "render/renderer.hpp"
+#include "render/sound_renderer.hpp"
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+namespace tidemark::cli {
+namespace {
+
+constexpr Extent k_played{16, 16};
+
+/// In a process of its own: all that the screen will have its driver do, once, small and unseen. What
+/// is wrong otherwise, the screen's own driver says.
+void play(const SceneRequest& request, const std::string& pass) {
+    const auto context = platform::HeadlessContext::create();
+    if (!context)
+        return;
+    auto scene = load(request);
+    if (!scene)
+        return;
+    if (scene->find(scene::PassKind::sound))
+        if (auto sound = render::SoundRenderer::create(*scene, {}, precision_of(request)))
+            sound->draw_rows(0, 1);
+    auto renderer = render::Renderer::create(*std::move(scene),
+                                             {k_played, image::SampleType::u8, pass, precision_of(request)});
+    if (!renderer)
+        return;
+    renderer->warm_up({});
+    renderer->draw({});
+    renderer->read_back();
+}
+
+} // namespace
+
+void add_viewer_options(CLI::App& command, ViewerOptions& options) {
+    add_scene_options(command, options.scene);
+    add_precision_options(command, options.scene);
+    add_picture_options(command, options.frames);
+    command
+        .add_option("--record", options.record,
+                    "Writes what mouse and keyboard do, for --input; iTime goes by frames")
+        ->type_name("FILE")
+        ->excludes("--input");
+    command.get_option("--fps")->description(
+        "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
+    add_memory_option(command, options.limits);
+}
+
+Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence frames) {
+    const auto limits = TRY(resolve(options.limits));
+    Viewer::Settings settings{options.scene, std::move(frames)};
+    settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits.memory);
+    settings.record = OutputPath::typed(options.record);
+    // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
+    if (options.frames.date || options.by_frames())
+        settings.date = settings.frames.state.date;
+    if (!settings.record.empty())
+        TRY(check_writable(settings.record));
+    return settings;
+}
+
+Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
+    Interrupt interrupt;
+    auto viewer = TRY(Viewer::open(std::move(settings), open_screen));
+    const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
+    auto outcome = viewer.run(interrupt);
+    if (viewer.busy()) {
+        if (!outcome)
+            say(outcome.error());
+        finish_diagnostics(true);
+        ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+    }
+    return outcome;
+}
+
+} // namespace tidemark::cli

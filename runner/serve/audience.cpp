@@ -1,0 +1,141 @@
+#include "serve/audience.hpp"
+
+#include "base/overloaded.hpp"
+#include "base/try.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::serve {
+namespace {
+
+SharedMessage steering_text(bool you, size_t viewers) {
+    return std::make_shared<Message>(
+        Message{fmt::format(R"({{"steering":{{"you":{},"viewers":{}}}}})", you, viewers)});
+}
+
+tl::unexpected<Error> too_much() {
+    return fail(ErrorCode::usage, "too many messages at a time");
+}
+
+} // namespace
+
+bool Audience::came(ViewerId viewer) {
+    const std::lock_guard lock(mutex_);
+    if (viewers_.size() >= k_most_viewers)
+        return false;
+    Viewer& made = viewers_[viewer];
+    for (const auto& [kind, text] : told_)
+        settings_.send(viewer, text);
+    send_newest(viewer, made);
+    if (viewers_.size() == 1)
+        steering_ = viewer;
+    tell_who_steers();
+    inbox_.wake();
+    return true;
+}
+
+Result<void> Audience::said(ViewerId viewer, std::string_view message) {
+    Request request = TRY(parse_request(message));
+    const std::lock_guard lock(mutex_);
+    if (const auto* seen = std::get_if<PictureSeen>(&request)) {
+        handle(viewer, *seen);
+        return {};
+    }
+    if (std::holds_alternative<SteeringWanted>(request)) {
+        steer(viewer);
+        return {};
+    }
+    if (viewer != steering_)
+        return {}; // they watch
+    return std::visit(Overloaded{
+                          [&](const platform::InputEvent& event) { return handle(event); },
+                          [&](live::Command& command) { return handle(std::move(command)); },
+                          [&](const auto&) {
+                              let_go();
+                              return Result<void>();
+                          },
+                      },
+                      request);
+}
+
+void Audience::left(ViewerId viewer) {
+    const std::lock_guard lock(mutex_);
+    viewers_.erase(viewer);
+    if (viewers_.empty() && settings_.once)
+        inbox_.add(platform::CloseRequested{});
+    if (viewer == steering_)
+        steer(viewers_.empty() ? 0 : viewers_.begin()->first);
+    else
+        tell_who_steers();
+}
+
+void Audience::handle(ViewerId viewer, const PictureSeen& seen) {
+    Viewer& who = viewers_[viewer];
+    std::erase_if(who.on_the_way, [&](uint32_t number) { return number <= seen.number; });
+    send_newest(viewer, who);
+    inbox_.wake();
+}
+
+Result<void> Audience::handle(const platform::InputEvent& event) {
+    hands_.follow(event);
+    return inbox_.add(event) ? Result<void>() : too_much();
+}
+
+Result<void> Audience::handle(live::Command command) {
+    return inbox_.add(std::move(command)) ? Result<void>() : too_much();
+}
+
+void Audience::send_newest(ViewerId id, Viewer& viewer) {
+    if (viewer.sent == newest_.number || viewer.on_the_way.size() >= k_pictures_on_the_way)
+        return;
+    viewer.sent = newest_.number;
+    viewer.on_the_way.push_back(newest_.number);
+    settings_.send(id, newest_.message);
+}
+
+void Audience::steer(ViewerId viewer) {
+    let_go();
+    steering_ = viewer;
+    tell_who_steers();
+}
+
+void Audience::let_go() {
+    for (const platform::InputEvent& event : hands_.let_go())
+        inbox_.add(event);
+}
+
+void Audience::tell_who_steers() {
+    for (const auto& [id, viewer] : viewers_)
+        settings_.send(id, steering_text(id == steering_, viewers_.size()));
+}
+
+void Audience::show(NumberedPicture picture) {
+    const std::lock_guard lock(mutex_);
+    newest_ = std::move(picture);
+    for (auto& [id, viewer] : viewers_)
+        send_newest(id, viewer);
+    inbox_.wake();
+}
+
+void Audience::tell(const std::string& kind, SharedMessage text) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, viewer] : viewers_)
+        settings_.send(id, text);
+    told_[kind] = std::move(text);
+}
+
+void Audience::tell_steering(const SharedMessage& text) {
+    const std::lock_guard lock(mutex_);
+    if (steering_ != 0)
+        settings_.send(steering_, text);
+}
+
+bool Audience::is_waiting() const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(
+        viewers_, [](const auto& viewer) { return viewer.second.on_the_way.size() < k_pictures_on_the_way; });
+}
+
+} // namespace tidemark::serve

@@ -1,0 +1,26 @@
+// ---- The way to the program
+
+// Texts go both ways, pictures come in: four bytes of a length, a JSON head of that length, a JPEG file.
+class Link {
+    constructor({onText, onPicture, onEnd}) {
+        const address = new URL("socket", location.href);
+        address.protocol = address.protocol.replace("http", "ws");
+        address.search = location.search; // the token
+        this.socket = new WebSocket(address);
+        this.socket.binaryType = "arraybuffer";
+        this.socket.onmessage = ({data}) => typeof data === "string" ? onText(JSON.parse(data)) : onPicture(...Link.parts(data));
+        this.socket.onclose = ({reason}) => onEnd(reason);
+    }
+
+    static parts(buffer) {
+        const length = new DataView(buffer).getUint32(0, true);
+        const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+        return [head, new Blob([new Uint8Array(buffer, 4 + length)], {type: "image/jpeg"})];
+    }
+
+    send(wanted, values = {}) {
+        if (this.socket.readyState === WebSocket.OPEN)
+            this.socket.send(JSON.stringify({do: wanted, ...values}));
+    }
+}
+

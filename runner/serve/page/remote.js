@@ -1,0 +1,171 @@
+// ---- A scene that is drawn elsewhere
+
+const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
+
+class Remote {
+    number = 0; // of the picture on show
+    state = {size: [16, 9], keyboard: false, pictures: [], large: null};
+    arrivals = []; // of pictures, in the last second
+
+    constructor(div) {
+        this.div = Object.assign(div, {tidemark: this}); // for scripts of tests
+        this.div.dataset.state = "connecting";
+        this.link = new Link({onText: text => this.#hear(text), onPicture: (head, file) => this.#see(head, file),
+                              onEnd: reason => this.#end(reason)});
+        this.#build();
+        const {canvas, link} = this;
+        sendPointer(canvas, link, () => this.state.size);
+        sendKeys(canvas, link, () => this.state.keyboard, () => this.toggleFullScreen());
+        document.addEventListener("visibilitychange", () => this.#tellSeen());
+        setInterval(() => this.#showCosts(), 1000); // numbers to be read stand still for so long
+        canvas.focus();
+    }
+
+    #build() {
+        const {link} = this, ask = wanted => () => link.send(wanted);
+        this.canvas = element("canvas", {tabIndex: 0, ariaLabel: "The scene"});
+        this.errors = element("pre", {className: "tidemark-errors", hidden: true, role: "alert"});
+        this.picture = element("div", {className: "tidemark-picture"}, this.canvas, this.errors);
+        this.bar = new TimeBar({restart: ask("restart"), togglePause: ask("pause"), seek: seconds => link.send("seek", {seconds}),
+                                toggleFullScreen: () => this.toggleFullScreen()}, false);
+        this.pass = choice("Show", value => link.send("show", {picture: value === "" ? null : Number(value)}));
+        this.speed = choice("Speed", value => link.send("speed", {speed: Number(value)}));
+        this.copy = wordButton("Copy command", () => this.#press(67));
+        this.camera = wordButton("Reset camera", () => this.#press(82));
+        this.loop = {from: wordButton("A", () => this.#loop("from")), to: wordButton("B", () => this.#loop("to"))};
+        this.stay = wordButton("Stay here", ask("give up seek"));
+        this.knobs = new Knobs(link);
+        this.definitions = new Definitions(link);
+        this.steer = wordButton("Steer", ask("steer"));
+        this.status = element("output", {className: "tidemark-status"});
+        this.notice = element("pre", {className: "tidemark-message", hidden: true});
+        const more = element("div", {className: "tidemark-bar"}, this.pass.element, this.loop.from, this.loop.to, this.speed.element,
+                             this.stay, this.copy, this.camera);
+        this.fields = element("fieldset", {disabled: true}, this.bar.element, more, this.knobs.element, this.definitions.element);
+        this.div.append(this.picture, element("div", {className: "tidemark-bar"}, this.steer, this.status), this.notice, this.fields);
+    }
+
+    // A key of the window, whether or not the scene reads the keyboard.
+    #press(code) {
+        const held = this.state.keyboard ? [17, code] : [code]; // with Ctrl it is the window's
+        held.forEach(each => this.link.send("keydown", {code: each}));
+        held.reverse().forEach(each => this.link.send("keyup", {code: each}));
+    }
+
+    #hear({state, title, steering, clipboard}) {
+        this.div.dataset.state = "running";
+        if (state)
+            this.#show(state);
+        if (title !== undefined)
+            document.title = this.title = title;
+        if (steering)
+            this.steering = steering;
+        if (clipboard !== undefined)
+            this.#copied(clipboard);
+        this.#showStatus();
+    }
+
+    #show(state) {
+        this.state = state;
+        const {pictures, large, time, errors, knobs, definitions} = state;
+        showErrors(this.errors, errors);
+        this.#offerPasses();
+        this.#showTime(time);
+        this.pass.element.hidden = pictures.length < 2 && large === null;
+        this.knobs.show(knobs);
+        this.definitions.show(definitions);
+    }
+
+    // Time goes round between A and B; a second press takes one away.
+    #loop(end) {
+        const {from, to} = this.state.time;
+        this.link.send("loop", {from, to, [end]: this.state.time[end] === null ? this.head?.seconds ?? 0 : null});
+    }
+
+    #showTime(time) {
+        for (const [end, letter] of [["from", "A"], ["to", "B"]])
+            this.loop[end].textContent = time[end] === null ? letter : `${letter} ${time[end].toFixed(2)} s`;
+        offer(this.speed, SPEEDS.filter(speed => speed > 0 || time.turnsBack).map(speed => [speed, `${speed}×`]), time.speed);
+        this.speed.element.hidden = !time.hasSpeed;
+        this.stay.hidden = !time.stepping; // on the way to a frame, through all that lead to it
+        if (this.head)
+            this.bar.show(this.#moment(), time.paused, false);
+    }
+
+    // With what each took where the driver's timer says so.
+    #offerPasses() {
+        const {pictures, large} = this.state, costs = this.head?.costs ?? [];
+        const label = (name, i) => costs[i] == null ? name : `${name} (${costs[i].toFixed(1)} ms)`;
+        offer(this.pass, [["", "the scene"], ...pictures.map((name, i) => [i, label(name, i)])], large ?? "");
+    }
+
+    #showCosts() {
+        this.#offerPasses();
+        if (this.head)
+            this.status.title = `drawn in ${this.head.draw.toFixed(1)} ms, encoded in ${this.head.encode.toFixed(1)} ms`;
+    }
+
+    async #see(head, file) {
+        const bitmap = await createImageBitmap(file);
+        if (head.number > this.number) {
+            this.number = head.number;
+            this.head = head;
+            this.#draw(bitmap);
+        }
+        bitmap.close();
+        this.#tellSeen();
+    }
+
+    #draw(bitmap) {
+        const {canvas, picture} = this;
+        if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
+            [canvas.width, canvas.height] = [bitmap.width, bitmap.height];
+            picture.style.setProperty("--ratio", bitmap.width / bitmap.height);
+        }
+        canvas.getContext("2d").drawImage(bitmap, 0, 0);
+        const now = performance.now();
+        this.arrivals = [...this.arrivals.filter(then => now - then < 1000), now];
+        this.bar.show(this.#moment(), this.state.time?.paused, false);
+    }
+
+    // Nobody draws for a page that is hidden.
+    #tellSeen() {
+        if (!document.hidden && this.number > 0)
+            this.link.send("seen", {number: this.number});
+    }
+
+    #moment() { return {time: this.head.seconds, frame: this.head.frame, rate: this.arrivals.length}; }
+
+    #showStatus() {
+        const {you, viewers} = this.steering ?? {you: false, viewers: 1};
+        this.fields.disabled = !you;
+        this.steer.hidden = you;
+        const others = viewers - 1, watch = others === 1 ? "1 other looks" : `${others} others look`;
+        this.status.textContent = [this.title, you ? others ? `you steer, ${watch}` : "" : `you watch, ${watch}`].filter(Boolean).join(" · ");
+    }
+
+    async #copied(text) {
+        this.notice.textContent = text;
+        this.notice.hidden = false;
+        await navigator.clipboard?.writeText(text).catch(() => {}); // it stands there to be copied by hand
+    }
+
+    #end(reason) {
+        this.div.dataset.state = "ended";
+        this.fields.disabled = true;
+        this.steer.hidden = true;
+        this.status.textContent = "";
+        this.notice.hidden = false;
+        this.notice.textContent = `The connection has ended${reason ? `: ${reason}` : ""}. Load the page anew once the program runs.`;
+    }
+
+    toggleFullScreen() {
+        if (document.fullscreenElement)
+            document.exitFullscreen();
+        else
+            this.picture.requestFullscreen();
+    }
+}
+
+new Remote(document.querySelector(".tidemark"));
+})();

@@ -1,0 +1,199 @@
+#include "serve/request.hpp"
+
+#include "base/try.hpp"
+#include "live/definition_field.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace tidemark::serve {
+namespace {
+
+using Json = nlohmann::json;
+using platform::Button;
+using platform::Key;
+
+/// Every whole number of pixels up to here is a float.
+constexpr double k_farthest_pixel = 1 << 24;
+constexpr double k_most_notches = 1000;
+constexpr size_t k_longest_name = 256;
+
+tl::unexpected<Error> refused(std::string_view name, std::string_view wanted) {
+    return fail(ErrorCode::usage, fmt::format("\"{}\": give {}", name, wanted));
+}
+
+/// A finite number within `most` on either side of 0.
+Result<double> number(const Json& message, const char* name, double most) {
+    const auto found = message.find(name);
+    if (found == message.end() || !found->is_number() || !(std::abs(found->get<double>()) <= most))
+        return refused(name, fmt::format("a number within {:g}", most));
+    return found->get<double>();
+}
+
+Result<int> whole_number(const Json& message, const char* name, int least, int most) {
+    const auto found = message.find(name);
+    if (found == message.end() || !found->is_number_integer() || found->get<int64_t>() < least ||
+        found->get<int64_t>() > most)
+        return refused(name, fmt::format("a whole number from {} to {}", least, most));
+    return found->get<int>();
+}
+
+Result<std::string> name_in(const Json& message, const char* name) {
+    const auto found = message.find(name);
+    if (found == message.end() || !found->is_string() ||
+        found->get_ref<const std::string&>().size() > k_longest_name)
+        return refused(name, fmt::format("a text of at most {} bytes", k_longest_name));
+    return found->get<std::string>();
+}
+
+Result<platform::PointerPosition> place(const Json& message) {
+    const double x = TRY(number(message, "x", k_farthest_pixel));
+    return platform::PointerPosition{x, TRY(number(message, "y", k_farthest_pixel))};
+}
+
+Result<Button> button(const Json& message) {
+    const std::string name = TRY(name_in(message, "button"));
+    if (name == "left")
+        return Button::left;
+    if (name == "middle")
+        return Button::middle;
+    if (name == "right")
+        return Button::right;
+    return refused("button", "left, middle or right");
+}
+
+Result<Key> key(const Json& message) {
+    return whole_number(message, "code", 1, 255).map([](int code) { return Key(code); });
+}
+
+template <class T>
+Request event(T happened) {
+    return platform::InputEvent(std::move(happened));
+}
+
+template <class T>
+Request command(T wanted) {
+    return live::Command(std::move(wanted));
+}
+
+Result<Request> turn_knob(const Json& message) {
+    live::TurnKnob turn{TRY(name_in(message, "name"))};
+    const auto values = message.find("value");
+    if (values == message.end() || !values->is_array() || values->empty() ||
+        values->size() > turn.value.size() ||
+        !std::ranges::all_of(*values, [](const Json& value) { return value.is_number(); }))
+        return refused("value", "one to four numbers");
+    for (size_t i = 0; i < values->size(); ++i)
+        turn.value[i] = (*values)[i].get<double>();
+    return command(std::move(turn));
+}
+
+/// A number alone: whatever else stands there would become part of a shader's text.
+Result<Request> define(const Json& message) {
+    live::Define define{TRY(name_in(message, "name")), TRY(name_in(message, "value"))};
+    if (!live::definition_field(define.name, define.value, true))
+        return refused("value", "a decimal number");
+    return command(std::move(define));
+}
+
+Result<Request> show_picture(const Json& message) {
+    if (const auto found = message.find("picture"); found != message.end() && found->is_null())
+        return command(live::ShowPicture{});
+    const int index = TRY(whole_number(message, "picture", 0, 1000));
+    return command(live::ShowPicture{size_t(index)});
+}
+
+Result<std::optional<double>> time_or_null(const Json& message, const char* name) {
+    if (const auto found = message.find(name); found != message.end() && found->is_null())
+        return std::nullopt;
+    return TRY(number(message, name, std::numeric_limits<int>::max()));
+}
+
+Result<Request> set_loop(const Json& message) {
+    live::SetLoop loop{TRY(time_or_null(message, "from")), {}};
+    loop.to = TRY(time_or_null(message, "to"));
+    return command(loop);
+}
+
+using Read = Result<Request> (*)(const Json& message);
+struct Verb {
+    std::string_view name;
+    Read read;
+};
+
+constexpr Verb k_events[] = {
+    {"move", [](const Json& m) -> Result<Request> { return event(platform::PointerMoved{TRY(place(m))}); }},
+    {"press",
+     [](const Json& m) -> Result<Request> {
+         const Button pressed = TRY(button(m));
+         return event(platform::ButtonPressed{pressed, TRY(place(m))});
+     }},
+    {"release",
+     [](const Json& m) -> Result<Request> {
+         const Button released = TRY(button(m));
+         return event(platform::ButtonReleased{released, TRY(place(m))});
+     }},
+    {"wheel",
+     [](const Json& m) -> Result<Request> {
+         return event(platform::WheelTurned{0, TRY(number(m, "up", k_most_notches))});
+     }},
+    {"keydown", [](const Json& m) -> Result<Request> { return event(platform::KeyPressed{TRY(key(m))}); }},
+    {"keyup", [](const Json& m) -> Result<Request> { return event(platform::KeyReleased{TRY(key(m))}); }},
+};
+
+constexpr Verb k_commands[] = {
+    {"turn", turn_knob},
+    {"reset",
+     [](const Json& m) -> Result<Request> { return command(live::ResetKnob{TRY(name_in(m, "name"))}); }},
+    {"reset all", [](const Json&) -> Result<Request> { return command(live::ResetKnobs{}); }},
+    {"copy knobs", [](const Json&) -> Result<Request> { return command(live::CopyKnobs{}); }},
+    {"define", define},
+    {"undefine",
+     [](const Json& m) -> Result<Request> { return command(live::Undefine{TRY(name_in(m, "name"))}); }},
+    {"show", show_picture},
+    {"pause", [](const Json&) -> Result<Request> { return command(live::TogglePause{}); }},
+    {"restart", [](const Json&) -> Result<Request> { return command(live::Restart{}); }},
+    {"seek",
+     [](const Json& m) -> Result<Request> {
+         return command(live::Seek{TRY(number(m, "seconds", std::numeric_limits<int>::max()))});
+     }},
+    {"give up seek", [](const Json&) -> Result<Request> { return command(live::GiveUpSeek{}); }},
+    {"speed",
+     [](const Json& m) -> Result<Request> { return command(live::SetSpeed{TRY(number(m, "speed", 100))}); }},
+    {"loop", set_loop},
+};
+
+constexpr Verb k_of_viewers[] = {
+    {"seen",
+     [](const Json& m) -> Result<Request> {
+         return PictureSeen{uint32_t(TRY(whole_number(m, "number", 1, std::numeric_limits<int>::max())))};
+     }},
+    {"steer", [](const Json&) -> Result<Request> { return SteeringWanted{}; }},
+    {"let go", [](const Json&) -> Result<Request> { return LetGo{}; }},
+};
+
+} // namespace
+
+Result<Request> parse_request(std::string_view message) {
+    if (message.size() > k_longest_request)
+        return fail(ErrorCode::usage, fmt::format("a message has at most {} bytes", k_longest_request));
+    const Json json = Json::parse(message, nullptr, false);
+    if (!json.is_object())
+        return fail(ErrorCode::usage, "a message is a JSON object");
+    const std::string wanted = TRY(name_in(json, "do"));
+    for (const std::span<const Verb> verbs :
+         {std::span<const Verb>(k_events), std::span<const Verb>(k_commands),
+          std::span<const Verb>(k_of_viewers)})
+        if (const auto verb = std::ranges::find(verbs, wanted, &Verb::name); verb != verbs.end())
+            return verb->read(json);
+    return refused("do", "what a message can ask for");
+}
+
+} // namespace tidemark::serve

@@ -1,0 +1,321 @@
+"""tidemark serve: what viewers get and may do, by a client over plain sockets, and who is not let in."""
+import os
+import signal
+import socket
+
+from support import png
+from support.program import ProgramTest, environment, main
+from support.websocket import BINARY, TEXT, Service, Viewer, ask
+
+# Smooth, as JPEG likes it, and still.
+GRADIENT = """\
+#iUniform float blue = 0.25 in { 0.0, 1.0 }
+#define GREEN 1.0
+void mainImage(out vec4 c, in vec2 p) {
+    vec2 uv = p / iResolution.xy;
+    c = vec4(uv.x, uv.y * GREEN, iMouse.z > 0.0 ? 1.0 : blue, 1.0);
+}
+"""
+MOVING = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(iTime), p / iResolution.xy, 1.0); }\n"
+KEYBOARD = "#iKeyboard\n#iChannel0 \"keyboard\"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(texelFetch(iChannel0, ivec2(65, 0), 0).x); }\n"
+
+
+class Serve(ProgramTest):
+    def serve(self, scene: str, *options: str, text: str = "", **variables: str) -> Service:
+        if text:
+            self.write(scene, text)
+        service = Service(self.folder, scene, "--size", "64x36", *options, **variables)
+        self.addCleanup(service.close)
+        return service
+
+    def viewer(self, service: Service, **arguments) -> Viewer:
+        viewer = service.viewer(**arguments)
+        self.addCleanup(viewer.close)
+        return viewer
+
+    def pixels(self, file: bytes) -> list[bytes]:
+        """Rows from the top, RGB, of a JPEG file: OpenImageIO's idea of it, by way of a scene."""
+        self.write("seen.jpg", file)
+        self.write("seen.glsl", '#iChannel0 "seen.jpg"\nvoid mainImage(out vec4 c, in vec2 p)'
+                                " { c = texelFetch(iChannel0, ivec2(p), 0); }\n")
+        self.succeed("capture", "seen.glsl", "--size", "64x36", "-o", "seen.png")
+        return png.read(self.folder / "seen.png").rows
+
+    def assert_shows(self, file: bytes, *options: str, most: int = 6) -> None:
+        """What capture draws, but for what JPEG leaves of it."""
+        self.succeed("capture", "a.glsl", "--size", "64x36", *options, "-o", "drawn.png")
+        drawn, seen = png.read(self.folder / "drawn.png").rows, self.pixels(file)
+        self.assertEqual([len(row) for row in drawn], [len(row) for row in seen])
+        worst = max(abs(a - b) for one, other in zip(drawn, seen) for a, b in zip(one, other))
+        self.assertLessEqual(worst, most)
+
+    def seen_until(self, viewer: Viewer, wanted) -> bytes:
+        """The first picture whose middle pixel is `wanted`."""
+        while True:
+            _, file = viewer.picture()
+            rows = self.pixels(file)
+            if wanted(*rows[18][3 * 32:3 * 32 + 3]):
+                return file
+
+
+class Pictures(Serve):
+    def test_are_those_of_capture(self):
+        viewer = self.viewer(self.serve("a.glsl", "--quality", "95", text=GRADIENT))
+        head, file = viewer.picture()
+        self.assertEqual((head["number"], head["frame"], len(head["costs"])), (1, 0, 1))
+        self.assert_shows(file)
+
+    def test_that_stand_still_are_sent_once(self):
+        viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
+        viewer.picture()
+        viewer.send("turn", name="blue", value=[0.75])
+        head, _ = viewer.picture()
+        self.assertEqual(head["number"], 2)
+        viewer.send("turn", name="blue", value=[0.5])
+        self.assertEqual(viewer.picture()[0]["number"], 3, "none was sent between")
+
+    def test_that_move_go_on_while_they_are_seen(self):
+        service = self.serve("a.glsl", text=MOVING)
+        viewer = self.viewer(service)
+        numbers = [viewer.picture()[0]["number"] for _ in range(5)]
+        self.assertEqual(sorted(set(numbers)), numbers)
+        slow = self.viewer(service)
+        first = [slow.picture(seen=False)[0]["number"] for _ in range(2)]
+        viewer.send("seen", number=1)
+        later = [viewer.picture()[0]["number"] for _ in range(20)]
+        slow.send("seen", number=first[-1])
+        newest = slow.picture()[0]["number"]
+        self.assertGreaterEqual(newest, later[-1], "one that was slow gets the newest")
+
+    def test_of_another_pass(self):
+        self.write("a/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p)'
+                                   " { c = vec4(0.0, texelFetch(iChannel0, ivec2(p), 0).x, 0.0, 1.0); }\n")
+        self.write("a/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 1.0); }\n")
+        viewer = self.viewer(self.serve("a"))
+        names = viewer.text("state", lambda state: state["pictures"])["pictures"]
+        self.assertEqual(names, ["Buffer A", "Image"])
+        self.seen_until(viewer, lambda r, g, b: g > 200 and r < 50)
+        viewer.send("show", picture=0)
+        self.seen_until(viewer, lambda r, g, b: r > 200 and g < 50)
+
+
+class Hands(Serve):
+    def test_mouse_and_knobs(self):
+        viewer = self.viewer(self.serve("a.glsl", "--quality", "95", text=GRADIENT))
+        viewer.picture()
+        viewer.send("press", button="left", x=32, y=18)
+        self.seen_until(viewer, lambda r, g, b: b > 240)
+        viewer.send("release", button="left", x=32, y=18)
+        self.seen_until(viewer, lambda r, g, b: b < 100)
+        viewer.send("turn", name="blue", value=[0.75])
+        self.assert_shows(self.seen_until(viewer, lambda r, g, b: 150 < b < 230), "--set", "blue=0.75", "--mouse", "32,18")
+        viewer.send("define", name="GREEN", value="0.0")
+        self.seen_until(viewer, lambda r, g, b: g < 20)
+        state = viewer.text("state", lambda state: any(each["held"] for each in state["definitions"]))
+        self.assertEqual(state["definitions"], [{"name": "GREEN", "value": "0.0", "whole": False, "held": True}])
+
+    def test_keys_of_the_scene(self):
+        viewer = self.viewer(self.serve("a.glsl", text=KEYBOARD))
+        viewer.text("state", lambda state: state["keyboard"])
+        viewer.send("keydown", code=65)
+        self.seen_until(viewer, lambda r, g, b: r > 200)
+        viewer.send("let go")
+        self.seen_until(viewer, lambda r, g, b: r < 50)
+
+    def test_time(self):
+        viewer = self.viewer(self.serve("a.glsl", text=MOVING))
+        viewer.picture()
+        viewer.send("pause")
+        viewer.text("state", lambda state: state["time"]["paused"])
+        viewer.send("seek", seconds=2.5)
+        while viewer.picture()[0]["seconds"] != 2.5:
+            pass
+
+    def test_the_command_of_a_moment(self):
+        viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
+        viewer.picture()
+        viewer.send("turn", name="blue", value=[0.5])
+        viewer.picture()
+        viewer.send("keydown", code=67)
+        command = viewer.text("clipboard")
+        self.assertRegex(command, r"^tidemark capture a\.glsl .*--set blue=0\.5")
+
+    def test_keys_that_are_the_windows_alone(self):
+        """S would save a file on the other machine, Esc end the program."""
+        service = self.serve("a.glsl", text=GRADIENT)
+        viewer = self.viewer(service)
+        viewer.picture()
+        for code in (27, 83, 70, 77, 9, 13):
+            viewer.send("keydown", code=code)
+            viewer.send("keyup", code=code)
+        viewer.send("turn", name="blue", value=[1.0])
+        viewer.picture()
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.glsl"])
+
+    def test_what_is_not_there_is_ignored(self):
+        viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
+        viewer.picture()
+        viewer.send("turn", name="nothing", value=[1])
+        viewer.send("show", picture=99)
+        viewer.send("undefine", name="nothing")
+        viewer.send("turn", name="blue", value=[1, 2, 3, 4])
+        self.seen_until(viewer, lambda r, g, b: b > 240)
+
+    def test_recorded(self):
+        service = self.serve("a.glsl", "--record", "hands.txt", text=GRADIENT)
+        viewer = self.viewer(service)
+        viewer.picture()
+        viewer.send("press", button="left", x=10, y=20)
+        viewer.picture()
+        service.process.send_signal(signal.SIGINT)
+        self.assertEqual(service.end()[0], 130)
+        self.assertRegex((self.folder / "hands.txt").read_text(), r"(?m)^\d+ press left 10 20$")
+
+
+class Viewers(Serve):
+    def test_one_steers(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        first = self.viewer(service)
+        self.assertEqual(first.text("steering"), {"you": True, "viewers": 1})
+        second = self.viewer(service)
+        self.assertEqual(second.text("steering"), {"you": False, "viewers": 2})
+        second.picture()
+        second.send("turn", name="blue", value=[1.0])
+        second.send("steer")
+        self.assertEqual(second.text("steering"), {"you": True, "viewers": 2})
+        self.assertEqual(first.text("steering", lambda steering: not steering["you"])["viewers"], 2)
+        second.send("turn", name="blue", value=[0.5])
+        state = second.text("state", lambda state: state["knobs"] and state["knobs"][0]["turned"])
+        self.assertEqual(state["knobs"][0]["value"], [0.5], "what it did before it steered did nothing")
+        second.close()
+        self.assertEqual(first.text("steering", lambda steering: steering["you"]), {"you": True, "viewers": 1})
+
+    def test_sees_the_scene_that_is_saved_and_what_is_wrong_with_it(self):
+        viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
+        viewer.picture()
+        self.write("a.glsl", GRADIENT.replace("uv.x", "nowhere"))
+        errors = viewer.text("state", lambda state: state["errors"])["errors"]
+        self.assertRegex(errors[0]["text"], r"^a\.glsl:5:\d+: error: .*nowhere")
+        self.assertIn("nowhere", errors[0]["line"])
+        self.assertTrue(errors[0]["mark"].endswith("^"))
+        self.write("a.glsl", GRADIENT.replace("uv.x", "1.0"))
+        self.seen_until(viewer, lambda r, g, b: r > 240)
+        viewer.text("state", lambda state: not state["errors"])
+
+    def test_of_a_scene_that_is_not_there_yet(self):
+        viewer = self.viewer(self.serve("a.glsl"))
+        viewer.text("state", lambda state: state["errors"])
+        self.write("a.glsl", GRADIENT)
+        self.assert_shows(viewer.picture()[1], most=12)
+
+    def test_the_last_ends_it_if_told(self):
+        service = self.serve("a.glsl", "--once", text=GRADIENT)
+        viewer = self.viewer(service)
+        viewer.picture()
+        viewer.close()
+        self.assertEqual(service.end(), (0, ""))
+
+    def test_may_come_again(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        for _ in range(2):
+            viewer = self.viewer(service)
+            viewer.picture()
+            viewer.close()
+        service.process.send_signal(signal.SIGINT)
+        self.assertEqual(service.end(), (130, ""))
+
+    def test_too_many(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        viewers = [self.viewer(service) for _ in range(16)]
+        for viewer in viewers:
+            viewer.picture(seen=False)
+        closed = self.viewer(service).end()
+        self.assertEqual((closed.code, closed.reason), (1013, "too many look already"))
+
+
+class Access(Serve):
+    def test_the_page(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        path = service.address.partition("/?")[2]
+        status, page = ask(service.address, f"/?{path}")
+        self.assertEqual(status, 200)
+        self.assertTrue(page.startswith(b"<!doctype html>"))
+        self.assertNotIn(service.address.partition("token=")[2].encode(), page)
+
+    def test_is_refused(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        path = "/?" + service.address.partition("/?")[2]
+        other = "0" * 22
+        for what, headers, method, status in (
+                ("/", {}, "GET", 403), (f"/?token={other}", {}, "GET", 403), (path, {"Host": "evil.example"}, "GET", 403),
+                (path.replace("/?", "/etc/passwd?"), {}, "GET", 404), (path, {}, "POST", 405)):
+            with self.subTest(what=what, method=method):
+                self.assertEqual(ask(service.address, what, headers, method)[0], status)
+        self.assertEqual(self.viewer(service, token=other).status, 403)
+        self.assertEqual(self.viewer(service, Origin="http://evil.example").status, 403)
+        self.assertEqual(self.viewer(service, Origin="http://" + service.address.split("/")[2]).status, 101)
+
+    def test_hostile_messages(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        for kind, data, code, reason in ((TEXT, b"x" * 5000, 1009, ""), (TEXT, b"{", 1008, "a message is a JSON object"),
+                                         (TEXT, b'{"do":"fly"}', 1008, '"do": give what a message can ask for'),
+                                         (BINARY, b"{}", 1003, "a message is a text"), (TEXT, b"\xff\xfe", 1007, "")):
+            with self.subTest(data=data[:20]):
+                viewer = self.viewer(service)
+                viewer.send_frame(kind, data)
+                closed = viewer.end()
+                self.assertEqual(closed.code, code)
+                self.assertEqual(closed.reason, reason or closed.reason)
+        self.viewer(service).picture()
+
+    def test_hostile_requests(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        at = service.address.split("/")[2].split(":")
+        for data in (b"\0" * 1000, b"GET / HTTP/1.1\r\nHost: " + b"a" * 100000, b"\r\n\r\n", b""):
+            with socket.create_connection((at[0], int(at[1]))) as connection:
+                try:
+                    connection.sendall(data)
+                except ConnectionError:
+                    pass
+        self.viewer(service).picture()
+
+    def test_token(self):
+        self.write("token", "0123456789abcdef\n")
+        service = self.serve("a.glsl", "--token-file", "token", text=GRADIENT)
+        self.assertTrue(service.address.endswith("/?token=0123456789abcdef"))
+        self.viewer(service).picture()
+        service = self.serve("a.glsl", TIDEMARK_TOKEN="fedcba9876543210")
+        self.assertTrue(service.address.endswith("/?token=fedcba9876543210"))
+        self.expect_failure(["serve", "a.glsl"], 2, "tidemark: error: the token has 5 characters: give 16 to 128 letters, digits, "
+                            "- or _, as in `openssl rand -hex 16`", env=environment(TIDEMARK_TOKEN="short"))
+
+    def test_where_to_listen(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        port = service.address.split("/")[2].split(":")[1]
+        self.assertEqual(service.address.split("/")[2].split(":")[0], "127.0.0.1")
+        self.expect_failure(["serve", "a.glsl", "--port", port], 2, f"tidemark: error: cannot listen at --host 127.0.0.1 --port {port}: "
+                            "Address already in use")
+        self.expect_failure(["serve", "a.glsl", "--port", "65536"], 2, "tidemark: error: --port: give a whole number from 0 to 65535, "
+                            "not '65536'")
+        everywhere = self.serve("a.glsl", "--host", "0.0.0.0")
+        self.assertTrue(everywhere.address.startswith(f"http://{socket.gethostname()}:"))
+        everywhere.process.send_signal(signal.SIGTERM)
+        self.assertRegex(everywhere.end()[1], "^warning: everybody who can reach this machine can read along")
+
+
+class Loading(Serve):
+    def libraries(self, process: int) -> str:
+        with open(f"/proc/{process}/maps", encoding="utf-8") as maps:
+            return maps.read()
+
+    def test_what_it_needs(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        self.viewer(service).picture()
+        loaded = self.libraries(service.process.pid)
+        self.assertTrue("tidemark_serve.so" in loaded)
+        for name in ("OpenImageIO", "tidemark_overlay", "tidemark_spirv"):
+            self.assertFalse(name in loaded, name)
+
+
+if __name__ == "__main__":
+    main()
