@@ -6,6 +6,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/limits.hpp"
 #include "cli/options.hpp"
+#include "cli/value_check.hpp"
 #include "cli/view/rehearsal.hpp"
 #include "cli/view/viewer.hpp"
 #include "platform/headless_context.hpp"
@@ -14,6 +15,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,6 +32,8 @@ struct ViewOptions {
     SceneRequest scene;
     FrameOptions frames;
     std::string record;
+    std::optional<render::RenderScale> scale;
+    std::optional<double> adaptive;
     bool plain = false;
     bool fresh = false;
     LimitOptions limits;
@@ -70,6 +74,12 @@ std::optional<Remembered> left_before(const ViewOptions& options, FrameSequence&
     return state;
 }
 
+render::RenderScale first_scale(const ViewOptions& options, const std::optional<Remembered>& left) {
+    if (options.scale)
+        return *options.scale;
+    return left && left->scale ? *left->scale : render::RenderScale();
+}
+
 Result<int> view(const ViewOptions& options) {
     auto frames = TRY(resolve(options.frames));
     const bool remembers = !options.frames.input && options.record.empty();
@@ -81,6 +91,8 @@ Result<int> view(const ViewOptions& options) {
     Viewer::Settings settings{options.scene, std::move(frames)};
     settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits.memory);
     settings.record = OutputPath::typed(options.record);
+    settings.scale = first_scale(options, left);
+    settings.adaptive = options.adaptive;
     settings.plain = options.plain;
     settings.remembers = remembers;
     settings.left = std::move(left);
@@ -102,6 +114,23 @@ Result<int> view(const ViewOptions& options) {
     return outcome;
 }
 
+void add_scale_options(CLI::App& command, ViewOptions& options) {
+    std::vector<std::string> names;
+    for (const render::RenderScale scale : render::RenderScale::all())
+        names.push_back(scale.name());
+    command
+        .add_option_function<std::string>(
+            "--scale",
+            [&options](const std::string& name) { options.scale = render::RenderScale::named(name); },
+            "Pixels that are drawn for one of the window's, along a side, at first [1]")
+        ->type_name(fmt::format("{}", fmt::join(names, "|")))
+        ->check(one_of(names));
+    command.add_option("--adaptive", options.adaptive, "Changes the scale to hold that frame rate")
+        ->type_name("FPS")
+        ->check(number<double>("a frame rate from 1 to 1000", 1, 1000))
+        ->excludes("--record", "--input");
+}
+
 } // namespace
 
 void add_view(CLI::App& app, Action& chosen) {
@@ -116,6 +145,7 @@ void add_view(CLI::App& app, Action& chosen) {
                      "Writes what mouse and keyboard do, for --input; iTime goes by frames")
         ->type_name("FILE")
         ->excludes("--input");
+    add_scale_options(*command, *options);
     command->get_option("--fps")->description(
         "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
     add_memory_option(*command, options->limits);

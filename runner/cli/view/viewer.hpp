@@ -23,8 +23,10 @@
 #include "cli/view/window_keys.hpp"
 #include "live/overlay.hpp"
 #include "platform/window.hpp"
+#include "render/adaptive_scale.hpp"
 #include "render/live_clock.hpp"
 #include "render/number_marks.hpp"
+#include "render/render_scale.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -40,8 +42,10 @@ public:
         FrameSequence frames;                  ///< size, fps, camera, pass
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
-        bool plain = false;     ///< never settles
-        bool remembers = false; ///< leaves its state for the next window
+        render::RenderScale scale = {};            ///< at first
+        std::optional<double> adaptive = {};       ///< the rate that it holds; none: it stays
+        bool plain = false;                        ///< never settles
+        bool remembers = false;                    ///< leaves its state for the next window
         std::optional<Remembered> left = {};       ///< by the last one
         std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
@@ -66,18 +70,26 @@ private:
     void handle(const platform::ButtonPressed& event) { control(event); }
     void handle(const platform::ButtonReleased& event) { control(event); }
     void handle(const platform::WheelTurned& event) { control(event); }
-    void control(const ControlEvent& event);
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
     void escape(double now);
     void forget_what_follows();
     void handle(const platform::TextTyped&) {}
-    void handle(const platform::FramebufferResized& event);
     void handle(const platform::RedrawNeeded&) { stale_ = true; }
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
     void save_picture();
+
+    // The size of what is drawn: viewer_scale.cpp
+    Extent drawn_extent() const;
+    void control(const ControlEvent& event);
+    void handle(const platform::FramebufferResized& event);
+    bool fit_drawing();
+    bool change_scale(render::RenderScale wanted);
+    void set_scale(render::RenderScale wanted);
+    void toggle_adaptive();
+    std::vector<render::PassTimer>* time_next_frame();
 
     // The moment on show: viewer_moments.cpp
     Moment moment() const;
@@ -138,13 +150,15 @@ private:
     void settle_after_rest(double now);
     void play_sound();
     void report_reload();
+
+    // viewer_title.cpp
     bool compiles_for_long(double now) const;
+    void show_title(double now);
 
     void draw(double now);
     void present();
     void look_for_numbers(double now);
     std::vector<std::string> trace_words() const;
-    void show_title(double now);
     Result<void> finish();
     double seconds_to_sleep(double now) const;
     bool wants_frame(double now) const;
@@ -158,6 +172,8 @@ private:
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;
     Controls controls_;
+    render::RenderScale scale_;
+    std::optional<render::AdaptiveScale> adaptive_; ///< none: the scale stays
     std::optional<Replay>
         replay_; ///< moves the scene instead of the controls: of a recording, or of this one
     std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved

@@ -61,6 +61,7 @@ void Viewer::carry_out(const live::GoToView& command) {
     const Moment& kept = views_[command.index];
     const render::FrameState& state = kept.sequence.state;
     controls_.adopt(state);
+    controls_.stretch(state.extent, drawn_extent());
     shown_.knobs.clear();
     controls_.fill(shown_);
     const double now = now_seconds();
@@ -94,7 +95,7 @@ void Viewer::take_up(const Remembered& left) {
 /// For the next window of the scene.
 void Viewer::leave() const {
     if (settings_.remembers && stage_)
-        remember(settings_.scene.path, {moment(), window_.place(), controls_open_, views_});
+        remember(settings_.scene.path, {moment(), window_.place(), scale_, controls_open_, views_});
 }
 
 } // namespace tidemark::cli
