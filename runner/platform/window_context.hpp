@@ -23,6 +23,7 @@ public:
 
 private:
     friend class Window;
+    friend class OutputWindow;
     WindowContext() = default;
     Result<void> make_current_with(void* surface);
 

@@ -2,6 +2,7 @@
 // window's. A scene's first one compiles the author's text as it is; a settled one is its quicker twin.
 #pragma once
 
+#include "platform/output_window.hpp"
 #include "platform/window_context.hpp"
 #include "render/renderer.hpp"
 
@@ -27,6 +28,9 @@ public:
 
     /// On the window's thread: what is drawn from now on is for the window.
     Result<void> enter() { return context_.make_current_in_window(); }
+
+    /// Likewise, for a second window until `enter`.
+    Result<void> enter(platform::OutputWindow& output) { return output.make_current(context_); }
 
     render::Renderer& renderer() { return *renderer_; }
     const render::Renderer& renderer() const { return *renderer_; }

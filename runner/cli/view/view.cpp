@@ -9,6 +9,7 @@
 #include "cli/value_check.hpp"
 #include "cli/view/rehearsal.hpp"
 #include "cli/view/viewer.hpp"
+#include "cli/view/window_options.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
 #include "render/sound_renderer.hpp"
@@ -36,6 +37,7 @@ struct ViewOptions {
     std::optional<double> adaptive;
     bool plain = false;
     bool fresh = false;
+    WindowOptions window;
     LimitOptions limits;
 };
 
@@ -93,6 +95,9 @@ Result<int> view(const ViewOptions& options) {
     settings.record = OutputPath::typed(options.record);
     settings.scale = first_scale(options, left);
     settings.adaptive = options.adaptive;
+    settings.place = TRY(resolve(options.window));
+    if (options.window.output || options.window.output_monitor)
+        settings.output = Viewer::Output{options.window.output_monitor};
     settings.plain = options.plain;
     settings.remembers = remembers;
     settings.left = std::move(left);
@@ -146,6 +151,7 @@ void add_view(CLI::App& app, Action& chosen) {
         ->type_name("FILE")
         ->excludes("--input");
     add_scale_options(*command, *options);
+    add_window_options(*command, options->window);
     command->get_option("--fps")->description(
         "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
     add_memory_option(*command, options->limits);

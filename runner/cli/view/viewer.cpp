@@ -8,7 +8,7 @@
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
-#include "gl/render_target.hpp"
+#include "gl/blit.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/window_loss.hpp"
 
@@ -69,8 +69,10 @@ Result<Viewer> Viewer::open(Settings settings) {
     if (!settings.record.empty())
         TRY(settings.record.place());
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
-    auto window = platform::Window::create(settings.frames.state.extent, name + " - tidemark",
-                                           settings.left ? settings.left->place : std::nullopt);
+    if (settings.left)
+        settings.place.left_at = settings.left->place;
+    auto window =
+        platform::Window::create(settings.frames.state.extent, name + " - tidemark", settings.place);
     if (!window) // nothing can be waited for
         return fail(std::move(first.scene ? window.error() : first.scene.error()));
     const Extent drawn = settings.scale.drawn(window->framebuffer_extent());
@@ -78,7 +80,10 @@ Result<Viewer> Viewer::open(Settings settings) {
                                   {options_for(drawn, settings), {}, settings.rehearsal});
     if (!live)
         return fail(std::move(live.error()));
-    return Viewer(std::move(settings), *std::move(window), *std::move(live));
+    Viewer viewer(std::move(settings), *std::move(window), *std::move(live));
+    if (viewer.settings_.output)
+        TRY(viewer.open_output(name + " - tidemark output"));
+    return viewer;
 }
 
 Result<int> Viewer::run(const Interrupt& interrupt) {
@@ -128,6 +133,7 @@ void Viewer::listen() {
     }
     of_the_hold_ = false;
     handle_all(window_.wait(closing_ ? 0 : seconds_to_sleep(now)));
+    listen_to_output();
     listened_at_ = now_seconds();
 }
 
@@ -214,10 +220,13 @@ void Viewer::present() {
     stale_overlay_ = false;
     const gl::Texture* marked = marked_picture(); // draws, as the magnifier does: before the window's turn
     live::Model model = overlay_model();
-    if (stage_)
-        gl::blit_to_window(stage_->renderer().target(), window_.framebuffer_extent());
-    else
+    const gl::RenderTarget* target = target_on_show();
+    if (target) {
+        show_on_output(*target);
+        gl::blit_to_window(*target, window_.framebuffer_extent());
+    } else {
         gl::clear_window();
+    }
     if (marked)
         marks_->draw(*marked, window_.framebuffer_extent());
     show_overlay(std::move(model));
@@ -291,6 +300,7 @@ void Viewer::obey(Key key, double now) {
     case Key::m: return toggle_magnifier();
     case Key::n: return toggle_marks();
     case Key::enter: return trace_pixel();
+    case Key::z: return toggle_freeze();
     case Key::a: return toggle_adaptive();
     case Key::minus:
     case Key::keypad_subtract: return set_scale(scale_.stepped(-1));
@@ -326,22 +336,6 @@ void Viewer::escape(double now) {
 void Viewer::forget_what_follows() {
     if (recording())
         replay_->go_back(clock_.next_frame_number());
-}
-
-void Viewer::save_picture() {
-    if (!stage_)
-        return;
-    if (!writer_)
-        writer_ = std::make_unique<FrameWriter>(1U);
-    const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", shown_.frame));
-    const image::PictureFormat format = format_of_picture();
-    image::Image picture = stage_->renderer().read_back();
-    count_not_finite(stage_->renderer(), picture); // its marks are no alpha
-    if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),
-                       std::move(picture), format}))
-        say(fmt::format("saving {}", name));
-    else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
-        say(to_string(written.error()));
 }
 
 LiveScene::View Viewer::view() const {
@@ -396,10 +390,14 @@ Result<void> Viewer::swap_in(Stage fresh) {
     costs_.forget();
     if (adaptive_)
         adaptive_->forget();
+    if (frozen_)
+        frozen_->target.framebuffer = {}; // in the context that has it
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));
     if (auto entered = stage_->enter(); !entered)
         return entered;
+    if (frozen_)
+        frozen_->target = gl::attach(std::move(frozen_->target.texture));
     if (before) {
         stage_->renderer().continue_from(before->renderer());
         for (const std::string& line : edits_of_turned(before->renderer().scene().knobs,

@@ -22,6 +22,7 @@
 #include "cli/view/wall_clock.hpp"
 #include "cli/view/window_keys.hpp"
 #include "live/overlay.hpp"
+#include "platform/output_window.hpp"
 #include "platform/window.hpp"
 #include "render/adaptive_scale.hpp"
 #include "render/live_clock.hpp"
@@ -37,6 +38,9 @@ namespace tidemark::cli {
 
 class Viewer {
 public:
+    struct Output {
+        std::optional<int> monitor; ///< full screen there; none: as large as the window
+    };
     struct Settings {
         SceneRequest scene;
         FrameSequence frames;                  ///< size, fps, camera, pass
@@ -44,6 +48,8 @@ public:
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
         render::RenderScale scale = {};            ///< at first
         std::optional<double> adaptive = {};       ///< the rate that it holds; none: it stays
+        platform::WindowWishes place = {};         ///< where it opens; left_at is that of `left`
+        std::optional<Output> output = {};         ///< a second window, of the picture alone
         bool plain = false;                        ///< never settles
         bool remembers = false;                    ///< leaves its state for the next window
         std::optional<Remembered> left = {};       ///< by the last one
@@ -60,6 +66,18 @@ public:
     bool busy() const { return scene_.busy() || sound_->busy(); }
 
 private:
+    /// As it is saved: with all that draws it again.
+    struct Picture {
+        int frame = 0;
+        image::Image pixels;
+        image::PictureFormat format;
+    };
+    /// A frame that stays on show.
+    struct Frozen {
+        gl::RenderTarget target; ///< in the stage's context
+        Picture picture;
+        Moment moment;
+    };
     Viewer(Settings settings, platform::Window window, LiveScene scene);
     bool recording() const { return !settings_.record.empty(); }
     render::LiveClock clock_from(double now) const;
@@ -79,7 +97,6 @@ private:
     void handle(const platform::RedrawNeeded&) { stale_ = true; }
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
-    void save_picture();
 
     // The size of what is drawn: viewer_scale.cpp
     Extent drawn_extent() const;
@@ -91,9 +108,20 @@ private:
     void toggle_adaptive();
     std::vector<render::PassTimer>* time_next_frame();
 
+    // The second window: viewer_output.cpp
+    Result<void> open_output(const std::string& title);
+    void listen_to_output();
+    void show_on_output(const gl::RenderTarget& picture);
+
+    // A picture that stays while time goes on: viewer_freeze.cpp
+    void toggle_freeze();
+    const gl::RenderTarget* target_on_show() const;
+
     // The moment on show: viewer_moments.cpp
     Moment moment() const;
     image::PictureFormat format_of_picture() const;
+    Picture read_picture() const;
+    void save_picture();
     void copy_moment();
     void keep_moment();
     void take_up(const Remembered& left);
@@ -166,7 +194,8 @@ private:
     bool moving() const;
 
     Settings settings_;
-    platform::Window window_; ///< owns the context: first in, last out
+    platform::Window window_;                      ///< owns the context: first in, last out
+    std::optional<platform::OutputWindow> output_; ///< until somebody closes it
     LiveScene scene_;
     std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
@@ -198,6 +227,7 @@ private:
     std::optional<render::ShownFloats> floats_; ///< of the stage, when somebody looks
     std::optional<render::NumberMarks> marks_;  ///< likewise
     bool marks_shown_ = false;
+    std::optional<Frozen> frozen_;          ///< instead of the frames that follow it
     std::unique_ptr<OriginSearch> search_;  ///< while one is under way
     ErrorBoard origin_;                     ///< what it found
     std::optional<SteppingThere> stepping_; ///< on the way to a frame

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -15,8 +16,8 @@ ControlEvent in_picture(const ControlEvent& event, Extent window, Extent picture
     return std::visit(
         [&](auto happened) -> ControlEvent {
             if constexpr (requires { happened.at; }) {
-                happened.at.x *= double(picture.width) / window.width;
-                happened.at.y *= double(picture.height) / window.height;
+                happened.at.x *= double(picture.width) / std::max(window.width, 1);
+                happened.at.y *= double(picture.height) / std::max(window.height, 1);
             }
             return happened;
         },
@@ -41,9 +42,7 @@ void Viewer::control(const ControlEvent& event) {
         replay_->note(clock_.next_frame_number(), seen);
 }
 
-void Viewer::handle(const platform::FramebufferResized& event) {
-    if (event.extent.width == 0 || event.extent.height == 0)
-        return;
+void Viewer::handle(const platform::FramebufferResized&) {
     if (adaptive_)
         adaptive_->forget();
     fit_drawing();
@@ -52,6 +51,8 @@ void Viewer::handle(const platform::FramebufferResized& event) {
 /// Whether the scene is drawn in the size that the window and the scale ask for. Else the old picture is
 /// stretched.
 bool Viewer::fit_drawing() {
+    if (window_.framebuffer_extent().pixels() == 0)
+        return true; // minimised
     touched_at_ = now_seconds();
     stale_ = true;
     if (!stage_)

@@ -33,6 +33,8 @@ void Viewer::show_title(double now) {
                                           : fmt::format("{:.0f} fps", clock_.frame_rate());
     if (scale_ != render::RenderScale())
         state += fmt::format(", scale {}", scale_.name());
+    if (frozen_)
+        state += ", frozen";
     if (finite_.found() > 0)
         state += fmt::format(", {} pixel{} not finite", finite_.found(), finite_.found() > 1 ? "s" : "");
     if (compiles_for_long(now))
