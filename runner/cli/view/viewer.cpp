@@ -7,7 +7,6 @@
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
-#include "cli/output_name.hpp"
 #include "gl/blit.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/window_loss.hpp"
