@@ -86,6 +86,12 @@ void Controls::adopt(const render::FrameState& state) {
     knobs_ = state.knobs;
 }
 
+void Controls::stretch(Extent from, Extent to) {
+    mouse_.stretch(from, to);
+    pointer_.x *= double(to.width) / from.width;
+    pointer_.y *= double(to.height) / from.height;
+}
+
 void Controls::fill(render::FrameState& state) const {
     state.mouse = mouse_;
     state.right_button = right_down_;

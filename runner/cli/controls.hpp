@@ -38,6 +38,8 @@ public:
     void fill(render::FrameState& state) const;
     /// Mouse, camera and knobs are that state's from now on; no button is down.
     void adopt(const render::FrameState& state);
+    /// The picture has another size from now on: the mouse stays at its place of it.
+    void stretch(Extent from, Extent to);
     /// Knobs that stand where the scene has them are not held there: they follow its defaults.
     void release(const std::vector<scene::Knob>& knobs);
     /// To be called when a frame has been drawn: what was new in it is then no longer new.

@@ -65,7 +65,7 @@ void blit_to_window(const RenderTarget& target, Extent window) {
     const Extent from = target.extent();
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitNamedFramebuffer(target.framebuffer.id(), 0, 0, 0, from.width, from.height, 0, 0, window.width,
-                           window.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+                           window.height, GL_COLOR_BUFFER_BIT, from == window ? GL_NEAREST : GL_LINEAR);
 }
 
 } // namespace tidemark::gl

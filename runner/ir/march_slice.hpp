@@ -78,9 +78,8 @@ private:
         Number distance, threshold;
     };
     template <class System>
-    std::optional<Compared<typename System::Value>> run(LoopTurn<System>& turn,
-                                                        const std::vector<typename System::Value>& places,
-                                                        Decisions& decisions);
+    std::optional<Compared<typename System::Value>>
+    run(LoopTurn<System>& turn, const std::vector<typename System::Value>& places, Decisions& decisions);
     Interval place(size_t carried, const Interval& parameter) const;
 
     const MarchingLoop* loop_;

@@ -1,6 +1,9 @@
 #include "platform/window.hpp"
 
 #include "base/printable.hpp"
+#include "base/try.hpp"
+#include "platform/glfw_window.hpp"
+#include "platform/monitors.hpp"
 #include "platform/window_keys.hpp"
 
 #include <EGL/egl.h>
@@ -13,7 +16,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
-#include <span>
 #include <utility>
 
 namespace tidemark::platform {
@@ -26,62 +28,6 @@ struct Library {
     Library& operator=(const Library&) = delete;
     ~Library() { glfwTerminate(); }
 };
-
-/// In GLFW's screen coordinates, origin at the top left.
-struct Rectangle {
-    int x = 0;
-    int y = 0;
-    int width = 0;
-    int height = 0;
-};
-
-struct DestroyWindow {
-    void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-};
-
-int common_area(const Rectangle& a, const Rectangle& b) {
-    const int width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
-    const int height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
-    return std::max(width, 0) * std::max(height, 0);
-}
-
-Rectangle place_of(GLFWwindow* window) {
-    Rectangle place;
-    glfwGetWindowPos(window, &place.x, &place.y);
-    glfwGetWindowSize(window, &place.width, &place.height);
-    return place;
-}
-
-struct Monitor {
-    GLFWmonitor* handle = nullptr; ///< null: there is none
-    Rectangle place;
-    int refresh_rate = 0;
-};
-
-Monitor monitor_under(const Rectangle& window) {
-    int count = 0;
-    GLFWmonitor** handles = glfwGetMonitors(&count);
-    Monitor best;
-    int best_area = -1;
-    for (GLFWmonitor* handle : std::span(handles, size_t(count))) {
-        const GLFWvidmode* mode = glfwGetVideoMode(handle);
-        if (!mode)
-            continue;
-        Monitor monitor{handle, {0, 0, mode->width, mode->height}, mode->refreshRate};
-        glfwGetMonitorPos(handle, &monitor.place.x, &monitor.place.y);
-        const int area = common_area(window, monitor.place);
-        if (area > best_area)
-            best = monitor;
-        best_area = std::max(area, best_area);
-    }
-    return best;
-}
-
-std::string last_glfw_error() {
-    const char* text = nullptr;
-    glfwGetError(&text);
-    return text ? text : "GLFW does not say why";
-}
 
 tl::unexpected<Error> cannot_open(std::string_view why) {
     return fail(ErrorCode::no_context,
@@ -100,36 +46,12 @@ bool library_runs() {
     return glfwGetError(nullptr) != GLFW_NOT_INITIALIZED;
 }
 
-/// Hidden, where it is to be moved first.
-GLFWwindow* open_window(Extent size, const char* title, bool visible) {
-    glfwDefaultWindowHints();
-    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
-    // It starts faster than GLX, it is the driver that headless drawing uses, and it has contexts apart from
-    // windows.
-    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    glfwWindowHint(GLFW_ALPHA_BITS, 0);
-    glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
-    glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
-    glfwWindowHintString(GLFW_X11_CLASS_NAME, "tidemark");
-    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "tidemark");
+/// Hidden: it is moved first.
+GLFWwindow* open_window(Extent size, const char* title, bool on_top) {
+    hint_window();
+    glfwWindowHint(GLFW_FLOATING, on_top ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     return glfwCreateWindow(size.width, size.height, title, nullptr, nullptr);
-}
-
-/// A screen that was there last time may be gone.
-void show_at(GLFWwindow* window, const WindowPlace& corner) {
-    Rectangle place = place_of(window);
-    place.x = corner.x;
-    place.y = corner.y;
-    if (const Monitor monitor = monitor_under(place); monitor.handle && common_area(place, monitor.place) > 0)
-        glfwSetWindowPos(window, corner.x, corner.y);
-    glfwShowWindow(window);
 }
 
 Button button_from_glfw(int button) {
@@ -143,13 +65,13 @@ Button button_from_glfw(int button) {
 /// Stays where it is when the Window moves, so that GLFW's user pointer may point to it.
 struct Window::State {
     Library library;
-    std::unique_ptr<GLFWwindow, DestroyWindow> window;
+    GlfwWindow window;
     std::vector<InputEvent> events{};
     Extent framebuffer{};
     Extent screen{};     ///< the same area in GLFW's screen coordinates
     double cursor_x = 0; ///< in screen coordinates, origin at the top left
     double cursor_y = 0;
-    Rectangle before_full_screen{};
+    ScreenArea before_full_screen{};
 
     /// The sizes as of the events delivered so far: GLFW's own answers may be ahead of them.
     PointerPosition pointer() const {
@@ -215,13 +137,8 @@ void Window::State::listen_to_people() {
         of(source).events.push_back(TextTyped{char32_t(character)});
     });
     glfwSetKeyCallback(handle, [](GLFWwindow* source, int glfw_key, int scancode, int action, int) {
-        const Key key = key_from_glfw(glfw_key, glfwGetKeyName(glfw_key, scancode));
-        if (key == Key::unknown)
-            return;
-        if (action == GLFW_RELEASE)
-            of(source).events.push_back(KeyReleased{key});
-        else
-            of(source).events.push_back(KeyPressed{key, action == GLFW_REPEAT});
+        if (const auto event = key_event(glfw_key, scancode, action))
+            of(source).events.push_back(*event);
     });
 }
 
@@ -230,8 +147,7 @@ Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
-Result<Window> Window::create(Extent logical_size, const std::string& title,
-                              const std::optional<WindowPlace>& corner) {
+Result<Window> Window::create(Extent logical_size, const std::string& title, const WindowWishes& wishes) {
     assert(logical_size.width > 0 && logical_size.height > 0);
     if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
         return cannot_open("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
@@ -240,11 +156,11 @@ Result<Window> Window::create(Extent logical_size, const std::string& title,
     if (!glfwInit())
         return cannot_open(last_glfw_error());
     auto state = std::make_unique<State>();
-    state->window.reset(open_window(logical_size, printable_line(title).c_str(), !corner));
+    state->window.reset(open_window(logical_size, printable_line(title).c_str(), wishes.on_top));
     if (!state->window)
         return cannot_open(last_glfw_error());
-    if (corner)
-        show_at(state->window.get(), *corner);
+    TRY(move_to_wished(state->window.get(), wishes));
+    glfwShowWindow(state->window.get());
     glfwMakeContextCurrent(state->window.get());
     glfwSwapInterval(1);
     state->listen();
@@ -291,7 +207,7 @@ double Window::content_scale() const {
 
 WindowPlace Window::place() const {
     const bool full = glfwGetWindowMonitor(state_->window.get()) != nullptr;
-    const Rectangle place = full ? state_->before_full_screen : place_of(state_->window.get());
+    const ScreenArea place = full ? state_->before_full_screen : place_of(state_->window.get());
     const Extent screen = state_->screen;
     const double pixels = screen.width > 0 ? double(state_->framebuffer.width) / screen.width : 1.0;
     const auto logical = [&](int length) {
@@ -315,7 +231,7 @@ void Window::set_title(const std::string& title) {
 void Window::toggle_full_screen() {
     GLFWwindow* window = state_->window.get();
     if (glfwGetWindowMonitor(window)) {
-        const Rectangle& back = state_->before_full_screen;
+        const ScreenArea& back = state_->before_full_screen;
         glfwSetWindowMonitor(window, nullptr, back.x, back.y, back.width, back.height, GLFW_DONT_CARE);
         return;
     }

@@ -6,6 +6,7 @@
 #include "base/result.hpp"
 #include "platform/input.hpp"
 #include "platform/shared_context.hpp"
+#include "platform/window_wishes.hpp"
 
 #include <memory>
 #include <optional>
@@ -14,23 +15,15 @@
 
 namespace tidemark::platform {
 
-/// Of a window on the screen: its left upper corner in the window system's coordinates, its size in pixels of
-/// an ordinary display.
-struct WindowPlace {
-    int x = 0;
-    int y = 0;
-    Extent size;
-};
-
 /// One at a time in a process, on the main thread: the window system is started with it and ended with it.
 class Window {
 public:
     /// Opens it and makes its context current. `logical_size` is in pixels of an ordinary display; a dense
     /// one gives more (framebuffer_extent). Waits for vertical sync where the system has one, so a caller
     /// must not rely on `swap` to set its pace. ErrorCode::no_context, with the reason, when there is none.
-    /// `corner`: where its left upper corner should be, if a screen shows that; not every system allows it.
+    /// ErrorCode::usage for a place that no monitor has.
     static Result<Window> create(Extent logical_size, const std::string& title,
-                                 const std::optional<WindowPlace>& corner = {});
+                                 const WindowWishes& wishes = {});
     Window(Window&&) noexcept;
     Window& operator=(Window&&) noexcept;
     ~Window();

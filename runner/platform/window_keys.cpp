@@ -109,4 +109,13 @@ Key key_from_glfw(int glfw_key, const char* key_name) {
     return pair != std::ranges::end(k_single_keys) ? pair->key : Key::unknown;
 }
 
+std::optional<InputEvent> key_event(int glfw_key, int scancode, int action) {
+    const Key key = key_from_glfw(glfw_key, glfwGetKeyName(glfw_key, scancode));
+    if (key == Key::unknown)
+        return std::nullopt;
+    if (action == GLFW_RELEASE)
+        return KeyReleased{key};
+    return KeyPressed{key, action == GLFW_REPEAT};
+}
+
 } // namespace tidemark::platform

@@ -3,9 +3,12 @@
 namespace tidemark::cli {
 
 std::vector<render::PassTimer>* PassCosts::next_frame() {
+    frame_before_.reset();
     for (const render::PassTimer& timer : timers_)
-        if (const auto took = timer.time.milliseconds(); took)
+        if (const auto took = timer.time.milliseconds(); took) {
             milliseconds_[timer.pass] = *took;
+            frame_before_ = frame_before_.value_or(0) + *took;
+        }
     timers_.clear();
     return &timers_;
 }
@@ -13,6 +16,7 @@ std::vector<render::PassTimer>* PassCosts::next_frame() {
 void PassCosts::forget() {
     timers_.clear();
     milliseconds_.clear();
+    frame_before_.reset();
 }
 
 std::optional<double> PassCosts::of(size_t pass) const {

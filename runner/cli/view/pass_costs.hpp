@@ -16,10 +16,13 @@ public:
     void forget();
     /// Milliseconds, when it was drawn last.
     std::optional<double> of(size_t pass) const;
+    /// All passes of the frame before the one that `next_frame` was called for; none: nothing was drawn.
+    std::optional<double> frame_before() const { return frame_before_; }
 
 private:
     std::vector<render::PassTimer> timers_;
     std::map<size_t, double> milliseconds_;
+    std::optional<double> frame_before_;
 };
 
 } // namespace tidemark::cli

@@ -74,6 +74,7 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
         Remembered state;
         state.moment = moment_of(json.at("moment"));
         state.place = place_of(json.at("window"));
+        state.scale = render::RenderScale::named(json.value("scale", "")); // files before it had none
         state.controls = json.at("controls").get<bool>();
         state.views = moments_of(json.at("views"));
         return state;
@@ -90,6 +91,7 @@ std::string text_of(const fs::path& scene, const Remembered& state) {
                      {"scene", whole_name(scene)},
                      {"moment", state.moment ? to_json(*state.moment) : Json()},
                      {"window", state.place ? to_json(*state.place) : Json::array()},
+                     {"scale", state.scale ? Json(state.scale->name()) : Json("")},
                      {"controls", state.controls},
                      {"views", std::move(views)}},
                 2) +
@@ -134,6 +136,8 @@ std::string words_of(const Remembered& state) {
             words.push_back("camera " + to_string(shown.camera));
         words.push_back(fmt::format("{:.3f} s", shown.seconds()));
     }
+    if (state.scale && *state.scale != render::RenderScale())
+        words.push_back("scale " + state.scale->name());
     if (!state.views.empty())
         words.push_back(fmt::format("{} view{}", state.views.size(), state.views.size() > 1 ? "s" : ""));
     return fmt::format("{}", fmt::join(words, ", "));

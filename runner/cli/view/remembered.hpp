@@ -4,6 +4,7 @@
 
 #include "cli/moment.hpp"
 #include "platform/window.hpp"
+#include "render/render_scale.hpp"
 
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@ namespace tidemark::cli {
 struct Remembered {
     std::optional<Moment> moment{}; ///< on show at last: its knobs, camera and time count
     std::optional<platform::WindowPlace> place{};
+    std::optional<render::RenderScale> scale{};
     bool controls = false; ///< open
     std::vector<Moment> views{};
 };

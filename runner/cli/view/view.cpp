@@ -1,10 +1,13 @@
 #include "base/try.hpp"
 #include "cli/commands.hpp"
+#include "cli/value_check.hpp"
 #include "cli/view/viewer_options.hpp"
+#include "cli/view/window_options.hpp"
 #include "cli/view/window_screen.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -16,8 +19,11 @@ namespace {
 constexpr int k_largest_window = 32767;
 
 struct ViewOptions : ViewerOptions {
+    std::optional<render::RenderScale> scale;
+    std::optional<double> adaptive;
     bool plain = false;
     bool fresh = false;
+    WindowOptions window;
 };
 
 /// How the last window was left, less what is typed now.
@@ -34,6 +40,12 @@ std::optional<Remembered> left_before(const ViewOptions& options, FrameSequence&
     return state;
 }
 
+render::RenderScale first_scale(const ViewOptions& options, const std::optional<Remembered>& left) {
+    if (options.scale)
+        return *options.scale;
+    return left && left->scale ? *left->scale : render::RenderScale();
+}
+
 Result<int> view(const ViewOptions& options) {
     auto frames = TRY(resolve(options.frames));
     const bool remembers = !options.by_frames();
@@ -42,17 +54,37 @@ Result<int> view(const ViewOptions& options) {
     if (std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
                                                   size.width, size.height, k_largest_window));
+    auto wishes = TRY(resolve(options.window));
     auto settings = TRY(resolve(options, std::move(frames)));
+    settings.scale = first_scale(options, left);
+    settings.adaptive = options.adaptive;
     settings.plain = options.plain;
     settings.remembers = remembers;
     settings.left = std::move(left);
-    const auto corner = settings.left ? settings.left->place : std::nullopt;
-    return show(std::move(settings), [&](const std::string& title) {
-        return platform::Window::create(size, title, corner)
-            .map([](platform::Window window) -> std::unique_ptr<Screen> {
-                return std::make_unique<WindowScreen>(std::move(window));
-            });
-    });
+    if (settings.left)
+        wishes.left_at = settings.left->place;
+    std::optional<WindowScreen::Output> second;
+    if (options.window.output || options.window.output_monitor)
+        second = WindowScreen::Output{options.window.output_monitor};
+    return show(std::move(settings),
+                [&](const std::string& title) { return WindowScreen::open(size, title, wishes, second); });
+}
+
+void add_scale_options(CLI::App& command, ViewOptions& options) {
+    std::vector<std::string> names;
+    for (const render::RenderScale scale : render::RenderScale::all())
+        names.push_back(scale.name());
+    command
+        .add_option_function<std::string>(
+            "--scale",
+            [&options](const std::string& name) { options.scale = render::RenderScale::named(name); },
+            "Pixels that are drawn for one of the window's, along a side, at first [1]")
+        ->type_name(fmt::format("{}", fmt::join(names, "|")))
+        ->check(one_of(names));
+    command.add_option("--adaptive", options.adaptive, "Changes the scale to hold that frame rate")
+        ->type_name("FPS")
+        ->check(number<double>("a frame rate from 1 to 1000", 1, 1000))
+        ->excludes("--record", "--input");
 }
 
 } // namespace
@@ -62,6 +94,8 @@ void add_view(CLI::App& app, Action& chosen) {
     CLI::App* command =
         app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
     add_viewer_options(*command, *options);
+    add_scale_options(*command, *options);
+    add_window_options(*command, options->window);
     command->add_flag("--plain", options->plain,
                       "Stays with the scene's text as it is when nobody touches it for a while");
     command->add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");

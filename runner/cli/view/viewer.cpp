@@ -7,7 +7,6 @@
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
-#include "cli/output_name.hpp"
 #include "image/files/picture_file.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +21,6 @@ namespace {
 
 using platform::Key;
 
-/// So long compiling goes unmentioned.
-constexpr double k_short_wait_seconds = 0.3;
 /// A frame that holds the window for longer is one that people may want to be rid of.
 constexpr double k_hold_seconds = 1;
 /// Between two such frames people and files are listened to, at least so long.
@@ -31,16 +28,8 @@ constexpr double k_breath_seconds = 0.05;
 /// Seconds on show are no older than this.
 constexpr double k_title_seconds = 0.25;
 
-/// The first thing that is wrong, in one line.
-std::string headline(const Error& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics)
-        if (diagnostic.severity == Severity::error)
-            return to_string(diagnostic);
-    return error.message;
-}
-
-render::RenderOptions options_for(const Screen& screen, const Viewer::Settings& settings) {
-    render::RenderOptions options{screen.extent(), image::SampleType::u8, settings.frames.state.pass,
+render::RenderOptions options_for(Extent drawn, const Viewer::Settings& settings) {
+    render::RenderOptions options{drawn, image::SampleType::u8, settings.frames.state.pass,
                                   precision_of(settings.scene)};
     options.marks_non_finite = true;
     return options;
@@ -51,10 +40,12 @@ render::RenderOptions options_for(const Screen& screen, const Viewer::Settings& 
 Viewer::Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scene)
     : settings_(std::move(settings)), screen_(std::move(screen)), scene_(std::move(scene)),
       sound_(std::make_unique<SoundPlayer>()), clock_(clock_from(now_seconds())),
-      controls_(settings_.frames.state.camera), controls_open_(settings_.controls) {
+      controls_(settings_.frames.state.camera), scale_(settings_.scale), controls_open_(settings_.controls) {
     // Somebody who records sees the recording: there is nothing that it could show otherwise.
     if (settings_.frames.input || recording())
         replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.state.camera);
+    if (settings_.adaptive)
+        toggle_adaptive();
     if (settings_.left)
         take_up(*settings_.left);
 }
@@ -78,8 +69,9 @@ Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
     auto screen = open_screen(name + " - tidemark");
     if (!screen) // nothing can be waited for
         return fail(std::move(first.scene ? screen.error() : first.scene.error()));
+    const Extent drawn = settings.scale.drawn((*screen)->extent());
     const LiveScene::View view{
-        [&] { return (*screen)->create_context(); }, options_for(**screen, settings), {}, settings.rehearsal};
+        [&] { return (*screen)->create_context(); }, options_for(drawn, settings), {}, settings.rehearsal};
     auto live = LiveScene::create(settings.scene, std::move(first), view, [&on = **screen] { on.wake(); });
     if (!live)
         return fail(std::move(live.error()));
@@ -192,6 +184,7 @@ void Viewer::draw(double now) {
     next_draw_ = std::max(next_draw_ + 1 / settings_.frames.state.fps, now);
     shown_ = clock_.next_frame(now);
     shown_.date = settings_.date ? *settings_.date : render::later(render::local_date(), -shown_.seconds());
+    std::vector<render::PassTimer>* timers = time_next_frame();
     shown_.extent = renderer.extent();
     if (replay_)
         replay_->fill(shown_);
@@ -199,7 +192,7 @@ void Viewer::draw(double now) {
         controls_.fill(shown_);
     const size_t drawn_before = renderer.passes_drawn();
     drew_ = true;
-    renderer.draw(inputs_of(shown_), controls_open_ ? costs_.next_frame() : nullptr);
+    renderer.draw(inputs_of(shown_), timers);
     const bool drawn = renderer.passes_drawn() != drawn_before;
     if (drawn || stale || stale_overlay_ || screen_->wants_frame())
         present(drawn);
@@ -219,7 +212,7 @@ void Viewer::present(bool fresh) {
     stale_overlay_ = false;
     const gl::Texture* marked = marked_picture(); // draws, as the magnifier does: before the screen's turn
     live::Model model = overlay_model();
-    screen_->begin(stage_ ? &stage_->renderer().target() : nullptr, fresh);
+    screen_->begin(target_on_show(), fresh);
     if (marked)
         marks_->draw(*marked, screen_->extent());
     if (auto shown = screen_->finish(std::move(model), shown_moment()); !shown)
@@ -248,45 +241,6 @@ std::vector<std::string> Viewer::trace_words() const {
     state.date = settings_.frames.state.date;
     state.pass = settings_.frames.state.pass;
     return cli::trace_words(scene_.request(), settings_.frames, state);
-}
-
-bool Viewer::compiles_for_long(double now) const {
-    const auto since = scene_.building_since();
-    return since && now - *since > k_short_wait_seconds;
-}
-
-/// What is being waited for, else the error while there is one, else the frame rate, which changes twice a
-/// second at most.
-void Viewer::show_title(double now) {
-    std::string state = stepping_ ? fmt::format("stepping to frame {}, Esc gives up", stepping_->where().last)
-                        : given_up_       ? "given up, space goes on"
-                        : clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.seconds())
-                        : at_rest_        ? "still"
-                                          : fmt::format("{:.0f} fps", clock_.frame_rate());
-    if (finite_.found() > 0)
-        state += fmt::format(", {} pixel{} not finite", finite_.found(), finite_.found() > 1 ? "s" : "");
-    if (compiles_for_long(now))
-        state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
-                            stage_ ? ", Esc gives up" : "");
-    else if (!stage_ && !scene_.failure())
-        return;
-    std::string title = scene_.failure() && !compiles_for_long(now)
-                            ? (stage_ ? "" : "waiting: ") + headline(*scene_.failure())
-                            : fmt::format("{} - tidemark - {}", scene_.name(), state);
-    if (title == title_)
-        return;
-    title_ = std::move(title);
-    screen_->set_title(title_);
-}
-
-/// Uniforms follow the mouse and the keys; a paused picture is drawn anew when they do.
-void Viewer::control(const ControlEvent& event) {
-    if (!controls_.handle(event, screen_->extent().height))
-        return;
-    touched_at_ = now_seconds();
-    stale_ = true;
-    if (recording())
-        replay_->note(clock_.next_frame_number(), event);
 }
 
 void Viewer::handle(const platform::KeyPressed& event) {
@@ -336,6 +290,12 @@ void Viewer::obey(Key key, double now) {
     case Key::m: return toggle_magnifier();
     case Key::n: return toggle_marks();
     case Key::enter: return trace_pixel();
+    case Key::z: return toggle_freeze();
+    case Key::a: return toggle_adaptive();
+    case Key::minus:
+    case Key::keypad_subtract: return set_scale(scale_.stepped(-1));
+    case Key::equal:
+    case Key::keypad_add: return set_scale(scale_.stepped(1));
     default: return show_picture_of(key);
     }
     stale_ = true;
@@ -368,35 +328,9 @@ void Viewer::forget_what_follows() {
         replay_->go_back(clock_.next_frame_number());
 }
 
-void Viewer::handle(const platform::FramebufferResized& event) {
-    if (event.extent.width == 0 || event.extent.height == 0)
-        return;
-    if (stage_)
-        if (auto resized = stage_->renderer().resize(event.extent); !resized)
-            say(to_string(resized.error())); // the old picture is stretched
-    touched_at_ = now_seconds();
-    stale_ = true;
-}
-
-void Viewer::save_picture() {
-    if (!stage_)
-        return;
-    if (!writer_)
-        writer_ = std::make_unique<FrameWriter>(1U);
-    const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", shown_.frame));
-    const image::PictureFormat format = format_of_picture();
-    image::Image picture = stage_->renderer().read_back();
-    count_not_finite(stage_->renderer(), picture); // its marks are no alpha
-    if (writer_->push({shown_.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),
-                       std::move(picture), format}))
-        say(fmt::format("saving {}", name));
-    else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
-        say(to_string(written.error()));
-}
-
 LiveScene::View Viewer::view() const {
-    return {[this] { return screen_->create_context(); }, options_for(*screen_, settings_), inputs_of(shown_),
-            settings_.rehearsal};
+    return {[this] { return screen_->create_context(); }, options_for(drawn_extent(), settings_),
+            inputs_of(shown_), settings_.rehearsal};
 }
 
 Result<void> Viewer::follow_scene(double now) {
@@ -445,18 +379,24 @@ Result<void> Viewer::swap_in(Stage fresh) {
     stepping_.reset();
     forget_looking();
     costs_.forget();
+    if (adaptive_)
+        adaptive_->forget();
+    if (frozen_)
+        frozen_->target.framebuffer = {}; // in the context that has it
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));
     if (auto entered = stage_->enter(); !entered)
         return entered;
+    if (frozen_)
+        frozen_->target = gl::attach(std::move(frozen_->target.texture));
     if (before) {
         stage_->renderer().continue_from(before->renderer());
         for (const std::string& line : edits_of_turned(before->renderer().scene().knobs,
                                                        stage_->renderer().scene().knobs, shown_.knobs))
             say(line);
     }
-    if (const Extent extent = screen_->extent(); extent != stage_->renderer().extent())
-        handle(platform::FramebufferResized{extent}); // it has changed meanwhile
+    if (drawn_extent() != stage_->renderer().extent())
+        fit_drawing(); // the window has changed meanwhile
     return {};
 }
 

@@ -22,8 +22,10 @@
 #include "cli/view/stepping_there.hpp"
 #include "cli/view/wall_clock.hpp"
 #include "cli/view/window_keys.hpp"
+#include "render/adaptive_scale.hpp"
 #include "render/live_clock.hpp"
 #include "render/number_marks.hpp"
+#include "render/render_scale.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -39,10 +41,12 @@ public:
         FrameSequence frames;                  ///< size, fps, camera, pass
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
-        bool plain = false;     ///< never settles
-        bool remembers = false; ///< leaves its state for the next window
-        bool controls = false;  ///< open from the start
-        bool sounds = true;     ///< its Sound pass is to be heard here
+        render::RenderScale scale = {};            ///< at first
+        std::optional<double> adaptive = {};       ///< the rate that it holds; none: it stays
+        bool plain = false;                        ///< never settles
+        bool remembers = false;                    ///< leaves its state for the next window
+        bool controls = false;                     ///< open from the start
+        bool sounds = true;                        ///< its Sound pass is to be heard here
         std::optional<Remembered> left = {};       ///< by the last one
         std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
     };
@@ -60,6 +64,18 @@ public:
     bool busy() const { return scene_.busy() || sound_->busy(); }
 
 private:
+    /// As it is saved: with all that draws it again.
+    struct Picture {
+        int frame = 0;
+        image::Image pixels;
+        image::PictureFormat format;
+    };
+    /// A frame that stays on show.
+    struct Frozen {
+        gl::RenderTarget target; ///< in the stage's context
+        Picture picture;
+        Moment moment;
+    };
     Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scene);
     bool recording() const { return !settings_.record.empty(); }
     render::LiveClock clock_from(double now) const;
@@ -70,22 +86,35 @@ private:
     void handle(const platform::ButtonPressed& event) { control(event); }
     void handle(const platform::ButtonReleased& event) { control(event); }
     void handle(const platform::WheelTurned& event) { control(event); }
-    void control(const ControlEvent& event);
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
     void escape(double now);
     void forget_what_follows();
     void handle(const platform::TextTyped&) {}
-    void handle(const platform::FramebufferResized& event);
     void handle(const platform::RedrawNeeded&) { stale_ = true; }
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
-    void save_picture();
+
+    // The size of what is drawn: viewer_scale.cpp
+    Extent drawn_extent() const;
+    void control(const ControlEvent& event);
+    void handle(const platform::FramebufferResized& event);
+    bool fit_drawing();
+    bool change_scale(render::RenderScale wanted);
+    void set_scale(render::RenderScale wanted);
+    void toggle_adaptive();
+    std::vector<render::PassTimer>* time_next_frame();
+
+    // A picture that stays while time goes on: viewer_freeze.cpp
+    void toggle_freeze();
+    const gl::RenderTarget* target_on_show() const;
 
     // The moment on show: viewer_moments.cpp
     Moment moment() const;
     image::PictureFormat format_of_picture() const;
+    Picture read_picture() const;
+    void save_picture();
     void copy_moment();
     void keep_moment();
     void take_up(const Remembered& left);
@@ -141,14 +170,16 @@ private:
     void settle_after_rest(double now);
     void play_sound();
     void report_reload();
+
+    // viewer_title.cpp
     bool compiles_for_long(double now) const;
+    void show_title(double now);
 
     void draw(double now);
     void present(bool fresh);
     ShownMoment shown_moment() const;
     void look_for_numbers(double now);
     std::vector<std::string> trace_words() const;
-    void show_title(double now);
     Result<void> finish();
     double seconds_to_sleep(double now) const;
     bool wants_frame(double now) const;
@@ -162,6 +193,8 @@ private:
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;
     Controls controls_;
+    render::RenderScale scale_;
+    std::optional<render::AdaptiveScale> adaptive_; ///< none: the scale stays
     std::optional<Replay>
         replay_; ///< moves the scene instead of the controls: of a recording, or of this one
     std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
@@ -185,6 +218,7 @@ private:
     std::optional<render::ShownFloats> floats_; ///< of the stage, when somebody looks
     std::optional<render::NumberMarks> marks_;  ///< likewise
     bool marks_shown_ = false;
+    std::optional<Frozen> frozen_;          ///< instead of the frames that follow it
     std::unique_ptr<OriginSearch> search_;  ///< while one is under way
     ErrorBoard origin_;                     ///< what it found
     std::optional<SteppingThere> stepping_; ///< on the way to a frame

@@ -26,14 +26,15 @@ render::ShownFloats& Viewer::floats() {
 }
 
 std::optional<live::MagnifierField> Viewer::magnifier_field() {
-    if (!magnifier_.is_open() || !stage_ || stepping_)
+    if (!magnifier_.is_open() || !stage_ || stepping_ || frozen_)
         return std::nullopt;
     return magnifier_.field(stage_->renderer(), inputs_of(shown_), screen_->extent(), floats());
 }
 
 /// What the marks are drawn from, while there are any.
 const gl::Texture* Viewer::marked_picture() {
-    if (!marks_shown_ || !stage_ || stepping_ || stage_->renderer().target().texture.target != GL_TEXTURE_2D)
+    if (!marks_shown_ || !stage_ || stepping_ || frozen_ ||
+        stage_->renderer().target().texture.target != GL_TEXTURE_2D)
         return nullptr;
     if (!marks_) {
         auto made = render::NumberMarks::create();
@@ -56,7 +57,7 @@ void Viewer::forget_looking() {
 
 /// Of the pixel in the magnifier. Asked for once more it hides the answer.
 void Viewer::trace_pixel() {
-    if (!magnifier_.is_open() || !stage_)
+    if (!magnifier_.is_open() || !stage_ || frozen_)
         return;
     if (origin_.show(nullptr) || search_) {
         search_.reset();

@@ -1,6 +1,8 @@
 // The moment on show, as a value: copied as a command, saved with pictures, kept and gone back to.
 #include "cli/console.hpp"
 #include "cli/fingerprint.hpp"
+#include "cli/not_finite.hpp"
+#include "cli/output_name.hpp"
 #include "cli/picture_facts.hpp"
 #include "cli/view/overlay_fields.hpp"
 #include "cli/view/viewer.hpp"
@@ -10,6 +12,8 @@
 namespace tidemark::cli {
 
 Moment Viewer::moment() const {
+    if (frozen_)
+        return frozen_->moment;
     FrameSequence sequence = settings_.frames;
     if (recording())
         sequence.input_file = settings_.record.string();
@@ -28,6 +32,26 @@ image::PictureFormat Viewer::format_of_picture() const {
     image::PictureFormat format{image::SampleDepth::u8, metadata_of(scene, moment())};
     format.metadata.emplace_back(k_fingerprint, fingerprint.text());
     return format;
+}
+
+Viewer::Picture Viewer::read_picture() const {
+    Picture picture{shown_.frame, stage_->renderer().read_back(), format_of_picture()};
+    count_not_finite(stage_->renderer(), picture.pixels); // its marks are no alpha
+    return picture;
+}
+
+void Viewer::save_picture() {
+    if (!stage_)
+        return;
+    if (!writer_)
+        writer_ = std::make_unique<FrameWriter>(1U);
+    Picture picture = frozen_ ? frozen_->picture : read_picture();
+    const std::string name = name_after_scene(settings_.scene.path, fmt::format("-{:05}.png", picture.frame));
+    if (writer_->push({picture.frame, OutputPath(name).sparing(files_read(stage_->renderer().scene())),
+                       std::move(picture.pixels), std::move(picture.format)}))
+        say(fmt::format("saving {}", name));
+    else if (auto written = std::exchange(writer_, nullptr)->finish(); !written)
+        say(to_string(written.error()));
 }
 
 /// The rate of the window's own clock is nobody's wish, and the date is left to the capture unless somebody
@@ -61,6 +85,7 @@ void Viewer::carry_out(const live::GoToView& command) {
     const Moment& kept = views_[command.index];
     const render::FrameState& state = kept.sequence.state;
     controls_.adopt(state);
+    controls_.stretch(state.extent, drawn_extent());
     shown_.knobs.clear();
     controls_.fill(shown_);
     const double now = now_seconds();
@@ -94,7 +119,7 @@ void Viewer::take_up(const Remembered& left) {
 /// For the next window of the scene.
 void Viewer::leave() const {
     if (settings_.remembers && stage_)
-        remember(settings_.scene.path, {moment(), screen_->place(), controls_open_, views_});
+        remember(settings_.scene.path, {moment(), screen_->place(), scale_, controls_open_, views_});
 }
 
 } // namespace tidemark::cli

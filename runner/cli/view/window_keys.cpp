@@ -20,6 +20,8 @@ constexpr KeyRow k_rows[] = {
     {"Enter", "with the magnifier: the line where that pixel's NaN or infinity comes from"},
     {"S", "save a picture (SCENE-FRAME.png in the current folder)"},
     {"C; K", "copy the command that captures this moment; keep it in the controls"},
+    {"-, =; A", "render scale: half, double, from 1/8 to 2; adaptive: it holds a frame rate"},
+    {"Z", "freeze the picture, while time goes on"},
     {"F; H, F1", "full screen; help"},
     {"Esc", "quit; while a scene is compiled anew, or a frame holds the window: give that up"},
 };

@@ -1,15 +1,22 @@
-// A window as a Screen: its own picture, with the overlay's panels over it.
+// A window as a Screen: the picture, with the overlay's panels over it; and perhaps a second window that
+// shows the picture alone.
 #pragma once
 
 #include "cli/view/screen.hpp"
 #include "live/overlay.hpp"
+#include "platform/output_window.hpp"
 #include "platform/window.hpp"
 
 namespace tidemark::cli {
 
 class WindowScreen : public Screen {
 public:
-    explicit WindowScreen(platform::Window window) : window_(std::move(window)) {}
+    struct Output {
+        std::optional<int> monitor; ///< full screen there; none: as large as the window
+    };
+    static Result<std::unique_ptr<Screen>> open(Extent size, const std::string& title,
+                                                const platform::WindowWishes& wishes,
+                                                const std::optional<Output>& output);
 
     Result<platform::SharedContext> create_context() override { return window_.create_context(); }
     std::vector<platform::InputEvent> wait(double seconds) override;
@@ -31,7 +38,12 @@ public:
     std::shared_ptr<void> when_lost(std::function<void()> act) override;
 
 private:
-    platform::Window window_; ///< owns the context: first in, last out
+    explicit WindowScreen(platform::Window window) : window_(std::move(window)) {}
+    void listen_to_output(std::vector<platform::InputEvent>& events);
+    void show_on_output(const gl::RenderTarget& picture);
+
+    platform::Window window_;                      ///< owns the context: first in, last out
+    std::optional<platform::OutputWindow> output_; ///< until somebody closes it
     live::Overlay overlay_;
 };
 

@@ -1,0 +1,28 @@
+// A picture that stays on show while time goes on, and the scene with it.
+#include "cli/console.hpp"
+#include "cli/view/viewer.hpp"
+#include "gl/blit.hpp"
+
+#include <utility>
+
+namespace tidemark::cli {
+
+void Viewer::toggle_freeze() {
+    if (!stage_)
+        return;
+    stale_overlay_ = true;
+    if (std::exchange(frozen_, std::nullopt))
+        return;
+    auto target = gl::copy_in_bytes(stage_->renderer().target());
+    if (!target)
+        return say("the driver has no memory for a picture that stays");
+    frozen_.emplace(Frozen{*std::move(target), read_picture(), moment()});
+}
+
+const gl::RenderTarget* Viewer::target_on_show() const {
+    if (frozen_)
+        return &frozen_->target;
+    return stage_ ? &stage_->renderer().target() : nullptr;
+}
+
+} // namespace tidemark::cli

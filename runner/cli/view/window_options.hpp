@@ -1,0 +1,31 @@
+// The options of `view` that place its windows.
+#pragma once
+
+#include "base/result.hpp"
+#include "platform/window.hpp"
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace tidemark::cli {
+
+/// As they were typed.
+struct WindowOptions {
+    bool on_top = false;
+    std::optional<int> monitor;
+    std::optional<std::string> position;
+    bool output = false;
+    std::optional<int> output_monitor;
+};
+
+/// --on-top, --monitor, --position, --output-window, --output-monitor.
+void add_window_options(CLI::App& command, WindowOptions& options);
+
+/// What they say of the first window.
+Result<platform::WindowWishes> resolve(const WindowOptions& options);
+
+} // namespace tidemark::cli
