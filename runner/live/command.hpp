@@ -53,6 +53,9 @@ struct ForgetView {
 };
 
 struct TogglePause {};
+struct SetPlaying {
+    bool on = true;
+};
 struct Restart {};
 struct Seek {
     double seconds = 0;
@@ -69,8 +72,8 @@ struct SetLoop {
 };
 
 using Command = std::variant<TurnKnob, ResetKnob, ResetKnobs, CopyKnobs, WriteKnobs, OpenEditor, Define,
-                             Undefine, ShowPicture, KeepView, GoToView, ForgetView, TogglePause, Restart,
-                             Seek, GiveUpSeek, SetSpeed, SetLoop>;
+                             Undefine, ShowPicture, KeepView, GoToView, ForgetView, TogglePause, SetPlaying,
+                             Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
 using Commands = std::vector<Command>;
 
 } // namespace tidemark::live

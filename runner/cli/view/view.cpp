@@ -32,6 +32,7 @@ struct ViewOptions {
     std::string record;
     bool plain = false;
     bool fresh = false;
+    LiveInputRequest inputs;
     LimitOptions limits;
 };
 
@@ -84,6 +85,8 @@ Result<int> view(const ViewOptions& options) {
     settings.plain = options.plain;
     settings.remembers = remembers;
     settings.left = std::move(left);
+    if (options.inputs.any())
+        settings.inputs = options.inputs;
     // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
     if (options.frames.date || options.frames.input || !options.record.empty())
         settings.date = settings.frames.state.date;
@@ -100,6 +103,15 @@ Result<int> view(const ViewOptions& options) {
         ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
     }
     return outcome;
+}
+
+void add_live_options(CLI::App& command, LiveInputRequest& inputs) {
+    command
+        .add_option(
+            "--osc", inputs.osc,
+            "Listens for OSC at that port of this machine, or at that address: /knob/NAME, /time, /play")
+        ->type_name("[HOST:]PORT")
+        ->excludes("--input");
 }
 
 } // namespace
@@ -122,6 +134,7 @@ void add_view(CLI::App& app, Action& chosen) {
     command->add_flag("--plain", options->plain,
                       "Stays with the scene's text as it is when nobody touches it for a while");
     command->add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");
+    add_live_options(*command, options->inputs);
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 

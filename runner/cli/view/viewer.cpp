@@ -85,7 +85,9 @@ Result<Viewer> Viewer::open(Settings settings) {
                                   {options_for(*window, settings), {}, settings.rehearsal});
     if (!live)
         return fail(std::move(live.error()));
-    return Viewer(std::move(settings), *std::move(window), *std::move(live));
+    Viewer viewer(std::move(settings), *std::move(window), *std::move(live));
+    TRY(viewer.open_inputs());
+    return viewer;
 }
 
 Result<int> Viewer::run(const Interrupt& interrupt) {
@@ -99,6 +101,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         listen();
         const double now = now_seconds();
         TRY(follow_scene(now));
+        take_inputs();
         settle_after_rest(now);
         take_origin();
         step_there();

@@ -11,6 +11,7 @@
 #include "cli/requests.hpp"
 #include "cli/view/error_board.hpp"
 #include "cli/view/finite_watch.hpp"
+#include "cli/view/live_inputs.hpp"
 #include "cli/view/live_scene.hpp"
 #include "cli/view/magnifier.hpp"
 #include "cli/view/origin_search.hpp"
@@ -42,8 +43,9 @@ public:
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
         bool plain = false;     ///< never settles
         bool remembers = false; ///< leaves its state for the next window
-        std::optional<Remembered> left = {};       ///< by the last one
-        std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
+        std::optional<Remembered> left = {};         ///< by the last one
+        std::optional<LiveInputRequest> inputs = {}; ///< excludes frames.input
+        std::shared_ptr<Rehearsal> rehearsal = {};   ///< tries out what may be too much for the driver
     };
 
     /// Opens the window and begins to compile. Fails where options are wrong, and as Window does.
@@ -121,6 +123,12 @@ private:
     bool overlay_due() const;
     scene::Scene turned_scene() const;
 
+    // Live inputs: viewer_inputs.cpp
+    Result<void> open_inputs();
+    void take_inputs();
+    std::vector<scene::Knob> turned_knobs() const;
+    void carry_out(const live::SetPlaying& command);
+
     // Looking into the picture: viewer_looking.cpp
     void toggle_magnifier();
     void toggle_marks();
@@ -154,6 +162,7 @@ private:
     Settings settings_;
     platform::Window window_; ///< owns the context: first in, last out
     LiveScene scene_;
+    std::unique_ptr<LiveInputs> inputs_; ///< none: nobody asked for any
     std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;

@@ -1,0 +1,37 @@
+// What comes from outside (OSC), carried out as if a hand had done it in the overlay: so it is recorded, too.
+#include "base/try.hpp"
+#include "cli/view/viewer.hpp"
+
+#include <variant>
+
+namespace tidemark::cli {
+
+Result<void> Viewer::open_inputs() {
+    if (settings_.inputs)
+        inputs_ = TRY(LiveInputs::open(*settings_.inputs));
+    return {};
+}
+
+void Viewer::take_inputs() {
+    if (!inputs_ || !stage_ || !inputs_->any())
+        return;
+    for (const live::Command& command : inputs_->take(turned_knobs()))
+        std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
+}
+
+/// As they were turned last, which no frame may have shown yet.
+std::vector<scene::Knob> Viewer::turned_knobs() const {
+    render::FrameState state;
+    controls_.fill(state);
+    std::vector<scene::Knob> knobs = stage_->renderer().scene().knobs;
+    for (scene::Knob& knob : knobs)
+        knob.value = value_after(knob, state.knobs);
+    return knobs;
+}
+
+void Viewer::carry_out(const live::SetPlaying& command) {
+    if (command.on == clock_.paused())
+        carry_out(live::TogglePause{});
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,32 @@
+// What arrives from outside, handed from the threads that receive it to the one that owns the window.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::live {
+
+class Inbox {
+public:
+    /// `wake` is called, on the thread of `put`, when there is something to take where nothing was.
+    explicit Inbox(void (*wake)()) : wake_(wake) {}
+
+    /// One packet, whole. Of more than nobody takes in time the oldest go.
+    void put(std::string_view packet);
+
+    bool empty();
+    /// In the order of their arrival.
+    std::vector<std::string> take();
+
+private:
+    static constexpr size_t k_most = 4096; ///< packets
+
+    void (*wake_)();
+    std::mutex mutex_;
+    std::deque<std::string> packets_; ///< under the mutex
+};
+
+} // namespace tidemark::live
