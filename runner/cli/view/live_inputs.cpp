@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/console.hpp"
+#include "live/inputs/midi_device.hpp"
 #include "live/inputs/osc_command.hpp"
 #include "live/inputs/osc_socket.hpp"
 #include "platform/window.hpp"
@@ -26,12 +27,14 @@ void note(const live::Command& command, std::vector<scene::Knob>& knobs) {
 
 } // namespace
 
-LiveInputs::LiveInputs(void (*wake)()) : osc_(wake) {}
+LiveInputs::LiveInputs(void (*wake)()) : osc_(wake), midi_(wake) {}
 
 Result<std::unique_ptr<LiveInputs>> LiveInputs::open(const LiveInputRequest& request) {
     std::unique_ptr<LiveInputs> inputs(new LiveInputs(platform::Window::wake));
     if (request.osc)
         TRY(inputs->open_osc(*request.osc));
+    if (request.midi)
+        TRY(inputs->open_midi(*request.midi));
     return inputs;
 }
 
@@ -42,9 +45,19 @@ Result<void> LiveInputs::open_osc(const std::string& where) {
     return {};
 }
 
-live::Commands LiveInputs::take(std::vector<scene::Knob> knobs) {
+/// A name with a slash in it is a file's.
+Result<void> LiveInputs::open_midi(const std::string& what) {
+    if (what.find('/') == what.npos)
+        midi_port_ = TRY(live::MidiPort::open(what, midi_));
+    else
+        midi_receiver_ = std::make_unique<live::Receiver>(TRY(live::open_midi_device(what)), midi_);
+    return {};
+}
+
+live::Commands LiveInputs::take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers) {
     live::Commands commands;
     take_osc(commands, knobs);
+    take_midi(commands, knobs, controllers);
     return commands;
 }
 
@@ -65,6 +78,26 @@ void LiveInputs::take_osc(live::Commands& commands, std::vector<scene::Knob>& kn
             commands.push_back(*std::move(command));
         }
     }
+}
+
+void LiveInputs::take_midi(live::Commands& commands, std::vector<scene::Knob>& knobs,
+                           live::ControllerMap& controllers) {
+    for (const std::string& bytes : midi_.take())
+        for (const live::ControlChange& change : midi_parser_.parse(bytes)) {
+            const bool learned = controllers.learning().has_value();
+            auto turned = controllers.turn(change, knobs);
+            if (!turned) {
+                words_.say(
+                    fmt::format("MIDI: {} turns nothing: click with the right button on a knob's name in the "
+                                "controls (Tab), and move it",
+                                to_string(change.controller)));
+                continue;
+            }
+            if (learned)
+                say(fmt::format("MIDI: {} turns {}", to_string(change.controller), turned->name));
+            note(*turned, knobs);
+            commands.emplace_back(*std::move(turned));
+        }
 }
 
 } // namespace tidemark::cli

@@ -4,6 +4,8 @@
 
 #include "cli/view/said_once.hpp"
 #include "live/command.hpp"
+#include "live/inputs/controller_map.hpp"
+#include "live/inputs/midi_port.hpp"
 #include "live/inputs/receiver.hpp"
 
 #include <memory>
@@ -15,9 +17,10 @@ namespace tidemark::cli {
 
 /// As they are typed.
 struct LiveInputRequest {
-    std::optional<std::string> osc{}; ///< PORT or HOST:PORT
+    std::optional<std::string> osc{};  ///< PORT or HOST:PORT
+    std::optional<std::string> midi{}; ///< a part of a port's name, or a device's file
 
-    bool any() const { return osc.has_value(); }
+    bool any() const { return osc || midi; }
 };
 
 class LiveInputs {
@@ -27,17 +30,27 @@ public:
     static Result<std::unique_ptr<LiveInputs>> open(const LiveInputRequest& request);
 
     /// Whether `take` has anything to give.
-    bool any() { return !osc_.empty(); }
-    /// What was asked for since the last call, of a scene whose knobs are turned so.
-    live::Commands take(std::vector<scene::Knob> knobs);
+    bool any() { return !osc_.empty() || !midi_.empty(); }
+    /// What was asked for since the last call, of a scene whose knobs are turned so, by controllers that are
+    /// bound so.
+    live::Commands take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers);
+
+    bool has_midi() const { return midi_port_ || midi_receiver_; }
 
 private:
     explicit LiveInputs(void (*wake)());
     Result<void> open_osc(const std::string& where);
+    Result<void> open_midi(const std::string& what);
     void take_osc(live::Commands& commands, std::vector<scene::Knob>& knobs);
+    void take_midi(live::Commands& commands, std::vector<scene::Knob>& knobs,
+                   live::ControllerMap& controllers);
 
     live::Inbox osc_;
+    live::Inbox midi_;
+    live::MidiParser midi_parser_;
     std::unique_ptr<live::Receiver> osc_receiver_; ///< after what it puts packets into
+    std::unique_ptr<live::Receiver> midi_receiver_;
+    std::unique_ptr<live::MidiPort> midi_port_;
     SaidOnce words_;
 };
 

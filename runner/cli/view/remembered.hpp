@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/moment.hpp"
+#include "live/inputs/controller_map.hpp"
 #include "platform/window.hpp"
 
 #include <optional>
@@ -14,8 +15,9 @@ namespace tidemark::cli {
 struct Remembered {
     std::optional<Moment> moment{}; ///< on show at last: its knobs, camera and time count
     std::optional<platform::WindowPlace> place{};
-    bool controls = false; ///< open
+    bool controls_open = false;
     std::vector<Moment> views{};
+    std::vector<live::Binding> controllers{}; ///< of a MIDI device
 };
 
 /// Nothing where there is none, which is not said, or where it cannot be used, which is.

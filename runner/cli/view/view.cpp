@@ -71,10 +71,18 @@ std::optional<Remembered> left_before(const ViewOptions& options, FrameSequence&
     return state;
 }
 
+/// What was learned counts for somebody who records, or starts anew, too.
+std::optional<Remembered> controllers_before(const ViewOptions& options) {
+    auto state = options.inputs.midi ? recall(options.scene.path) : std::nullopt;
+    if (!state)
+        return state;
+    return Remembered{.controllers = std::move(state->controllers)};
+}
+
 Result<int> view(const ViewOptions& options) {
     auto frames = TRY(resolve(options.frames));
     const bool remembers = !options.frames.input && options.record.empty();
-    auto left = remembers && !options.fresh ? left_before(options, frames) : std::nullopt;
+    auto left = remembers && !options.fresh ? left_before(options, frames) : controllers_before(options);
     if (const Extent size = frames.state.extent; std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
                                                   size.width, size.height, k_largest_window));
@@ -111,6 +119,11 @@ void add_live_options(CLI::App& command, LiveInputRequest& inputs) {
             "--osc", inputs.osc,
             "Listens for OSC at that port of this machine, or at that address: /knob/NAME, /time, /play")
         ->type_name("[HOST:]PORT")
+        ->excludes("--input");
+    command
+        .add_option("--midi", inputs.midi,
+                    "Listens to the controllers of a MIDI device: a part of its port's name, or its file")
+        ->type_name("PORT|FILE")
         ->excludes("--input");
 }
 

@@ -128,6 +128,8 @@ private:
     void take_inputs();
     std::vector<scene::Knob> turned_knobs() const;
     void carry_out(const live::SetPlaying& command);
+    void carry_out(const live::LearnController& command);
+    void carry_out(const live::ForgetController& command);
 
     // Looking into the picture: viewer_looking.cpp
     void toggle_magnifier();
@@ -163,6 +165,7 @@ private:
     platform::Window window_; ///< owns the context: first in, last out
     LiveScene scene_;
     std::unique_ptr<LiveInputs> inputs_; ///< none: nobody asked for any
+    live::ControllerMap controllers_;    ///< of this scene, with or without a MIDI device
     std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;

@@ -1,4 +1,5 @@
-// What comes from outside (OSC), carried out as if a hand had done it in the overlay: so it is recorded, too.
+// What comes from outside (OSC, MIDI), carried out as if a hand had done it in the overlay: so it is
+// recorded, too.
 #include "base/try.hpp"
 #include "cli/view/viewer.hpp"
 
@@ -15,7 +16,7 @@ Result<void> Viewer::open_inputs() {
 void Viewer::take_inputs() {
     if (!inputs_ || !stage_ || !inputs_->any())
         return;
-    for (const live::Command& command : inputs_->take(turned_knobs()))
+    for (const live::Command& command : inputs_->take(turned_knobs(), controllers_))
         std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
 }
 
@@ -32,6 +33,16 @@ std::vector<scene::Knob> Viewer::turned_knobs() const {
 void Viewer::carry_out(const live::SetPlaying& command) {
     if (command.on == clock_.paused())
         carry_out(live::TogglePause{});
+}
+
+void Viewer::carry_out(const live::LearnController& command) {
+    controllers_.learn({command.knob, command.component});
+    stale_overlay_ = true;
+}
+
+void Viewer::carry_out(const live::ForgetController& command) {
+    controllers_.forget({command.knob, command.component});
+    stale_overlay_ = true;
 }
 
 } // namespace tidemark::cli

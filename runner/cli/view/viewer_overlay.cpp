@@ -63,6 +63,8 @@ live::Model Viewer::overlay_model() {
     if (model.controls) {
         const render::Renderer& renderer = stage_->renderer();
         model.knobs = knob_fields(renderer.scene(), shown_.knobs);
+        if (inputs_ && inputs_->has_midi())
+            add_controllers(model.knobs, controllers_);
         model.definitions = *defined_;
         model.pictures = picture_fields(renderer, costs_);
         if (large_ && *large_ < model.pictures.size())
