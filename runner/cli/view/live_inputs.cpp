@@ -35,6 +35,10 @@ Result<std::unique_ptr<LiveInputs>> LiveInputs::open(const LiveInputRequest& req
         TRY(inputs->open_osc(*request.osc));
     if (request.midi)
         TRY(inputs->open_midi(*request.midi));
+    if (request.microphone)
+        inputs->microphone_ = TRY(sound::Microphone::open(*request.microphone));
+    if (request.webcam)
+        inputs->webcam_ = TRY(image::Camera::open(*request.webcam));
     return inputs;
 }
 
@@ -52,6 +56,23 @@ Result<void> LiveInputs::open_midi(const std::string& what) {
     else
         midi_receiver_ = std::make_unique<live::Receiver>(TRY(live::open_midi_device(what)), midi_);
     return {};
+}
+
+void LiveInputs::hear() {
+    render::LiveMedia media;
+    if (microphone_)
+        media.microphone = microphone_->hear();
+    if (webcam_)
+        media.webcam = webcam_->newest();
+    media_ = std::make_shared<render::LiveMedia>(std::move(media));
+}
+
+void say_what_is_not_recorded(const LiveInputRequest& request) {
+    if (request.microphone)
+        say("the recording has nothing of what the microphone hears: a replay has the signal of a silent "
+            "input");
+    if (request.webcam)
+        say("the recording has nothing of what the webcam sees: a replay has a stand-in");
 }
 
 live::Commands LiveInputs::take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers) {

@@ -3,10 +3,13 @@
 #pragma once
 
 #include "cli/view/said_once.hpp"
+#include "image/files/camera.hpp"
 #include "live/command.hpp"
 #include "live/inputs/controller_map.hpp"
 #include "live/inputs/midi_port.hpp"
 #include "live/inputs/receiver.hpp"
+#include "render/live_media.hpp"
+#include "sound/microphone.hpp"
 
 #include <memory>
 #include <optional>
@@ -17,11 +20,17 @@ namespace tidemark::cli {
 
 /// As they are typed.
 struct LiveInputRequest {
-    std::optional<std::string> osc{};  ///< PORT or HOST:PORT
-    std::optional<std::string> midi{}; ///< a part of a port's name, or a device's file
+    std::optional<std::string> osc{};        ///< PORT or HOST:PORT
+    std::optional<std::string> midi{};       ///< a part of a port's name, or a device's file
+    std::optional<std::string> microphone{}; ///< a device of ALSA's
+    std::optional<std::string> webcam{};     ///< a device's file, or a video's
 
-    bool any() const { return osc || midi; }
+    bool any() const { return osc || midi || microphone || webcam; }
+    bool turns_knobs() const { return osc || midi; }
 };
+
+/// For somebody who records.
+void say_what_is_not_recorded(const LiveInputRequest& request);
 
 class LiveInputs {
 public:
@@ -35,6 +44,10 @@ public:
     /// bound so.
     live::Commands take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers);
 
+    /// What the next frame hears and sees.
+    void hear();
+    /// What the last frame did; null before it.
+    const std::shared_ptr<const render::LiveMedia>& media() const { return media_; }
     bool has_midi() const { return midi_port_ || midi_receiver_; }
 
 private:
@@ -45,6 +58,9 @@ private:
     void take_midi(live::Commands& commands, std::vector<scene::Knob>& knobs,
                    live::ControllerMap& controllers);
 
+    std::optional<sound::Microphone> microphone_;
+    std::optional<image::Camera> webcam_;
+    std::shared_ptr<const render::LiveMedia> media_;
     live::Inbox osc_;
     live::Inbox midi_;
     live::MidiParser midi_parser_;

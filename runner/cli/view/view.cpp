@@ -125,6 +125,16 @@ void add_live_options(CLI::App& command, LiveInputRequest& inputs) {
                     "Listens to the controllers of a MIDI device: a part of its port's name, or its file")
         ->type_name("PORT|FILE")
         ->excludes("--input");
+    command
+        .add_option("--microphone", inputs.microphone,
+                    "What inputs without a sound file hear: a device of ALSA's, as in --microphone default")
+        ->type_name("DEVICE")
+        ->excludes("--input");
+    command
+        .add_option("--webcam", inputs.webcam,
+                    "What webcam inputs see: a device, as in --webcam /dev/video0, or a video")
+        ->type_name("DEVICE|FILE")
+        ->excludes("--input");
 }
 
 } // namespace

@@ -203,7 +203,7 @@ void Viewer::draw(double now) {
         controls_.fill(shown_);
     const size_t drawn_before = renderer.passes_drawn();
     drew_ = true;
-    renderer.draw(inputs_of(shown_), controls_open_ ? costs_.next_frame() : nullptr);
+    renderer.draw(heard_inputs(), controls_open_ ? costs_.next_frame() : nullptr);
     const bool drawn = renderer.passes_drawn() != drawn_before;
     if (drawn || stale || stale_overlay_ || overlay_.wants_frame())
         present();
@@ -398,7 +398,7 @@ void Viewer::save_picture() {
 }
 
 LiveScene::View Viewer::view() const {
-    return {options_for(window_, settings_), inputs_of(shown_), settings_.rehearsal};
+    return {options_for(window_, settings_), inputs_on_show(), settings_.rehearsal};
 }
 
 Result<void> Viewer::follow_scene(double now) {

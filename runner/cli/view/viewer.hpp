@@ -126,6 +126,8 @@ private:
     // Live inputs: viewer_inputs.cpp
     Result<void> open_inputs();
     void take_inputs();
+    render::FrameInputs heard_inputs();
+    render::FrameInputs inputs_on_show() const;
     std::vector<scene::Knob> turned_knobs() const;
     void carry_out(const live::SetPlaying& command);
     void carry_out(const live::LearnController& command);

@@ -1,5 +1,5 @@
-// What comes from outside (OSC, MIDI), carried out as if a hand had done it in the overlay: so it is
-// recorded, too.
+// What comes from outside: messages, carried out as if a hand had done it in the overlay, so that they are
+// recorded, too; and sound.
 #include "base/try.hpp"
 #include "cli/view/viewer.hpp"
 
@@ -8,6 +8,8 @@
 namespace tidemark::cli {
 
 Result<void> Viewer::open_inputs() {
+    if (settings_.inputs && recording())
+        say_what_is_not_recorded(*settings_.inputs);
     if (settings_.inputs)
         inputs_ = TRY(LiveInputs::open(*settings_.inputs));
     return {};
@@ -18,6 +20,21 @@ void Viewer::take_inputs() {
         return;
     for (const live::Command& command : inputs_->take(turned_knobs(), controllers_))
         std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
+}
+
+/// For the frame that is drawn now.
+render::FrameInputs Viewer::heard_inputs() {
+    if (inputs_)
+        inputs_->hear();
+    return inputs_on_show();
+}
+
+/// Of the frame on show, with what it heard.
+render::FrameInputs Viewer::inputs_on_show() const {
+    render::FrameInputs inputs = inputs_of(shown_);
+    if (inputs_)
+        inputs.live = inputs_->media();
+    return inputs;
 }
 
 /// As they were turned last, which no frame may have shown yet.

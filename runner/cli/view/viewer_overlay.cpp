@@ -137,7 +137,8 @@ void Viewer::carry_out(const live::Undefine& command) {
 
 /// A program that has the values of knobs in it would be wrong soon.
 bool Viewer::knobs_may_turn() const {
-    return controls_open_ || inputs_ || (replay_ && turns_knobs(replay_->script()));
+    return controls_open_ || (inputs_ && settings_.inputs->turns_knobs()) ||
+           (replay_ && turns_knobs(replay_->script()));
 }
 
 /// The scene on show, with its knobs as they are.

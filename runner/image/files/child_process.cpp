@@ -200,6 +200,11 @@ Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words) {
     return size_t{0};
 }
 
+void ChildProcess::stop() {
+    if (process_ > 0)
+        ::kill(process_, SIGKILL);
+}
+
 bool ChildProcess::succeeded() {
     close_pipes();
     int status = -1;

@@ -52,6 +52,9 @@ public:
     /// Appends what standard error has now; does not wait.
     void read_words(std::string& words);
 
+    /// Ends it, and with it a `read` that another thread waits in.
+    void stop();
+
     /// After the end of its output: waits for it. True when it ended with status 0.
     bool succeeded();
 
