@@ -34,7 +34,7 @@ ROOMS = {
     # The plug-in is a library of its own: image/files knows the table of functions that it hands over.
     "image": {"": [], "files": ["", "plugin"], "made": ["", "files"], "compare": [""], "plugin": ["", "files"]},
     "ir": {"": ["plugin"], "plugin": []},
-    "live": {"": ["plugin"], "plugin": [""]},
+    "live": {"": ["plugin"], "plugin": [""], "inputs": [""]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "trace": [], "pixel": ["march"],

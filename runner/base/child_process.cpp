@@ -235,6 +235,11 @@ bool ChildProcess::ends_before(Clock::time_point until) const {
     return ready != 0;
 }
 
+void ChildProcess::stop() {
+    if (process_ > 0)
+        ::kill(process_, SIGKILL);
+}
+
 bool ChildProcess::succeeded() {
     close_pipes();
     int status = -1;

@@ -67,6 +67,8 @@ public:
 
     /// Whether it ends before then; waits for that.
     bool ends_before(Clock::time_point until) const;
+    /// Ends it, and with it a `read` that another thread waits in.
+    void stop();
 
     /// After the end of its output: waits for it. True when it ended with status 0.
     bool succeeded();

@@ -18,6 +18,15 @@ struct ResetKnob {
     std::string name;
 };
 struct ResetKnobs {};
+/// The next controller of a MIDI device that moves turns that component.
+struct LearnController {
+    std::string knob;
+    size_t component = 0;
+};
+struct ForgetController {
+    std::string knob;
+    size_t component = 0;
+};
 /// Into the clipboard, as options.
 struct CopyKnobs {};
 /// Into the file that declares them.
@@ -53,6 +62,9 @@ struct ForgetView {
 };
 
 struct TogglePause {};
+struct SetPlaying {
+    bool on = true;
+};
 struct Restart {};
 struct Seek {
     double seconds = 0;
@@ -68,9 +80,10 @@ struct SetLoop {
     std::optional<double> to{};
 };
 
-using Command = std::variant<TurnKnob, ResetKnob, ResetKnobs, CopyKnobs, WriteKnobs, OpenEditor, Define,
-                             Undefine, ShowPicture, KeepView, GoToView, ForgetView, TogglePause, Restart,
-                             Seek, GiveUpSeek, SetSpeed, SetLoop>;
+using Command =
+    std::variant<TurnKnob, ResetKnob, ResetKnobs, LearnController, ForgetController, CopyKnobs, WriteKnobs,
+                 OpenEditor, Define, Undefine, ShowPicture, KeepView, GoToView, ForgetView, TogglePause,
+                 SetPlaying, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
 using Commands = std::vector<Command>;
 
 } // namespace tidemark::live

@@ -3,11 +3,22 @@
 
 #include "scene/knob.hpp"
 
+#include <string>
+#include <vector>
+
 namespace tidemark::live {
+
+/// What a MIDI device has to do with one component of a knob.
+struct ControllerField {
+    std::string part;         ///< `height`, `tint.g`
+    std::string controller{}; ///< that turns it; empty: none
+    bool learning = false;    ///< the next one that moves will
+};
 
 struct KnobField {
     scene::Knob knob; ///< what the scene says of it
     scene::KnobValue value{};
+    std::vector<ControllerField> controllers{}; ///< one a component where there is a MIDI device
 
     bool is_turned() const { return value != knob.initial; }
 };

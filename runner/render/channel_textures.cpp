@@ -8,6 +8,7 @@
 #include "image/made/noise.hpp"
 #include "image/made/stand_in.hpp"
 #include "image/volume.hpp"
+#include "render/live_media.hpp"
 #include "sound/sound_file.hpp"
 #include "sound/spectrum.hpp"
 
@@ -53,6 +54,12 @@ void spread_grey(const gl::Texture& texture, int channels) {
 
 /// iChannelTime of the site's silent input at iTime 0, in seconds.
 constexpr double k_silence_starts = 10;
+
+/// Where an input has no sound of its own.
+sound::SignalBytes heard(const FrameInputs& inputs) {
+    return inputs.live && inputs.live->microphone ? *inputs.live->microphone
+                                                  : sound::silent_signal(inputs.time);
+}
 
 /// What `load` makes of an input.
 struct Loaded {
@@ -172,14 +179,16 @@ public:
         return Loaded{gl::make_texture({sound::k_signal_width, 2}, GL_R8, 1),
                       [spectrum, playback, upload = ByteUpload()](const gl::Texture& texture,
                                                                   const FrameInputs& inputs) mutable {
-                          const auto bytes = spectrum ? spectrum->at(playback.time_at(inputs.time))
-                                                      : sound::silent_signal(inputs.time);
+                          const auto bytes =
+                              spectrum ? spectrum->at(playback.time_at(inputs.time)) : heard(inputs);
                           return upload(texture, std::as_bytes(std::span(bytes)));
                       },
                       playback};
     }
 
     Result<Loaded> operator()(const scene::Video& video) const {
+        if (video.file.empty())
+            return webcam();
         auto opened = TRY(image::VideoFrames::open(video.file));
         TRY(check_size(opened.extent(), video.file));
         const auto frames = std::make_shared<image::VideoFrames>(std::move(opened));
@@ -209,6 +218,22 @@ private:
         return fail(ErrorCode::load,
                     fmt::format("'{}' is {}x{} pixels: this driver takes at most {} on a side", file.string(),
                                 extent.width, extent.height, limit));
+    }
+
+    /// A stand-in until there is something to see.
+    Loaded webcam() const {
+        Loaded loaded = flat(image::make_stand_in_camera());
+        loaded.update = [vflip = sampling_.vflip, shown = std::shared_ptr<const Image>()](
+                            const gl::Texture& texture, const FrameInputs& inputs) mutable {
+            if (!inputs.live || !inputs.live->webcam || inputs.live->webcam == shown)
+                return false;
+            shown = inputs.live->webcam;
+            gl::upload(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                       vflip ? shown->bytes : image::flipped(*shown).bytes);
+            gl::make_mipmaps(texture);
+            return true;
+        };
+        return loaded;
     }
 
     Loaded one_channel(Image image) const {

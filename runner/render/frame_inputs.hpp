@@ -10,10 +10,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
 namespace tidemark::render {
+
+struct LiveMedia;
 
 /// iDate: `month` counts from 0 as on ShaderToy; `seconds` since local midnight, with milliseconds.
 struct Date {
@@ -46,7 +49,8 @@ struct FrameInputs {
     glm::mat4 view{1};         ///< iViewMatrix: the same camera, from where it stood at first
     glm::vec2 mouse_button{0}; ///< iMouseButton: 1 while down; left, right
     KeyboardTexels keyboard{};
-    std::vector<scene::Setting> knobs{}; ///< set to something else than in the scene
+    std::vector<scene::Setting> knobs{};     ///< set to something else than in the scene
+    std::shared_ptr<const LiveMedia> live{}; ///< null: nobody asked for any
 };
 
 inline constexpr double k_sample_rate = 44100; ///< iSampleRate

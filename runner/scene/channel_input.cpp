@@ -3,8 +3,19 @@
 #include <utility>
 
 namespace tidemark::scene {
+namespace {
+
+constexpr std::string_view k_microphone = "microphone";
+constexpr std::string_view k_webcam = "webcam";
+
+} // namespace
 
 std::optional<ChannelInput> generated_input(std::string_view name) {
+    // Without a file they are what is heard and seen at the moment, where somebody asked for that.
+    if (name == k_microphone)
+        return Music{};
+    if (name == k_webcam)
+        return Video{};
     std::optional<ChannelInput> found;
     const auto offer = [&]<class Kind>(std::type_identity<Kind>) {
         if (k_traits<Kind>.by_name && k_traits<Kind>.name == name)

@@ -151,8 +151,18 @@ private:
                        [](const Keyboard&) -> Json {
                            return {{"id", 33}, {"src", "/presets/tex00.jpg"}, {"ctype", "keyboard"}};
                        },
+                       [&](const Music& music) { return live_or_file(music, 32, "mic", channel); },
+                       [&](const Video& video) { return live_or_file(video, 31, "webcam", channel); },
                        [&](const auto&) { return own_file(channel); }},
             channel.input);
+    }
+
+    /// Without a file it is what the site hears and sees at the moment.
+    template <class Played>
+    Json live_or_file(const Played& input, int id, std::string_view type, const Channel& channel) {
+        if (!input.file.empty())
+            return own_file(channel);
+        return {{"id", id}, {"src", fmt::format("/presets/{}.png", type)}, {"ctype", type}};
     }
 
     Json noise_of(const Noise& noise, const Channel& channel) {

@@ -181,8 +181,4 @@ Substitute substitute_for(MediaKind kind, const Media* media) {
     return {Music{}, "ShaderToy's signal for silence"};
 }
 
-Substitute substitute_for_webcam() {
-    return generated({StandIn::Kind::picture, 640, 480, 4});
-}
-
 } // namespace tidemark::scene

@@ -59,6 +59,5 @@ struct Substitute {
     std::string name; ///< "a generated picture of 512x512"; empty: it is as good as what it stands for
 };
 Substitute substitute_for(MediaKind kind, const Media* media);
-Substitute substitute_for_webcam();
 
 } // namespace tidemark::scene

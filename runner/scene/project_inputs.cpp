@@ -115,9 +115,8 @@ Result<ChannelInput> InputReader::input_of(const ProjectInput& input, Kind kind)
     case Kind::none: return Unbound{};
     case Kind::buffer: return output_of(input);
     case Kind::keyboard: return Keyboard{};
-    case Kind::microphone: return Music{};
-    case Kind::webcam:
-        return instead_of({0, "webcam", "webcam", "", "", "", ""}, nullptr, substitute_for_webcam());
+    case Kind::microphone: return live_input("microphone", {Music{}, "ShaderToy's signal for silence"});
+    case Kind::webcam: return live_input("webcam", {Video{}, "a generated picture of 640x480"});
     case Kind::cubemap:
         if (is_cube_id(input.id) || is_previz_cube(input.source) || parse_pass_name(input.source))
             return cube_output();
@@ -192,6 +191,16 @@ Result<std::vector<fs::path>> InputReader::files_of(const ProjectInput& input, M
 }
 
 /// Warns once of what is not here.
+/// Only a window that is asked to hears and sees.
+ChannelInput InputReader::live_input(const std::string& name, Substitute instead) {
+    if (warned_.insert(name).second)
+        warnings_.push_back(
+            {{context_.file},
+             Severity::warning,
+             fmt::format("'{0}' is live: {1} stands in for it without view --{0}", name, instead.name)});
+    return std::move(instead.input);
+}
+
 ChannelInput InputReader::instead_of(const ProjectInput& input, const Media* media, Substitute instead) {
     if (instead.name.empty() || !warned_.insert(input.source.empty() ? input.id : input.source).second)
         return std::move(instead.input);

@@ -44,6 +44,7 @@ private:
     ChannelInput cube_output() const;
     Result<ChannelInput> media_input(const ProjectInput& input, MediaKind kind);
     Result<std::vector<std::filesystem::path>> files_of(const ProjectInput& input, MediaKind kind) const;
+    ChannelInput live_input(const std::string& name, Substitute instead);
     ChannelInput instead_of(const ProjectInput& input, const Media* media, Substitute instead);
 
     Context context_;

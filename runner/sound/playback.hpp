@@ -11,6 +11,8 @@
 
 namespace tidemark::sound {
 
+struct AlsaDevice;
+
 /// 16-bit stereo, left and right in turn.
 class Playback {
 public:
@@ -28,10 +30,9 @@ public:
     void silence();
 
 private:
-    struct Device;
-    explicit Playback(std::unique_ptr<Device> device);
+    explicit Playback(std::unique_ptr<AlsaDevice> device);
 
-    std::unique_ptr<Device> device_;
+    std::unique_ptr<AlsaDevice> device_;
 };
 
 } // namespace tidemark::sound

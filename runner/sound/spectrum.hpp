@@ -1,19 +1,14 @@
 // What ShaderToy's music inputs hold: 512 bytes of spectrum and 512 bytes of wave, at a time.
 #pragma once
 
+#include "sound/analyser.hpp"
 #include "sound/sound_file.hpp"
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
 
 namespace tidemark::sound {
-
-inline constexpr int k_signal_width = 512;
-
-/// A texture of 512 x 2: row 0 (the first 512 bytes) is the spectrum, row 1 the wave.
-using SignalBytes = std::array<uint8_t, 2 * k_signal_width>;
 
 /// The site's own signal where there is no sound to hear, at `iTime` = `time`. (iChannelTime is then 10 +
 /// iTime.)
@@ -35,8 +30,7 @@ public:
     SignalBytes at(double time);
 
 private:
-    using Magnitudes = std::array<float, k_signal_width>;
-    Magnitudes magnitudes_at_step(int64_t step) const;
+    Block block_before(int64_t end) const;
     void step_to(int64_t step);
 
     double duration_ = 0.0;

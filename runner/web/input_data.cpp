@@ -164,6 +164,8 @@ public:
     }
 
     Result<Json> operator()(const scene::Video& video) const {
+        if (video.file.empty())
+            return flat(image::make_stand_in_camera());
         const auto file = TRY(read_file(video.file, k_largest_file));
         Json data = media_file("video", file);
         data["flip"] = vflip_;

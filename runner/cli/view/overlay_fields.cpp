@@ -46,6 +46,16 @@ std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
     return fields;
 }
 
+void add_controllers(std::vector<live::KnobField>& fields, const live::ControllerMap& map) {
+    for (live::KnobField& field : fields)
+        for (size_t i = 0; i < size_t(info(field.knob.type).components); ++i) {
+            const live::KnobPart part{field.knob.name, i};
+            const auto controller = map.controller_of(part);
+            field.controllers.push_back({to_string(part, field.knob),
+                                         controller ? to_string(*controller) : "", map.learning() == part});
+        }
+}
+
 std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request) {
     std::vector<scene::Setting> held;
     for (const std::string& text : request.defines)

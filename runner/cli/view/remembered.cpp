@@ -65,6 +65,24 @@ std::optional<platform::WindowPlace> place_of(const Json& json) {
     return platform::WindowPlace{numbers[0], numbers[1], {numbers[2], numbers[3]}};
 }
 
+Json to_json(const std::vector<live::Binding>& bindings) {
+    Json json = Json::array();
+    for (const live::Binding& binding : bindings)
+        json.push_back({{"channel", binding.controller.channel},
+                        {"controller", binding.controller.number},
+                        {"knob", binding.part.knob},
+                        {"component", binding.part.component}});
+    return json;
+}
+
+std::vector<live::Binding> bindings_of(const Json& json) {
+    std::vector<live::Binding> bindings;
+    for (const Json& each : json)
+        bindings.push_back({{each.at("channel").get<int>(), each.at("controller").get<int>()},
+                            {each.at("knob").get<std::string>(), each.at("component").get<size_t>()}});
+    return bindings;
+}
+
 /// Nothing where it is another's.
 std::optional<Remembered> parse(const std::string& text, const fs::path& scene) {
     try {
@@ -75,8 +93,9 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
         state.moment = moment_of(json.at("moment"));
         state.place = place_of(json.at("window"));
         state.scale = render::RenderScale::named(json.value("scale", "")); // files before it had none
-        state.controls = json.at("controls").get<bool>();
+        state.controls_open = json.at("controls").get<bool>();
         state.views = moments_of(json.at("views"));
+        state.controllers = bindings_of(json.value("controllers", Json::array()));
         return state;
     } catch (const Json::exception&) {
         return std::nullopt;
@@ -92,8 +111,9 @@ std::string text_of(const fs::path& scene, const Remembered& state) {
                      {"moment", state.moment ? to_json(*state.moment) : Json()},
                      {"window", state.place ? to_json(*state.place) : Json::array()},
                      {"scale", state.scale ? Json(state.scale->name()) : Json("")},
-                     {"controls", state.controls},
-                     {"views", std::move(views)}},
+                     {"controls", state.controls_open},
+                     {"views", std::move(views)},
+                     {"controllers", to_json(state.controllers)}},
                 2) +
            "\n";
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/moment.hpp"
+#include "live/inputs/controller_map.hpp"
 #include "platform/window.hpp"
 #include "render/render_scale.hpp"
 
@@ -16,8 +17,9 @@ struct Remembered {
     std::optional<Moment> moment{}; ///< on show at last: its knobs, camera and time count
     std::optional<platform::WindowPlace> place{};
     std::optional<render::RenderScale> scale{};
-    bool controls = false; ///< open
+    bool controls_open = false;
     std::vector<Moment> views{};
+    std::vector<live::Binding> controllers{}; ///< of a MIDI device
 };
 
 /// Nothing where there is none, which is not said, or where it cannot be used, which is.

@@ -24,6 +24,7 @@ struct ViewOptions : ViewerOptions {
     bool plain = false;
     bool fresh = false;
     WindowOptions window;
+    LiveInputRequest inputs;
 };
 
 /// How the last window was left, less what is typed now.
@@ -46,10 +47,18 @@ render::RenderScale first_scale(const ViewOptions& options, const std::optional<
     return left && left->scale ? *left->scale : render::RenderScale();
 }
 
+/// What was learned counts for somebody who records, or starts anew, too.
+std::optional<Remembered> controllers_before(const ViewOptions& options) {
+    auto state = options.inputs.midi ? recall(options.scene.path) : std::nullopt;
+    if (!state)
+        return state;
+    return Remembered{.controllers = std::move(state->controllers)};
+}
+
 Result<int> view(const ViewOptions& options) {
     auto frames = TRY(resolve(options.frames));
     const bool remembers = !options.by_frames();
-    auto left = remembers && !options.fresh ? left_before(options, frames) : std::nullopt;
+    auto left = remembers && !options.fresh ? left_before(options, frames) : controllers_before(options);
     const Extent size = frames.state.extent;
     if (std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
@@ -61,6 +70,8 @@ Result<int> view(const ViewOptions& options) {
     settings.plain = options.plain;
     settings.remembers = remembers;
     settings.left = std::move(left);
+    if (options.inputs.any())
+        settings.inputs = options.inputs;
     if (settings.left)
         wishes.left_at = settings.left->place;
     std::optional<WindowScreen::Output> second;
@@ -87,6 +98,30 @@ void add_scale_options(CLI::App& command, ViewOptions& options) {
         ->excludes("--record", "--input");
 }
 
+void add_live_options(CLI::App& command, LiveInputRequest& inputs) {
+    command
+        .add_option(
+            "--osc", inputs.osc,
+            "Listens for OSC at that port of this machine, or at that address: /knob/NAME, /time, /play")
+        ->type_name("[HOST:]PORT")
+        ->excludes("--input");
+    command
+        .add_option("--midi", inputs.midi,
+                    "Listens to the controllers of a MIDI device: a part of its port's name, or its file")
+        ->type_name("PORT|FILE")
+        ->excludes("--input");
+    command
+        .add_option("--microphone", inputs.microphone,
+                    "What inputs without a sound file hear: a device of ALSA's, as in --microphone default")
+        ->type_name("DEVICE")
+        ->excludes("--input");
+    command
+        .add_option("--webcam", inputs.webcam,
+                    "What webcam inputs see: a device, as in --webcam /dev/video0, or a video")
+        ->type_name("DEVICE|FILE")
+        ->excludes("--input");
+}
+
 } // namespace
 
 void add_view(CLI::App& app, Action& chosen) {
@@ -99,6 +134,7 @@ void add_view(CLI::App& app, Action& chosen) {
     command->add_flag("--plain", options->plain,
                       "Stays with the scene's text as it is when nobody touches it for a while");
     command->add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");
+    add_live_options(*command, options->inputs);
     command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 

@@ -75,7 +75,9 @@ Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
     auto live = LiveScene::create(settings.scene, std::move(first), view, [&on = **screen] { on.wake(); });
     if (!live)
         return fail(std::move(live.error()));
-    return Viewer(std::move(settings), *std::move(screen), *std::move(live));
+    Viewer viewer(std::move(settings), *std::move(screen), *std::move(live));
+    TRY(viewer.open_inputs());
+    return viewer;
 }
 
 Result<int> Viewer::run(const Interrupt& interrupt) {
@@ -89,6 +91,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         listen();
         const double now = now_seconds();
         TRY(follow_scene(now));
+        take_inputs();
         settle_after_rest(now);
         take_origin();
         step_there();
@@ -192,7 +195,7 @@ void Viewer::draw(double now) {
         controls_.fill(shown_);
     const size_t drawn_before = renderer.passes_drawn();
     drew_ = true;
-    renderer.draw(inputs_of(shown_), timers);
+    renderer.draw(heard_inputs(), timers);
     const bool drawn = renderer.passes_drawn() != drawn_before;
     if (drawn || stale || stale_overlay_ || screen_->wants_frame())
         present(drawn);
@@ -330,7 +333,7 @@ void Viewer::forget_what_follows() {
 
 LiveScene::View Viewer::view() const {
     return {[this] { return screen_->create_context(); }, options_for(drawn_extent(), settings_),
-            inputs_of(shown_), settings_.rehearsal};
+            inputs_on_show(), settings_.rehearsal};
 }
 
 Result<void> Viewer::follow_scene(double now) {

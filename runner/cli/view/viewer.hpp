@@ -11,6 +11,7 @@
 #include "cli/requests.hpp"
 #include "cli/view/error_board.hpp"
 #include "cli/view/finite_watch.hpp"
+#include "cli/view/live_inputs.hpp"
 #include "cli/view/live_scene.hpp"
 #include "cli/view/magnifier.hpp"
 #include "cli/view/origin_search.hpp"
@@ -41,14 +42,15 @@ public:
         FrameSequence frames;                  ///< size, fps, camera, pass
         std::optional<render::Date> date = {}; ///< instead of the clock on the wall
         OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
-        render::RenderScale scale = {};            ///< at first
-        std::optional<double> adaptive = {};       ///< the rate that it holds; none: it stays
-        bool plain = false;                        ///< never settles
-        bool remembers = false;                    ///< leaves its state for the next window
-        bool controls = false;                     ///< open from the start
-        bool sounds = true;                        ///< its Sound pass is to be heard here
-        std::optional<Remembered> left = {};       ///< by the last one
-        std::shared_ptr<Rehearsal> rehearsal = {}; ///< tries out what may be too much for the driver
+        render::RenderScale scale = {};              ///< at first
+        std::optional<double> adaptive = {};         ///< the rate that it holds; none: it stays
+        bool plain = false;                          ///< never settles
+        bool remembers = false;                      ///< leaves its state for the next window
+        bool controls = false;                       ///< open from the start
+        bool sounds = true;                          ///< its Sound pass is to be heard here
+        std::optional<Remembered> left = {};         ///< by the last one
+        std::optional<LiveInputRequest> inputs = {}; ///< excludes frames.input
+        std::shared_ptr<Rehearsal> rehearsal = {};   ///< tries out what may be too much for the driver
     };
 
     /// Opens the screen and begins to compile. Fails where options are wrong, and as `open_screen` does.
@@ -153,6 +155,16 @@ private:
     bool overlay_due() const;
     scene::Scene turned_scene() const;
 
+    // Live inputs: viewer_inputs.cpp
+    Result<void> open_inputs();
+    void take_inputs();
+    render::FrameInputs heard_inputs();
+    render::FrameInputs inputs_on_show() const;
+    std::vector<scene::Knob> turned_knobs() const;
+    void carry_out(const live::SetPlaying& command);
+    void carry_out(const live::LearnController& command);
+    void carry_out(const live::ForgetController& command);
+
     // Looking into the picture: viewer_looking.cpp
     void toggle_magnifier();
     void toggle_marks();
@@ -189,6 +201,8 @@ private:
     Settings settings_;
     std::unique_ptr<Screen> screen_; ///< owns the first context: first in, last out
     LiveScene scene_;
+    std::unique_ptr<LiveInputs> inputs_; ///< none: nobody asked for any
+    live::ControllerMap controllers_;    ///< of this scene, with or without a MIDI device
     std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;

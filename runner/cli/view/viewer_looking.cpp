@@ -28,7 +28,7 @@ render::ShownFloats& Viewer::floats() {
 std::optional<live::MagnifierField> Viewer::magnifier_field() {
     if (!magnifier_.is_open() || !stage_ || stepping_ || frozen_)
         return std::nullopt;
-    return magnifier_.field(stage_->renderer(), inputs_of(shown_), screen_->extent(), floats());
+    return magnifier_.field(stage_->renderer(), inputs_on_show(), screen_->extent(), floats());
 }
 
 /// What the marks are drawn from, while there are any.
@@ -46,7 +46,7 @@ const gl::Texture* Viewer::marked_picture() {
         marks_.emplace(*std::move(made));
     }
     const render::Renderer& renderer = stage_->renderer();
-    return &floats().draw(renderer, inputs_of(shown_), {0, 0, renderer.target().extent()});
+    return &floats().draw(renderer, inputs_on_show(), {0, 0, renderer.target().extent()});
 }
 
 /// They live in the stage's context.

@@ -106,7 +106,8 @@ void Viewer::carry_out(const live::ForgetView& command) {
 /// As the last window of the scene was left.
 void Viewer::take_up(const Remembered& left) {
     views_ = left.views;
-    controls_open_ = left.controls;
+    controls_open_ = left.controls_open;
+    controllers_ = live::ControllerMap(left.controllers);
     if (!left.moment)
         return;
     render::FrameState state = left.moment->sequence.state;
@@ -119,7 +120,8 @@ void Viewer::take_up(const Remembered& left) {
 /// For the next window of the scene.
 void Viewer::leave() const {
     if (settings_.remembers && stage_)
-        remember(settings_.scene.path, {moment(), screen_->place(), scale_, controls_open_, views_});
+        remember(settings_.scene.path,
+                 {moment(), screen_->place(), scale_, controls_open_, views_, controllers_.bindings()});
 }
 
 } // namespace tidemark::cli

@@ -56,6 +56,8 @@ live::Model Viewer::overlay_model() {
     if (model.controls) {
         const render::Renderer& renderer = stage_->renderer();
         model.knobs = knob_fields(renderer.scene(), shown_.knobs);
+        if (inputs_ && inputs_->has_midi())
+            add_controllers(model.knobs, controllers_);
         model.definitions = *defined_;
         model.pictures = picture_fields(renderer, costs_);
         if (large_ && *large_ < model.pictures.size())
@@ -137,7 +139,8 @@ void Viewer::carry_out(const live::Undefine& command) {
 
 /// A program that has the values of knobs in it would be wrong soon.
 bool Viewer::knobs_may_turn() const {
-    return controls_open_ || (replay_ && turns_knobs(replay_->script()));
+    return controls_open_ || (inputs_ && settings_.inputs->turns_knobs()) ||
+           (replay_ && turns_knobs(replay_->script()));
 }
 
 /// The scene on show, with its knobs as they are.

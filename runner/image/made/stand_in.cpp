@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "image/cube_directions.hpp"
+#include "image/files/camera.hpp"
 
 #include <algorithm>
 #include <array>
@@ -135,6 +136,10 @@ Image make_stand_in_picture(std::string_view name, Extent size, int channels) {
                 &image.u8()[pixel * size_t(channels)]);
         }
     return image;
+}
+
+Image make_stand_in_camera() {
+    return make_stand_in_picture("640x480x4", k_camera_extent, 4);
 }
 
 CubeFaces make_stand_in_cube(std::string_view name, int side, int channels) {

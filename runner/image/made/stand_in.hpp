@@ -13,6 +13,9 @@ namespace tidemark::image {
 /// u8 samples, 1 to 4 channels (of 2 and 4 the last is alpha, 255). Pictures and volumes tile without a seam.
 Image make_stand_in_picture(std::string_view name, Extent size, int channels);
 
+/// In the place of what a camera shows.
+Image make_stand_in_camera();
+
 /// Without a seam between the faces.
 CubeFaces make_stand_in_cube(std::string_view name, int side, int channels);
 

@@ -76,12 +76,36 @@ bool draw_widget(KnobField& field) {
     }
 }
 
+/// What a click of the right button on the name opens.
+void draw_controllers(const KnobField& field, Commands& commands) {
+    if (field.controllers.empty() || !ImGui::BeginPopupContextItem("controllers"))
+        return;
+    for (size_t i = 0; i < field.controllers.size(); ++i) {
+        const ControllerField& part = field.controllers[i];
+        if (ImGui::MenuItem((part.part + ": move a controller").c_str(), nullptr, part.learning))
+            commands.emplace_back(LearnController{field.knob.name, i});
+        if (!part.controller.empty() && ImGui::MenuItem((part.part + ": forget " + part.controller).c_str()))
+            commands.emplace_back(ForgetController{field.knob.name, i});
+    }
+    ImGui::EndPopup();
+}
+
+/// Bright while a controller is learned for it.
+void draw_name(const KnobField& field) {
+    const ImVec4 bright{1, 0.8F, 0.2F, 1};
+    if (std::ranges::any_of(field.controllers, &ControllerField::learning))
+        ImGui::TextColored(bright, "%s", field.knob.name.c_str());
+    else
+        ImGui::TextUnformatted(field.knob.name.c_str());
+}
+
 void draw_row(KnobField& field, Commands& commands) {
     ImGui::PushID(field.knob.name.c_str());
     if (draw_widget(field))
         commands.emplace_back(TurnKnob{field.knob.name, field.value});
     ImGui::SameLine();
-    ImGui::TextUnformatted(field.knob.name.c_str());
+    draw_name(field);
+    draw_controllers(field, commands);
     if (field.is_turned()) {
         ImGui::SameLine();
         if (ImGui::SmallButton("reset")) {

@@ -21,6 +21,8 @@ TEST(ChannelInput, each_kind_has_a_name_of_its_own) {
 TEST(ChannelInput, some_are_asked_for_by_name) {
     EXPECT_EQ(generated_input("noise"), ChannelInput(Noise{}));
     EXPECT_EQ(generated_input("keyboard"), ChannelInput(Keyboard{}));
+    EXPECT_EQ(generated_input("microphone"), ChannelInput(Music{}));
+    EXPECT_EQ(generated_input("webcam"), ChannelInput(Video{}));
     EXPECT_EQ(generated_input("none"), std::nullopt) << "for --channel alone";
     EXPECT_EQ(generated_input("noise.png"), std::nullopt);
 }

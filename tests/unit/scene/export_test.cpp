@@ -153,6 +153,19 @@ TEST_F(Export, a_project_that_we_made_is_the_same_scene) {
     EXPECT_EQ(input(again, 1, 2), ChannelInput(Keyboard{}));
 }
 
+TEST_F(Export, live_inputs_stay_live) {
+    save("a.glsl",
+         "#iChannel0 \"microphone\"\n#iChannel1 \"webcam\"\n" + k_main_image + "// iChannel0 iChannel1\n");
+    const Json project = made_of("a.glsl");
+    EXPECT_THAT(warnings_, IsEmpty());
+    EXPECT_EQ(project["Shader"]["renderpass"][0]["inputs"][0]["ctype"], "mic");
+    EXPECT_EQ(project["Shader"]["renderpass"][0]["inputs"][1]["ctype"], "webcam");
+    save("x.json", project.dump());
+    const Scene again = load("x.json");
+    EXPECT_EQ(input(again, 0, 0), ChannelInput(Music{}));
+    EXPECT_EQ(input(again, 0, 1), ChannelInput(Video{}));
+}
+
 TEST_F(Export, more_buffers_than_shadertoy_has) {
     std::string image = k_main_image;
     for (int i = 0; i < 4; ++i)

@@ -258,12 +258,13 @@ TEST_F(Json, every_missing_file_is_one_warning) {
     ASSERT_TRUE(scene) << to_string(scene.error());
     EXPECT_THAT(
         warnings_of(*scene),
-        ElementsAre("x.json: warning: '/media/a/1f7dca9c22.jpg' (Wood) is not here: a generated picture of "
-                    "1024x1024 stands in for it (--media DIR says where such files are)",
-                    "x.json: warning: 'https://a.example/b' is not here: ShaderToy's signal for silence "
-                    "stands in for it (--media DIR says where such files are)",
-                    "x.json: warning: 'webcam' is not here: a generated picture of 640x480 stands in for it "
-                    "(--media DIR says where such files are)"));
+        ElementsAre(
+            "x.json: warning: '/media/a/1f7dca9c22.jpg' (Wood) is not here: a generated picture of "
+            "1024x1024 stands in for it (--media DIR says where such files are)",
+            "x.json: warning: 'https://a.example/b' is not here: ShaderToy's signal for silence "
+            "stands in for it (--media DIR says where such files are)",
+            "x.json: warning: 'webcam' is live: a generated picture of 640x480 stands in for it without "
+            "view --webcam"));
     EXPECT_EQ(scene->image().channels[2].input, ChannelInput(Music{}));
 }
 

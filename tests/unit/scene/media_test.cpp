@@ -47,7 +47,6 @@ TEST(Media, what_is_as_good_as_the_missing_has_no_name_to_warn_with) {
     EXPECT_EQ(substitute_for(MediaKind::picture, find_media("tex15.png")).name, "");
     EXPECT_EQ(substitute_for(MediaKind::volume, nullptr).name, "a generated volume of 32x32");
     EXPECT_EQ(substitute_for(MediaKind::music, nullptr).name, "ShaderToy's signal for silence");
-    EXPECT_EQ(substitute_for_webcam().name, "a generated picture of 640x480");
 }
 
 using MediaFiles = SceneFolder;

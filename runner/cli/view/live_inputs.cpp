@@ -1,0 +1,124 @@
+#include "cli/view/live_inputs.hpp"
+
+#include "base/try.hpp"
+#include "cli/console.hpp"
+#include "live/inputs/midi_device.hpp"
+#include "live/inputs/osc_command.hpp"
+#include "live/inputs/osc_socket.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+
+namespace tidemark::cli {
+namespace {
+
+/// What follows in the same call sees it so.
+void note(const live::Command& command, std::vector<scene::Knob>& knobs) {
+    const auto* turned = std::get_if<live::TurnKnob>(&command);
+    if (!turned)
+        return;
+    const auto knob = std::ranges::find(knobs, turned->name, &scene::Knob::name);
+    if (knob != knobs.end())
+        knob->value = turned->value;
+}
+
+} // namespace
+
+LiveInputs::LiveInputs(const std::function<void()>& wake) : osc_(wake), midi_(wake) {}
+
+Result<std::unique_ptr<LiveInputs>> LiveInputs::open(const LiveInputRequest& request,
+                                                     const std::function<void()>& wake) {
+    std::unique_ptr<LiveInputs> inputs(new LiveInputs(wake));
+    if (request.osc)
+        TRY(inputs->open_osc(*request.osc));
+    if (request.midi)
+        TRY(inputs->open_midi(*request.midi));
+    if (request.microphone)
+        inputs->microphone_ = TRY(sound::Microphone::open(*request.microphone));
+    if (request.webcam)
+        inputs->webcam_ = TRY(image::Camera::open(*request.webcam));
+    return inputs;
+}
+
+Result<void> LiveInputs::open_osc(const std::string& where) {
+    const auto socket = TRY(live::parse_osc_address(where).and_then(live::open_osc_socket));
+    osc_receiver_ = std::make_unique<live::Receiver>(socket.descriptor, osc_);
+    say(fmt::format("OSC: listening at {}", socket.address));
+    return {};
+}
+
+/// A name with a slash in it is a file's.
+Result<void> LiveInputs::open_midi(const std::string& what) {
+    if (what.find('/') == what.npos)
+        midi_port_ = TRY(live::MidiPort::open(what, midi_));
+    else
+        midi_receiver_ = std::make_unique<live::Receiver>(TRY(live::open_midi_device(what)), midi_);
+    return {};
+}
+
+void LiveInputs::hear() {
+    render::LiveMedia media;
+    if (microphone_)
+        media.microphone = microphone_->hear();
+    if (webcam_)
+        media.webcam = webcam_->newest();
+    media_ = std::make_shared<render::LiveMedia>(std::move(media));
+}
+
+void say_what_is_not_recorded(const LiveInputRequest& request) {
+    if (request.microphone)
+        say("the recording has nothing of what the microphone hears: a replay has the signal of a silent "
+            "input");
+    if (request.webcam)
+        say("the recording has nothing of what the webcam sees: a replay has a stand-in");
+}
+
+live::Commands LiveInputs::take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers) {
+    live::Commands commands;
+    take_osc(commands, knobs);
+    take_midi(commands, knobs, controllers);
+    return commands;
+}
+
+void LiveInputs::take_osc(live::Commands& commands, std::vector<scene::Knob>& knobs) {
+    for (const std::string& packet : osc_.take()) {
+        const auto messages = live::parse_osc(packet);
+        if (!messages) {
+            words_.say("OSC: ignored: " + messages.error().message);
+            continue;
+        }
+        for (const live::OscMessage& message : *messages) {
+            auto command = osc_command(message, knobs);
+            if (!command) {
+                words_.say(command.error().message);
+                continue;
+            }
+            note(*command, knobs);
+            commands.push_back(*std::move(command));
+        }
+    }
+}
+
+void LiveInputs::take_midi(live::Commands& commands, std::vector<scene::Knob>& knobs,
+                           live::ControllerMap& controllers) {
+    for (const std::string& bytes : midi_.take())
+        for (const live::ControlChange& change : midi_parser_.parse(bytes)) {
+            const bool learned = controllers.learning().has_value();
+            auto turned = controllers.turn(change, knobs);
+            if (!turned) {
+                words_.say(
+                    fmt::format("MIDI: {} turns nothing: click with the right button on a knob's name in the "
+                                "controls (Tab), and move it",
+                                to_string(change.controller)));
+                continue;
+            }
+            if (learned)
+                say(fmt::format("MIDI: {} turns {}", to_string(change.controller), turned->name));
+            note(*turned, knobs);
+            commands.emplace_back(*std::move(turned));
+        }
+}
+
+} // namespace tidemark::cli

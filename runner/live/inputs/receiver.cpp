@@ -1,0 +1,49 @@
+#include "live/inputs/receiver.hpp"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+
+namespace tidemark::live {
+namespace {
+
+/// UDP has no longer packets.
+constexpr size_t k_longest_packet = 1 << 16;
+
+/// One of UDP may be empty, which is no end as it is of a file.
+bool is_socket(int descriptor) {
+    struct stat status {};
+    return ::fstat(descriptor, &status) == 0 && S_ISSOCK(status.st_mode);
+}
+
+} // namespace
+
+Receiver::Receiver(int from, Inbox& into)
+    : from_(from), stop_(::eventfd(0, EFD_CLOEXEC)), thread_([this, &into] { receive(into); }) {}
+
+Receiver::~Receiver() {
+    (void)::eventfd_write(stop_.get(), 1);
+    thread_.join();
+}
+
+void Receiver::receive(Inbox& into) const {
+    std::string bytes(k_longest_packet, '\0');
+    std::array<pollfd, 2> waited{{{from_.get(), POLLIN, 0}, {stop_.get(), POLLIN, 0}}};
+    while (true) {
+        if (::poll(waited.data(), waited.size(), -1) < 0 && errno != EINTR)
+            return;
+        if (waited[1].revents != 0)
+            return;
+        const ssize_t size = ::read(from_.get(), bytes.data(), bytes.size());
+        if (size > 0)
+            into.put({bytes.data(), size_t(size)});
+        else if (size < 0 ? errno != EAGAIN && errno != EINTR : !is_socket(from_.get()))
+            return;
+    }
+}
+
+} // namespace tidemark::live
