@@ -1,7 +1,7 @@
 #include "image/files/camera.hpp"
 
+#include "base/child_process.hpp"
 #include "base/try.hpp"
-#include "image/files/child_process.hpp"
 #include "image/files/video_times.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +103,8 @@ Camera& Camera::operator=(Camera&&) noexcept = default;
 Camera::~Camera() = default;
 
 Result<Camera> Camera::open(const std::filesystem::path& path) {
-    auto feed = std::make_unique<Feed>(TRY(ChildProcess::start(camera_arguments(path))));
+    auto feed = std::make_unique<Feed>(
+        TRY(ChildProcess::start(camera_arguments(path), ChildProcess::Input::none, k_get_ffmpeg)));
     if (!feed->take_picture())
         return refuse(path, feed->complaint().empty() ? "ffmpeg gives no picture" : feed->complaint());
     feed->start();
