@@ -101,6 +101,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         take_origin();
         step_there();
         go_round(now);
+        rest_unwatched(now);
         if (wants_frame(now))
             draw(now);
         look_for_numbers(now_seconds());
