@@ -1,6 +1,5 @@
 #include "serve/audience.hpp"
 
-#include "base/overloaded.hpp"
 #include "base/try.hpp"
 
 #include <fmt/format.h>
@@ -13,10 +12,6 @@ namespace {
 SharedMessage steering_text(bool you, size_t viewers) {
     return std::make_shared<Message>(
         Message{fmt::format(R"({{"steering":{{"you":{},"viewers":{}}}}})", you, viewers)});
-}
-
-tl::unexpected<Error> too_much() {
-    return fail(ErrorCode::usage, "too many messages at a time");
 }
 
 } // namespace
@@ -37,27 +32,12 @@ bool Audience::came(ViewerId viewer) {
 }
 
 Result<void> Audience::said(ViewerId viewer, std::string_view message) {
-    Request request = TRY(parse_request(message));
+    const Request request = TRY(parse_request(message));
     const std::lock_guard lock(mutex_);
-    if (const auto* seen = std::get_if<PictureSeen>(&request)) {
-        handle(viewer, *seen);
-        return {};
-    }
-    if (std::holds_alternative<SteeringWanted>(request)) {
-        steer(viewer);
-        return {};
-    }
-    if (viewer != steering_)
-        return {}; // they watch
-    return std::visit(Overloaded{
-                          [&](const platform::InputEvent& event) { return handle(event); },
-                          [&](live::Command& command) { return handle(std::move(command)); },
-                          [&](const auto&) {
-                              let_go();
-                              return Result<void>();
-                          },
-                      },
-                      request);
+    if (viewer == steering_ && inbox_.is_full())
+        return fail(ErrorCode::usage, "too many messages at a time");
+    std::visit([&](const auto& wanted) { handle(viewer, wanted); }, request);
+    return {};
 }
 
 void Audience::left(ViewerId viewer) {
@@ -78,13 +58,22 @@ void Audience::handle(ViewerId viewer, const PictureSeen& seen) {
     inbox_.wake();
 }
 
-Result<void> Audience::handle(const platform::InputEvent& event) {
+/// Those who do not steer watch.
+void Audience::handle(ViewerId viewer, const platform::InputEvent& event) {
+    if (viewer != steering_)
+        return;
     hands_.follow(event);
-    return inbox_.add(event) ? Result<void>() : too_much();
+    inbox_.add(event);
 }
 
-Result<void> Audience::handle(live::Command command) {
-    return inbox_.add(std::move(command)) ? Result<void>() : too_much();
+void Audience::handle(ViewerId viewer, const live::Command& command) {
+    if (viewer == steering_)
+        inbox_.add(command);
+}
+
+void Audience::handle(ViewerId viewer, LetGo) {
+    if (viewer == steering_)
+        let_go();
 }
 
 void Audience::send_newest(ViewerId id, Viewer& viewer) {

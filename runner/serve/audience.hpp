@@ -57,8 +57,10 @@ private:
     };
 
     void handle(ViewerId viewer, const PictureSeen& seen);
-    Result<void> handle(const platform::InputEvent& event);
-    Result<void> handle(live::Command command);
+    void handle(ViewerId viewer, SteeringWanted) { steer(viewer); }
+    void handle(ViewerId viewer, const platform::InputEvent& event);
+    void handle(ViewerId viewer, const live::Command& command);
+    void handle(ViewerId viewer, LetGo);
     void send_newest(ViewerId id, Viewer& viewer);
     void steer(ViewerId viewer);
     void let_go();

@@ -13,31 +13,26 @@ constexpr double k_as_good_as_forever = 1e6;
 } // namespace
 
 bool Inbox::is_full() const {
+    const std::lock_guard lock(mutex_);
     return content_.events.size() + content_.commands.size() >= k_most_waiting;
 }
 
-bool Inbox::add(const platform::InputEvent& event) {
-    const std::lock_guard lock(mutex_);
-    auto& events = content_.events;
+void Inbox::add(const platform::InputEvent& event) {
     const auto moves = [](const platform::InputEvent& other) {
         return std::holds_alternative<platform::PointerMoved>(other);
     };
+    const std::lock_guard lock(mutex_);
+    auto& events = content_.events;
     if (!events.empty() && moves(events.back()) && moves(event))
         events.pop_back();
-    else if (is_full())
-        return false;
     events.push_back(event);
     changed_.notify_one();
-    return true;
 }
 
-bool Inbox::add(live::Command command) {
+void Inbox::add(live::Command command) {
     const std::lock_guard lock(mutex_);
-    if (is_full())
-        return false;
     content_.commands.push_back(std::move(command));
     changed_.notify_one();
-    return true;
 }
 
 Inbox::Content Inbox::wait(double seconds) {

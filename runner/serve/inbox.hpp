@@ -17,10 +17,11 @@ public:
         live::Commands commands;
     };
 
-    /// False, and nothing is added, when there is more than anybody's hands could do. A pointer that moves on
-    /// replaces where it was.
-    bool add(const platform::InputEvent& event);
-    bool add(live::Command command);
+    /// A pointer that moves on replaces where it was.
+    void add(const platform::InputEvent& event);
+    void add(live::Command command);
+    /// There is more than anybody's hands could do.
+    bool is_full() const;
 
     /// What came since the last call: sleeps until there is something, `wake` was called or the seconds,
     /// which may be infinite, have passed.
@@ -28,9 +29,7 @@ public:
     void wake();
 
 private:
-    bool is_full() const;
-
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
     Content content_;
     bool woken_ = false;

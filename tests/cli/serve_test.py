@@ -2,6 +2,7 @@
 import os
 import signal
 import socket
+import time
 
 from support import png
 from support.program import ProgramTest, environment, main
@@ -86,6 +87,16 @@ class Pictures(Serve):
         slow.send("seen", number=first[-1])
         newest = slow.picture()[0]["number"]
         self.assertGreaterEqual(newest, later[-1], "one that was slow gets the newest")
+
+    def test_that_nobody_waited_for_are_no_time_step(self):
+        viewer = self.viewer(self.serve("a.glsl", text="void mainImage(out vec4 c, in vec2 p) { c = vec4(iTimeDelta / 8.0); }\n"))
+        head, _ = viewer.picture(seen=False)
+        while viewer.picture(seen=False)[0]["number"] < head["number"] + 1:
+            pass
+        time.sleep(8)
+        viewer.send("seen", number=head["number"] + 1)
+        brightest = max(max(self.pixels(viewer.picture()[1])[0]) for _ in range(3))
+        self.assertLess(brightest, 200, "iTimeDelta of 8 s is white")
 
     def test_of_another_pass(self):
         self.write("a/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p)'

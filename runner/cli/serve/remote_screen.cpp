@@ -39,9 +39,11 @@ RemoteScreen::RemoteScreen(Settings settings, platform::HeadlessContext context)
                  .once = settings_.once},
                 inbox_) {}
 
+/// The threads first: they send by way of what goes then.
 RemoteScreen::~RemoteScreen() {
-    encoder_.reset(); // which sends
-    server_.reset();
+    if (server_)
+        server_->stop();
+    encoder_.reset();
 }
 
 Result<std::unique_ptr<RemoteScreen>> RemoteScreen::open(Settings settings) {

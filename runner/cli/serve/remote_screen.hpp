@@ -59,7 +59,7 @@ private:
     platform::HeadlessContext context_;
     serve::Inbox inbox_;
     serve::Audience audience_;
-    std::unique_ptr<serve::Server> server_; ///< before those whom it tells of viewers
+    std::unique_ptr<serve::Server> server_;
     std::unique_ptr<serve::PictureEncoder> encoder_;
     live::Commands commands_;
     const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`

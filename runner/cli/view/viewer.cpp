@@ -7,6 +7,7 @@
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
+#include "gl/blit.hpp"
 #include "image/files/picture_file.hpp"
 
 #include <fmt/format.h>
@@ -96,6 +97,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         take_origin();
         step_there();
         go_round(now);
+        rest_unwatched(now);
         if (wants_frame(now))
             draw(now);
         look_for_numbers(now_seconds());

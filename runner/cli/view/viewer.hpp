@@ -149,6 +149,7 @@ private:
     live::TimeField time_field() const;
     void seek(double seconds, double now);
     void step_there();
+    void rest_unwatched(double now);
     void go_round(double now);
     bool has_feedback() const { return stage_ && stage_->renderer().plan().feedback; }
     bool knobs_may_turn() const;
@@ -224,6 +225,7 @@ private:
     bool slow_ = false;        ///< the frame that was drawn last held the window
     double given_up_at_ = 0;
     bool given_up_ = false; ///< frames take too long: none until somebody asks for one, or saves
+    std::optional<double> unwatched_since_;
     double touched_at_ = 0; ///< when somebody last changed what is drawn, or its size
     WindowKeys keys_;
     ErrorBoard errors_;

@@ -2,6 +2,7 @@
 #include "cli/view/viewer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tidemark::cli {
 
@@ -58,6 +59,18 @@ void Viewer::step_there() {
     }
     stale_ = !stepping_;
     stale_overlay_ = true;
+}
+
+/// While nobody looks for long no frame is drawn, which is no frame's iTimeDelta.
+void Viewer::rest_unwatched(double now) {
+    constexpr double k_long_seconds = 1;
+    if (!screen_->is_watched()) {
+        unwatched_since_ = unwatched_since_.value_or(now);
+        return;
+    }
+    if (const auto since = std::exchange(unwatched_since_, std::nullopt);
+        since && now - *since > k_long_seconds)
+        clock_.rest();
 }
 
 void Viewer::carry_out(const live::GiveUpSeek&) {

@@ -43,13 +43,15 @@ struct ServerSettings {
     std::string page; ///< HTML
 };
 
-/// Listens as long as it lives.
+/// Listens as long as it lives, or until it is told to stop.
 class Server {
 public:
     virtual ~Server() = default;
 
     /// Lets viewers in, once; `guests` must live longer.
     virtual void start(Guests& guests) = 0;
+    /// Ends all connections; nobody is told of anything from here on.
+    virtual void stop() = 0;
     /// From any thread. A viewer that does not read what it is sent is dropped.
     virtual void send(ViewerId viewer, SharedMessage message) = 0;
 

@@ -33,14 +33,7 @@ public:
     explicit WebServer(ServerSettings settings) : settings_(std::move(settings)), acceptor_(context_) {}
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
-    ~WebServer() override {
-        context_.stop();
-        if (thread_.joinable())
-            thread_.join();
-        for (const auto& [id, known] : connections_)
-            if (const auto connection = known.lock())
-                connection->part();
-    }
+    ~WebServer() override { end(); }
 
     ErrorWord open() {
         ErrorWord error;
@@ -60,6 +53,8 @@ public:
         accept();
         thread_ = std::thread([this] { run(); });
     }
+
+    void stop() override { end(); }
 
     void send(ViewerId viewer, SharedMessage message) override {
         asio::post(context_, [this, viewer, message = std::move(message)]() mutable {
@@ -83,6 +78,15 @@ public:
     Guests& guests() override { return *guests_; }
 
 private:
+    void end() {
+        context_.stop();
+        if (thread_.joinable())
+            thread_.join();
+        for (const auto& [id, known] : connections_)
+            if (const auto connection = known.lock())
+                connection->part();
+    }
+
     /// Boost throws where memory runs out: that is the end of what was at it, not of the others.
     void run() {
         while (!context_.stopped())

@@ -138,7 +138,7 @@ TEST_F(AudienceTest, a_flood_is_refused) {
     int count = 0;
     while ((taken = audience.said(1, R"({"do":"pause"})")) && count < 100000)
         ++count;
-    EXPECT_EQ(count, 4096);
+    EXPECT_EQ(count, 4096) << "and no more";
     EXPECT_EQ(taken.error().message, "too many messages at a time");
 }
 
