@@ -48,6 +48,8 @@
 #iUniform float pitch_range = 2.8 in { 0.0, 3.1 }
 #iUniform float focal_length = 1.1 in { 0.3, 5.0 }
 #iUniform float far_distance = 400.0 in { 10.0, 1000.0 }
+// 1: iMouse turns the view, as in the document, instead of the host's camera
+#iUniform int document_mouse = 0 in { 0, 1 }
 // water: its colours and smoothness; repeats of the two pictures a metre, their movement in repeats a second;
 // how much the noise tilts the surface
 #iUniform color3 main_color = color3(0.1, 0.3, 0.6)
@@ -80,6 +82,7 @@
 #include "lib/camera.glsl"
 #include "lib/fresnel.glsl"
 #include "lib/march.glsl"
+#include "lib/orbit.glsl"
 #include "lib/phase.glsl"
 #include "lib/seascape.glsl"
 #include "lib/sky.glsl"
@@ -161,16 +164,17 @@ vec2 march_clearance(float t) {
 
 // The ray through a pixel, and the distance of the water on it; -1: none.
 float look(vec2 frag_coord) {
-    mat3 axes = mouse_camera(mouse_turn(default_turn), vec2(yaw_range, pitch_range));
-    ray_origin = camera_position;
-    ray_direction = pixel_ray(axes, frag_coord, focal_length);
     make_waves();
+    float highest = dot(train_a, vec4(1.0));
+    View view = sea_view(document_mouse, camera_position, default_turn, vec2(yaw_range, pitch_range), focal_length,
+                         highest + 0.3);
+    ray_origin = view.position;
+    ray_direction = pixel_ray(view.axes, frag_coord, focal_length);
     float steepest = steepness / sqrt(1.0 - steepness * steepness);
     ray_slope = abs(ray_direction.y) + steepest * length(ray_direction.xz);
 
     // The noise: of a sine of some hundred radians.
     MarchRange range = MarchRange(0.0, far_distance, pixel_width(focal_length), 2e-5);
-    float highest = dot(train_a, vec4(1.0));
     return march(clip_to_slab(range, ray_origin, ray_direction, -highest, highest));
 }
 

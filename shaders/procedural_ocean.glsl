@@ -65,6 +65,8 @@
 #iUniform float yaw_range = 6.2832 in { 0.0, 12.5664 }
 #iUniform float pitch_range = 2.8 in { 0.0, 3.1 }
 #iUniform float focal_length = 1.2 in { 0.3, 5.0 }
+// 1: iMouse turns the view, as in the document, instead of the host's camera
+#iUniform int document_mouse = 0 in { 0, 1 }
 // sky: the sun's place (yaw and height in radians), colours, cover of the clouds; density of the fog a unit;
 // exponent of the encoded picture
 #iUniform vec2 sun_place = vec2(0.35, 0.42) in { -3.1416, 3.1416 }
@@ -78,6 +80,7 @@
 #include "lib/fresnel.glsl"
 #include "lib/march.glsl"
 #include "lib/noise.glsl"
+#include "lib/orbit.glsl"
 #include "lib/phase.glsl"
 #include "lib/seascape.glsl"
 #include "lib/sky.glsl"
@@ -172,9 +175,10 @@ vec2 march_clearance(float t) {
 
 // The ray through a pixel, and the distance of the water on it; -1: none.
 float look(vec2 frag_coord) {
-    mat3 axes = mouse_camera(mouse_turn(default_turn), vec2(yaw_range, pitch_range));
-    ray_origin = camera_position;
-    ray_direction = pixel_ray(axes, frag_coord, focal_length);
+    View view = sea_view(document_mouse, camera_position, default_turn, vec2(yaw_range, pitch_range), focal_length,
+                         highest() + 0.3);
+    ray_origin = view.position;
+    ray_direction = pixel_ray(view.axes, frag_coord, focal_length);
     make_sea();
     // The noise: of the ridges' sines some hundred units away.
     MarchRange range = MarchRange(0.0, far_distance, pixel_width(focal_length), 1e-5);

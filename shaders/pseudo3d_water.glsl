@@ -13,7 +13,9 @@
 // horizon stops short of 1 by `far_gap`. Both belong to the strip, not to the pixels: the sea has the same
 // look at every size, and no pixel a logarithm or a quotient that is not finite.
 //
-// The mouse moves the viewer sideways (0 at the left edge, `parallax` at the right).
+// The mouse moves the viewer sideways (0 at the left edge, `parallax` at the right). A strip cannot be turned: with
+// the host's camera the viewer walks on a circle, or to its middle and away, and goes on looking ahead; the horizon
+// goes up and down as the look does.
 //
 // Knobs that are compiled in:
 #define ROW_SAMPLES 2   // 1..8 looks down each pixel: rows crowd faster than columns, which a mipmap cannot say
@@ -29,6 +31,8 @@
 #iUniform float main_scale = 0.22 in { 0.02, 1.0 }
 #iUniform float viewer_x = 0.0 in { -10.0, 10.0 }
 #iUniform float parallax = 1.0 in { -4.0, 4.0 }
+// 1: iMouse moves the viewer, as in the document, instead of the host's camera
+#iUniform int document_mouse = 0 in { 0, 1 }
 // movement, in repeats a second to the left and towards the viewer: of the water, of the larger layer on top
 // of that, of the foam
 #iUniform vec2 move_speed = vec2(0.04, 0.14) in { -1.0, 1.0 }
@@ -56,6 +60,7 @@
 #iChannel2 "../textures/foam_ramp.png"
 #iChannel2::WrapMode "Clamp"
 
+#include "lib/orbit.glsl"
 #include "lib/phase.glsl"
 
 // The noise picture has 256 texels a side and repeats; a repeat of the noise below has 8 of them across.
@@ -108,6 +113,29 @@ float sun_x() {
     return (2.0 * sun_column - 1.0) * iResolution.x / iResolution.y * (9.0 / 16.0);
 }
 
+// ---- The viewer -----------------------------------------------------------------------------------------
+
+const float k_reach = 2.0; // radius of the circle that a turn leads along
+
+// Where the viewer stands: to the right, and ahead.
+vec2 viewer() {
+    if (!orbits(document_mouse)) {
+        return vec2(viewer_x + parallax * iMouse.x / iResolution.x, 0.0);
+    }
+    vec3 pan = orbit_pan(0.0, 1.125, 1.0); // as fast as the pointer over the nearest row
+    float half_chord = sin(0.5 * iOrbit.x);
+    vec2 walked = vec2(iOrbit.z * sin(iOrbit.x), 1.0 - iOrbit.z + 2.0 * iOrbit.z * half_chord * half_chord);
+    return vec2(viewer_x - pan.x, pan.z) + k_reach * walked;
+}
+
+// Part of the height that is water: more where the look goes down.
+float skyline() {
+    if (!orbits(document_mouse)) {
+        return horizon;
+    }
+    return clamp(horizon + iOrbit.y / 3.14159265 - orbit_pan(0.0, 1.0, 1.0).y, 0.1, 1.0);
+}
+
 // A place on the strip in noise texels, with what a pixel across and a pixel up change it by.
 struct Ground {
     vec2 at, dx, dy;
@@ -118,12 +146,13 @@ struct Ground {
 Ground ground_at(float x, float row, float x_step, float row_step) {
     float depth = -log(row); // 1 - (log(row) + 1)
     float spread = (1.0 - depth) / depth;
-    float viewer = viewer_x + parallax * iMouse.x / iResolution.x;
+    vec2 here = viewer();
     float texels = k_cells / main_scale;
 
     Ground ground;
     ground.distance = pow(row, distance_exponent);
-    ground.at = texels * vec2((x * spread + viewer) / horizon_distance, ground.distance * horizon_distance);
+    ground.at = texels * vec2((x * spread + here.x) / horizon_distance,
+                              ground.distance * horizon_distance + here.y / horizon_distance);
     ground.dx = texels * vec2(x_step * spread / horizon_distance, 0.0);
     ground.dy = texels * row_step *
                 vec2(x / (depth * depth * row * horizon_distance),
@@ -180,13 +209,14 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     float x_step = 2.0 * aspect / iResolution.x;
     float up_step = 1.0 / iResolution.y;
 
+    float level = skyline();
     vec3 color;
-    if (up < horizon) {
-        color = water(x, up / horizon, x_step, up_step / horizon);
+    if (up < level) {
+        color = water(x, up / level, x_step, up_step / level);
     } else {
-        color = sky(x, up - horizon, x_step, up_step);
+        color = sky(x, up - level, x_step, up_step);
     }
     // The air before the horizon, and the one row that is neither sea nor sky.
-    color = mix(color, horizon_color, haze * exp(-abs(up - horizon) / 0.02));
+    color = mix(color, horizon_color, haze * exp(-abs(up - level) / 0.02));
     fragColor = vec4(clamp(color, 0.0, 1.0), 1.0);
 }

@@ -45,6 +45,8 @@ const float map_top = 6.0;     // nothing stands higher
 #iUniform vec2 camera_target = vec2(0.0, -1.0) in { -20.0, 20.0 }
 #iUniform float focal_length = 1.7 in { 0.6, 4.0 }
 #iUniform float map_height = 44.0 in { 10.0, 120.0 }
+// 1: iMouse turns the view, as in the document, instead of the host's camera
+#iUniform int document_mouse = 0 in { 0, 1 }
 // waves: metres from crest to crest; seconds from one to the next, below 0 for waves that run with the path;
 // metres of the highest; part of that on deep water; depths where growth begins and ends; part that is left
 // where the water ends; how many lengths the fronts are bent by; metres they fall behind in shallow water, which
@@ -98,6 +100,7 @@ const float map_top = 6.0;     // nothing stands higher
 #include "lib/fresnel.glsl"
 #include "lib/march.glsl"
 #include "lib/noise.glsl"
+#include "lib/orbit.glsl"
 #include "lib/phase.glsl"
 #include "lib/sky.glsl"
 #include "lib/specular.glsl"
@@ -437,11 +440,28 @@ void aim(vec2 frag_coord) {
     origin = vec3(at.x, map_top + 1.0, at.y);
     direction = vec3(0.0, -1.0, 0.0);
 #else
-    vec2 turned = clamp(mouse_turn(vec2(0.5, 0.36)), 0.0, 1.0);
+    bool moved = orbits(document_mouse);
+    vec2 first = vec2(0.5, 0.36);
+    vec2 turned = clamp(moved ? first : mouse_turn(first), 0.0, 1.0);
     float azimuth = 6.283185307 * turned.x + 0.46;
-    vec3 forward = -direction_of(vec2(azimuth, radians(mix(6.0, 84.0, turned.y))));
+    float elevation = radians(mix(6.0, 84.0, turned.y));
+    float distance = camera_distance;
+    vec3 pan = vec3(0.0);
+    if (moved) {
+        pan = orbit_pan(azimuth + 3.14159265, distance, focal_length);
+        azimuth += iOrbit.x;
+        elevation = clamp(elevation + iOrbit.y, -1.57079632, 1.57079632);
+        distance *= iOrbit.z;
+    }
+    vec3 forward = -direction_of(vec2(azimuth, elevation));
     vec3 right = vec3(cos(azimuth), 0.0, -sin(azimuth));
-    origin = vec3(camera_target.x, 0.0, camera_target.y) - camera_distance * forward;
+    vec2 target = camera_target + pan.xz;
+    vec3 arm = forward;
+    if (moved) { // over land and waves, however low it is turned
+        float lowest = max(baked(target - distance * forward.xz).w, wave_height) + 0.5;
+        arm.y = min(forward.y - pan.y / distance, -lowest / distance);
+    }
+    origin = vec3(target.x, 0.0, target.y) - distance * arm;
     direction = pixel_ray(mat3(right, cross(right, forward), forward), frag_coord, focal_length);
 #endif
 }

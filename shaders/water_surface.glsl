@@ -51,6 +51,8 @@
 #iUniform float yaw_range = 6.2831 in { 0.0, 12.5664 }
 #iUniform float pitch_range = 4.7124 in { 0.0, 6.2832 }
 #iUniform float focal_length = 1.0 in { 0.2, 5.0 }
+// 1: iMouse turns the view, as in the document, instead of the host's camera
+#iUniform int document_mouse = 0 in { 0, 1 }
 // waves: height of the whole sum before the first gain; ratio of heights and of frequencies from octave to
 // octave; lattice cells per unit; drift in z per second; the seconds after which the drift starts again, a
 // visible cut (0: never; the document's 62.83); amplitude and rate of the turn between octaves; bobbing height
@@ -97,6 +99,7 @@
 #include "lib/fresnel.glsl"
 #include "lib/march.glsl"
 #include "lib/noise.glsl"
+#include "lib/orbit.glsl"
 #include "lib/phase.glsl"
 
 // ---- The sea of this frame ------------------------------------------------------------------------------
@@ -226,24 +229,24 @@ vec2 march_clearance(float t) {
 }
 #endif
 
-mat3 camera() {
+View camera() {
     vec2 ranges = vec2(yaw_range, pitch_range);
 #if TURNING_POLES
     vec2 angles = mouse_angles(iMouse.xy / iResolution.xy, ranges);
     if (abs(angles.y) > 1.57079632) {
         angles = vec2(angles.x + 3.14159265, sign(angles.y) * 3.14159265 - angles.y);
     }
-    return camera_axes(angles.x, angles.y);
+    return View(camera_position, camera_axes(angles.x, angles.y));
 #else
-    return mouse_camera(mouse_turn(default_turn), ranges);
+    return sea_view(document_mouse, camera_position, default_turn, ranges, focal_length, bob_height + 0.3);
 #endif
 }
 
 // The ray through a pixel, and the distance of the water on it; -1: none.
 float look(vec2 frag_coord) {
-    mat3 axes = camera();
-    ray_origin = camera_position;
-    ray_direction = pixel_ray(axes, frag_coord, focal_length);
+    View view = camera();
+    ray_origin = view.position;
+    ray_direction = pixel_ray(view.axes, frag_coord, focal_length);
     make_sea();
     // The noise: of the coordinates of the finest octave, times its slope.
     MarchRange range = MarchRange(near_distance, far_distance, pixel_width(focal_length), 2e-6);

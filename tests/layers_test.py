@@ -20,10 +20,11 @@ ALLOWED = {
     "live": ["base", "text", "scene", "platform"],
     "lsp": ["base", "text", "scene", "glsl"],
     "render": ["base", "text", "scene", "glsl", "gl", "image", "sound"],
-    "web": ["base", "text", "scene", "glsl", "image"],
+    "report": ["base"],
+    "web": ["base", "text", "scene", "glsl", "image", "report"],
     "serve": ["base", "text", "scene", "image", "platform", "live", "web"],
-    "lab": ["base", "text", "scene", "glsl", "ir", "gl", "image", "render"],
-    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "lsp", "render", "web", "serve", "lab"],
+    "lab": ["base", "text", "scene", "glsl", "ir", "gl", "image", "render", "report"],
+    "cli": ["base", "text", "scene", "glsl", "gl", "image", "sound", "bake", "platform", "live", "lsp", "render", "web", "serve", "report", "lab"],
     "install": [],
     "main.cpp": ["cli"],
 }
@@ -36,17 +37,19 @@ ROOMS = {
     "ir": {"": ["plugin"], "plugin": []},
     "live": {"": ["plugin"], "plugin": [""], "inputs": [""]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
-             "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"]},
+             "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"],
+             "cure": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "trace": [], "pixel": ["march"],
-            "check": ["", "march", "trace"]},
+            "check": ["", "march", "trace"], "fix": ["", "trace", "check"]},
     # What runs in a browser, and includes nothing.
     "web": {"": [], "host": []},
+    "report": {"": [], "page": []},
     "serve": {"": ["plugin"], "plugin": [""], "page": []},
     "cli": {"": [], "capture": [""], "view": [""], "serve": ["", "view"], "inspect": [""], "check": [""], "bake": [""], "help": [""], "lsp": [""], "new": [""]},
 }
 
 # Modules whose files (a .cpp and its .hpp count as one) never lead back to where they started.
-WITHOUT_CIRCLES = ["base", "text", "scene", "ir", "gl", "sound", "platform", "serve", "lsp"]
+WITHOUT_CIRCLES = ["base", "text", "scene", "ir", "gl", "sound", "platform", "report", "serve", "lsp"]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/(?:([a-z_]+)/)?', re.MULTILINE)
 

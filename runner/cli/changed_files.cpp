@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace tidemark::cli {
 namespace {
@@ -39,15 +40,28 @@ Result<std::map<std::string, Changes>> changes_by_file(scene::Scene scene,
     return files;
 }
 
+/// Those of the cures that stand in a file.
+std::vector<glsl::Cure> in_file(std::span<const glsl::Cure> cures, const std::string& file) {
+    std::vector<glsl::Cure> those(cures.begin(), cures.end());
+    for (glsl::Cure& cure : those)
+        std::erase_if(cure.wraps, [&](const glsl::Wrap& wrap) { return wrap.first.where.file != file; });
+    return those;
+}
+
 } // namespace
 
-Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
-                                               const std::vector<scene::Setting>& settings) {
+Result<void> can_be_changed(const scene::Scene& scene) {
     if (scene.file.extension() == ".json")
         return fail(ErrorCode::write,
                     fmt::format("'{}' is no text of its own: `tidemark import` makes files of "
                                 "it that can be changed",
                                 scene.file.string()));
+    return {};
+}
+
+Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
+                                               const std::vector<scene::Setting>& settings) {
+    TRY(can_be_changed(scene));
     std::vector<ChangedFile> changed;
     for (const auto& [file, changes] : TRY(changes_by_file(scene, settings))) {
         const std::string text = TRY(read_text_file(file));
@@ -56,6 +70,29 @@ Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
             glsl::override_definition(after, setting);
         if (after != text)
             changed.push_back({file, text, std::move(after)});
+    }
+    return changed;
+}
+
+Result<std::string> CuredFiles::text_of(const std::string& file) {
+    if (!texts_.contains(file))
+        texts_[file] = TRY(read_text_file(file));
+    return texts_[file];
+}
+
+Result<std::vector<ChangedFile>> CuredFiles::with_last(std::span<const glsl::Cure> cures) {
+    std::set<std::string> files;
+    for (const glsl::Wrap& wrap : cures.back().wraps)
+        files.insert(wrap.first.where.file);
+    std::vector<ChangedFile> changed;
+    for (const std::string& file : files) {
+        const std::string text = TRY(text_of(file));
+        const std::vector<glsl::Cure> here = in_file(cures, file);
+        const auto before = glsl::cured(text, file, std::span(here).first(here.size() - 1));
+        auto after = glsl::cured(text, file, here);
+        if (!before || !after || *before == *after)
+            return fail(ErrorCode::write, fmt::format("'{}' has not the words to change", file));
+        changed.push_back({file, *before, *std::move(after)});
     }
     return changed;
 }

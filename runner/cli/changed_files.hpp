@@ -1,10 +1,14 @@
-// Settings written into the files that a scene was read from: as a difference for people, then for good.
+// Settings and cures written into the files that a scene was read from: as a difference for people, then for
+// good.
 #pragma once
 
 #include "base/result.hpp"
+#include "glsl/cure/cure.hpp"
 #include "scene/scene.hpp"
 #include "scene/setting.hpp"
 
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +23,23 @@ struct ChangedFile {
 /// is not a text of its own, as in a project's JSON.
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
                                                const std::vector<scene::Setting>& settings);
+
+/// Fails (ErrorCode::write) where a scene is no text of its own, as in a project's JSON.
+Result<void> can_be_changed(const scene::Scene& scene);
+
+/// The files of a scene with one cure after the other. Each file is read once: what is written meanwhile does
+/// not move the words that cures stand around.
+class CuredFiles {
+public:
+    /// Every file that the last of the cures changes; `before` is the file with those before it. Fails
+    /// (ErrorCode::write) where its words are not there.
+    Result<std::vector<ChangedFile>> with_last(std::span<const glsl::Cure> cures);
+
+private:
+    Result<std::string> text_of(const std::string& file);
+
+    std::map<std::string, std::string> texts_{};
+};
 
 /// In the unified form. No line may have come or gone.
 std::string difference(const ChangedFile& file);

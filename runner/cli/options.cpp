@@ -71,7 +71,8 @@ void add_picture_options(CLI::App& command, FrameOptions& options) {
     command.add_option("--date", options.date, "iDate at iTime 0, as in 2024-12-31T23:59:58")
         ->type_name("ISO");
     command
-        .add_option("--camera", options.camera, "Orbit camera of a scene that declares iCamera, in degrees")
+        .add_option("--camera", options.camera,
+                    "Orbit camera of a scene that declares iCamera or iOrbit, in degrees")
         ->type_name("AZIMUTH,ELEVATION,DISTANCE[,X,Y,Z]");
     command.add_option("--pass", options.pass, "The pass to show, as in \"Buffer A\" [Image]")
         ->type_name("NAME");
@@ -163,8 +164,10 @@ Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base) {
         TRY(keep(parse_mouse(*options.mouse), state.mouse));
     if (options.date)
         TRY(keep(render::parse_date(*options.date), state.date));
-    if (options.camera)
+    if (options.camera) {
         TRY(keep(render::parse_camera(*options.camera), state.camera));
+        state.initial_camera = state.camera;
+    }
     if (!options.pass.empty())
         state.pass = options.pass;
     if (options.input) {

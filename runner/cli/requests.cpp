@@ -92,6 +92,8 @@ template <class T>
 bool must_be_said(const render::FrameState& state, const render::FrameField<T>& field) {
     if (field.option == "--frame")
         return !state.time;
+    if (field.option == "--camera" && state.moves_camera())
+        return true;
     return field.option == "--size" || state.*field.member != render::FrameState().*field.member;
 }
 

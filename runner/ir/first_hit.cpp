@@ -27,6 +27,8 @@ public:
           length_(last - slice.start()), near_(near()) {}
 
     FirstHit run() {
+        if (last_ == slice_.start())
+            return at_start();
         double at = slice_.start();
         double width = length_ * k_first_part;
         while (at < last_) {
@@ -98,6 +100,18 @@ private:
         if (look.free >= width)
             return 2 * width;
         return look.free > narrowest(cell.low) ? std::clamp(2 * look.free, width / 8, width / 2) : width / 4;
+    }
+
+    /// Of a march that does not leave it.
+    FirstHit at_start() {
+        const Interval start{last_, last_};
+        const auto here = slice_.distance(place_at(last_), Care::thorough);
+        if (slice_.is_hit(here))
+            return answer(FirstHit::Verdict::hit, start, FirstHit::Reason::none);
+        if (slice_.excludes_hit(here))
+            return answer(FirstHit::Verdict::none, start, FirstHit::Reason::none);
+        return answer(FirstHit::Verdict::undecided, start,
+                      here->partial ? FirstHit::Reason::not_finite : FirstHit::Reason::grazing);
     }
 
     /// Somewhere from here on it is surely below the threshold, or that is not known.

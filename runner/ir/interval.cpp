@@ -80,8 +80,15 @@ Interval operator/(const Interval& a, const Interval& b) {
         return everything();
     if (b.low == 0 || b.high == 0)
         return beside_pole(a, b);
-    return of_corners({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high},
-                      a.partial || b.partial);
+    if (b.high < 0)
+        return -a / -b;
+    Interval quotient =
+        of_corners({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high}, a.partial || b.partial);
+    if (a.low >= 0)
+        quotient.low = std::max(quotient.low, 0.0);
+    if (a.high <= 0)
+        quotient.high = std::min(quotient.high, 0.0);
+    return quotient;
 }
 
 Interval sign(const Interval& a) {

@@ -245,7 +245,7 @@ private:
         turn.threshold = number_[loop_.threshold];
         turn.far = turn.comparison = k_no_value;
         for (Carried& each : turn.carried)
-            each = {number_[each.phi], number_[each.update], k_no_value};
+            each = {number_[each.phi], number_[each.update]};
         return turn;
     }
 

@@ -29,6 +29,15 @@ Textures<Tangent> with_slopes(const Textures<Interval>& textures) {
     };
 }
 
+/// How far a carried value goes where the parameter goes 1.
+template <class Real>
+double factor_of(const Carried& carried, const PointEvaluator<Real>& entered) {
+    double product = 1;
+    for (const Value factor : carried.factors)
+        product *= entered.value(factor).real;
+    return product;
+}
+
 } // namespace
 
 template <class Real>
@@ -40,7 +49,7 @@ MarchSlice::MarchSlice(const LoopSlice& slice, const PointEvaluator<Real>& enter
     for (const Carried& each : loop_->carried) {
         const bool itself = loop_->by_parameter();
         first_.push_back(itself ? 0 : entered.value(each.phi).real);
-        factor_.push_back(itself || each.factor == k_no_value ? 1 : entered.value(each.factor).real);
+        factor_.push_back(itself ? 1 : factor_of(each, entered));
     }
     start_ = loop_->by_parameter() ? entered.value(loop_->carried[0].phi).real : 0;
 }
@@ -58,7 +67,7 @@ double MarchSlice::parameter(const Turn& turn) const {
 }
 
 double MarchSlice::unit() const {
-    if (std::ranges::any_of(loop_->carried, [](const Carried& each) { return each.factor == k_no_value; }))
+    if (std::ranges::any_of(loop_->carried, [](const Carried& each) { return each.factors.empty(); }))
         return 1;
     double squares = 0;
     for (const double factor : factor_)
@@ -82,7 +91,10 @@ double MarchSlice::end(const March& march) const {
     constexpr double k_beyond = 1.5; // a hit that is a little early is still found
     if (loop_->limited())
         return march.far;
-    return start_ + (march.hit ? k_beyond : 1) * (parameter(march.turns.back()) - start_);
+    auto last = march.turns.rbegin();
+    while (last + 1 != march.turns.rend() && !std::isfinite(parameter(*last)))
+        ++last;
+    return start_ + (march.hit ? k_beyond : 1) * (parameter(*last) - start_);
 }
 
 Interval MarchSlice::place(size_t carried, const Interval& parameter) const {
@@ -141,6 +153,22 @@ bool MarchSlice::excludes_hit(const std::optional<Interval>& distance) const {
 
 bool MarchSlice::is_hit(const std::optional<Interval>& distance) const {
     return distance && !distance->partial && (loop_->at_equality ? distance->high <= 0 : distance->high < 0);
+}
+
+FloatField::FloatField(const LoopSlice& slice, const FloatEvaluator& entered)
+    : turn_(slice, entered, entered.textures), by_parameter_(slice.loop.by_parameter()) {
+    for (const Carried& each : slice.loop.carried) {
+        first_.push_back(by_parameter_ ? 0 : entered.value(each.phi).real);
+        factor_.push_back(by_parameter_ ? 1 : float(factor_of(each, entered)));
+    }
+}
+
+std::optional<float> FloatField::distance(double parameter) {
+    std::vector<Point<float>> places;
+    for (size_t i = 0; i < first_.size(); ++i)
+        places.push_back({first_[i] + factor_[i] * float(parameter), 0});
+    Decisions none(0);
+    return turn_.run(places, none) == Ended::stopped ? std::optional(turn_.distance().real) : std::nullopt;
 }
 
 March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop) {

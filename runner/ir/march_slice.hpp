@@ -50,7 +50,8 @@ public:
     double parameter(const Turn& turn) const;
     /// How long the way is that the parameter calls 1: 1, where the loop carries the parameter itself.
     double unit() const;
-    /// Up to where a first hit is looked for: the loop's limit; else the march's end, and beyond its own hit.
+    /// Up to where a first hit is looked for: the loop's limit; else the last place that the march came to,
+    /// and beyond its own hit. What has no limit may go to infinity.
     double end(const March& march) const;
 
     /// Bounds, over that piece of the ray, of what is negative behind the surface; `partial` where NaN or an
@@ -89,6 +90,20 @@ private:
     std::vector<double> first_, factor_;
     double start_ = 0;
     uint64_t evaluations_ = 0;
+};
+
+/// The distance itself, in float: what the text has where its march comes to that place.
+class FloatField {
+public:
+    FloatField(const LoopSlice& slice, const FloatEvaluator& entered);
+
+    /// Of a ray's parameter, as MarchSlice has it. Nothing where the loop is left before it measures.
+    std::optional<float> distance(double parameter);
+
+private:
+    LoopTurn<PointSystem<float>> turn_;
+    bool by_parameter_;
+    std::vector<float> first_, factor_;
 };
 
 /// Runs the pixel that `evaluator` is set up for until it enters one of the loops; its index, none where it

@@ -21,9 +21,8 @@ struct ExitTest {
 /// A real value that the loop carries, and what a turn adds to it.
 struct Step {
     Value phi, update, added;
-    Value core;   ///< the factor of `added` that changes in the loop; none: it does not change
-    Value factor; ///< the product of the others is not needed: one of them, where there is one alone
-    bool plain;   ///< `added` is core times at most one factor
+    Value core;                 ///< the factor of `added` that changes in the loop; none: it does not change
+    std::vector<Value> factors; ///< the others
 };
 
 class LoopReader {
@@ -136,21 +135,20 @@ private:
 
     Step step(Value phi, Value update) const {
         const auto parts = operands(update);
-        Step result{phi, update, parts[parts[0] == phi ? 1 : 0], k_no_value, k_no_value, true};
+        Step result{phi, update, parts[parts[0] == phi ? 1 : 0], k_no_value, {}};
         Value core = result.added;
         while (inside_[core] && at(core).op == Op::multiply) {
             const auto factors = operands(core);
             const bool first = inside_[factors[0]], second = inside_[factors[1]];
             if (first == second)
                 break;
-            result.plain = result.factor == k_no_value;
-            result.factor = factors[first ? 1 : 0];
+            result.factors.push_back(factors[first ? 1 : 0]);
             core = factors[first ? 0 : 1];
         }
         if (inside_[core])
             result.core = core;
-        else if (result.factor == k_no_value)
-            result.factor = core;
+        else
+            result.factors.push_back(core);
         return result;
     }
 
@@ -160,8 +158,6 @@ private:
         for (const Step& each : steps_)
             result.push_back({each});
         for (const Step& each : steps_) {
-            if (!each.plain)
-                continue;
             const auto same = std::ranges::find_if(
                 together, [&](const std::vector<Step>& group) { return group.front().core == each.core; });
             if (same == together.end())
@@ -205,7 +201,7 @@ private:
         const auto kind = kind_of(group.front(), field);
         if (!kind)
             return std::nullopt;
-        MarchingLoop loop = loop_of(group, at_update, test, *kind);
+        MarchingLoop loop = loop_of(needed(group, at_update, field), at_update, test, *kind);
         loop.in_next_turn = !others.empty();
         loop.stops_before = loop.kind == MarchingLoop::Kind::sphere_tracing && is_above_zero(test.larger) &&
                             !computes(depending(to_cuts.of(test.larger), cuts));
@@ -239,6 +235,15 @@ private:
         return !at_update && std::ranges::any_of(group, [&](const Step& each) {
             return std::ranges::binary_search(field, each.update);
         });
+    }
+
+    /// What counts the way along with the place may do so behind the test: there it is of another turn.
+    static std::vector<Step> needed(std::vector<Step> group, bool at_update,
+                                    const std::vector<Value>& field) {
+        std::erase_if(group, [&](const Step& each) {
+            return !std::ranges::binary_search(field, at_update ? each.update : each.phi);
+        });
+        return group;
     }
 
     /// Those of the values that change with the place.
@@ -307,7 +312,7 @@ private:
         for (const uint32_t each : function_.blocks[header_].predecessors)
             (blocks_[each] ? loop.latch : loop.entry) = each;
         for (const Step& each : group)
-            loop.carried.push_back({each.phi, each.update, each.factor});
+            loop.carried.push_back({each.phi, each.update, each.factors});
         for (const ExitTest& other : tests_)
             for (const Step& each : group)
                 if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller])

@@ -9,11 +9,11 @@
 
 namespace tidemark::ir {
 
-/// A value that the loop carries forward along the ray: start + factor * s, where s is the ray's parameter.
+/// A value that the loop carries forward along the ray: start + factors * s, where s is the ray's parameter.
 struct Carried {
     Value phi = k_no_value;
-    Value update = k_no_value; ///< what it becomes for the next turn
-    Value factor = k_no_value; ///< does not change in the loop; none: 1
+    Value update = k_no_value;    ///< what it becomes for the next turn
+    std::vector<Value> factors{}; ///< do not change in the loop
 };
 
 struct MarchingLoop {

@@ -1,6 +1,9 @@
 #include "ir/spirv.hpp"
 #include "ir/spirv_names.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace tidemark::ir {
 namespace {
 
@@ -32,6 +35,7 @@ public:
                 throw CannotFollow("too long a computation");
         }
         fill_phis();
+        leave_out_phis();
         return std::move(build_.function);
     }
 
@@ -220,6 +224,24 @@ private:
                     function().operands.push_back(source_of(sources, predecessor, component));
                 phi.operand_count = uint32_t(function().blocks[block].predecessors.size());
             }
+    }
+    /// What is one value on every way is that value: of calls that are inlined much of it is left.
+    void leave_out_phis() {
+        Function& all = function();
+        std::vector<Value> same(all.instructions.size());
+        std::iota(same.begin(), same.end(), Value{0});
+        for (Value value = 0; value < same.size(); ++value) {
+            const auto ways = all.operands_of(all.instructions[value]);
+            if (all.instructions[value].op == Op::phi && !ways.empty() &&
+                std::ranges::all_of(ways, [&](Value way) { return same[way] == same[ways[0]]; }))
+                same[value] = same[ways[0]];
+        }
+        for (Value& operand : all.operands)
+            if (operand != k_no_value)
+                operand = same[operand];
+        for (Block& block : all.blocks)
+            if (block.condition != k_no_value)
+                block.condition = same[block.condition];
     }
     Value source_of(std::span<const uint32_t> sources, uint32_t predecessor, size_t component) {
         for (size_t i = 0; i + 1 < sources.size(); i += 2)

@@ -1,6 +1,7 @@
 #include "render/bands.hpp"
 
 #include "base/try.hpp"
+#include "image/light_mean.hpp"
 
 #include <algorithm>
 
@@ -8,33 +9,59 @@ namespace tidemark::render {
 
 using image::Image;
 
-Result<bool> draw_bands(const Renderer& renderer, const FrameInputs& inputs, const BeforeTile& before_tile,
+namespace {
+
+/// False: stopped.
+bool draw_band(Renderer& renderer, const Sample& sample, int number, const BeforeTile& before_tile,
+               Image& band) {
+    const TileGrid grid = *renderer.tiles();
+    for (int column = 0; column < grid.columns(); ++column) {
+        if (!before_tile())
+            return false;
+        renderer.draw_tile(sample.inputs, grid.at(column, number), band, {sample.x, sample.y});
+    }
+    return true;
+}
+
+} // namespace
+
+Result<bool> draw_bands(Renderer& renderer, const ExposedFrame& frame, const BeforeTile& before_tile,
                         const TakeBand& take) {
     const TileGrid grid = *renderer.tiles();
     Image band;
+    image::LightMean mean(frame.clamped);
     for (int number = 0; number < grid.bands(); ++number) {
         const Extent extent{renderer.extent().width, grid.at(0, number).extent.height};
         if (band.extent != extent)
             band = Image(extent, 4, renderer.samples());
-        for (int column = 0; column < grid.columns(); ++column) {
-            if (!before_tile())
+        for (const Sample& sample : frame.samples) {
+            if (frame.moving)
+                renderer.draw(sample.inputs);
+            if (!draw_band(renderer, sample, number, before_tile, band))
                 return false;
-            renderer.draw_tile(inputs, grid.at(column, number), band);
+            if (frame.samples.size() > 1)
+                mean.add(band);
         }
+        if (frame.samples.size() > 1)
+            mean.take(band);
         band = TRY(take(std::move(band)));
     }
     return true;
 }
 
-Image draw_in_tiles(const Renderer& renderer, const FrameInputs& inputs) {
+std::optional<Image> draw_in_tiles(Renderer& renderer, const ExposedFrame& frame,
+                                   const BeforeTile& before_tile) {
     Image whole(renderer.extent(), 4, renderer.samples());
     auto end = whole.bytes.end();
-    const auto always = [] { return true; };
-    (void)draw_bands(renderer, inputs, always, [&](Image band) -> Result<Image> {
+    const auto complete = draw_bands(renderer, frame, before_tile, [&](Image band) -> Result<Image> {
         end = std::ranges::copy_backward(band.bytes, end).out;
         return band;
     });
-    return whole;
+    return *complete ? std::optional(std::move(whole)) : std::nullopt;
+}
+
+Image draw_in_tiles(Renderer& renderer, const FrameInputs& inputs) {
+    return *draw_in_tiles(renderer, {.samples = {{inputs}}}, [] { return true; });
 }
 
 } // namespace tidemark::render

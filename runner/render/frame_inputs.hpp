@@ -8,6 +8,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <memory>
@@ -45,8 +46,11 @@ struct FrameInputs {
     double frame_rate = 60;       ///< iFrameRate
     glm::vec4 mouse{0};           ///< iMouse, whole pixels, ShaderToy's signs
     Date date{};
-    glm::mat4 camera{1};       ///< iCamera, camera to world
-    glm::mat4 view{1};         ///< iViewMatrix: the same camera, from where it stood at first
+    glm::mat4 camera{1}; ///< iCamera, camera to world
+    glm::mat4 view{1};   ///< iViewMatrix: the same camera, from where it stood at first
+    /// iOrbit: azimuth and elevation that the camera was turned by, its distance, 1 where people move it.
+    glm::dvec4 orbit{0, 0, 1, 0};
+    glm::dvec3 orbit_pan{0};   ///< iOrbitPan
     glm::vec2 mouse_button{0}; ///< iMouseButton: 1 while down; left, right
     KeyboardTexels keyboard{};
     std::vector<scene::Setting> knobs{};     ///< set to something else than in the scene

@@ -29,6 +29,9 @@ FrameInputs inputs_of(const FrameState& state) {
     inputs.keyboard = state.keys;
     inputs.date = later(state.date, inputs.time);
     inputs.camera = state.camera.matrix();
+    const OrbitMotion motion = motion_of(state.camera);
+    inputs.orbit = {motion.turn, motion.distance, state.moves_camera() ? 1 : 0};
+    inputs.orbit_pan = motion.pan;
     inputs.knobs = state.knobs;
     if (state.initial_camera)
         inputs.view = inverse(state.initial_camera->matrix()) * inputs.camera;

@@ -38,6 +38,9 @@ struct FrameState {
 
     /// iTime.
     double seconds() const { return time.value_or(double(frame) / fps); }
+    /// Whether the mouse and the camera are moved by one hand, as in a window: the mouse is then no place
+    /// that an option of its own says.
+    bool moves_camera() const { return camera != OrbitCamera{} || (initial_camera && mouse != Mouse{}); }
     /// Another frame of the same run: its time is as far from this one's as the frames are apart.
     FrameState at_frame(int number) const;
 };

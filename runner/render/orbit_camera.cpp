@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -64,6 +65,19 @@ void OrbitCamera::pan(double dx, double dy, double height) {
 
 glm::mat4 OrbitCamera::matrix() const {
     return glm::mat4(camera_to_world(*this));
+}
+
+OrbitMotion motion_of(const OrbitCamera& camera) {
+    const OrbitCamera first;
+    const glm::dvec2 degrees{std::remainder(camera.azimuth - first.azimuth, 360),
+                             camera.elevation - first.elevation};
+    const double heading = glm::radians(first.azimuth);
+    const glm::dvec3 right{std::cos(heading), 0, -std::sin(heading)};
+    const glm::dvec3 backwards{std::sin(heading), 0, std::cos(heading)};
+    const glm::dvec3 moved = (camera.target - first.target) / first.distance;
+    return {glm::radians(degrees),
+            camera.distance / first.distance,
+            {dot(moved, right), moved.y, dot(moved, backwards)}};
 }
 
 Result<OrbitCamera> parse_camera(std::string_view setting) {

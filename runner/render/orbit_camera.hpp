@@ -4,6 +4,7 @@
 #include "base/result.hpp"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <string_view>
@@ -30,6 +31,15 @@ struct OrbitCamera {
     /// Camera to world: columns right, up, backwards, position.
     glm::mat4 matrix() const;
 };
+
+/// How a camera was moved from where the host's begins: there all is 0, and the distance 1, exactly. The pan
+/// is in first distances and the axes of the first heading: right, up, backwards.
+struct OrbitMotion {
+    glm::dvec2 turn; ///< azimuth and elevation, radians
+    double distance; ///< in parts of the first
+    glm::dvec3 pan;  ///< of the target
+};
+OrbitMotion motion_of(const OrbitCamera& camera);
 
 /// Reads `azimuth,elevation,distance`, and behind it the target `x,y,z` where that is not the origin.
 Result<OrbitCamera> parse_camera(std::string_view setting);

@@ -167,7 +167,7 @@ void Renderer::warm_up(const FrameInputs& inputs) {
     glScissor(0, 0, 0, 0);
     draw(inputs);
     if (const auto& tile = compiled_.options().tile)
-        draw_tile(inputs, {0, 0, *tile});
+        draw_tile(inputs, {0, 0, *tile}, {});
     glFinish();
     glDisable(GL_SCISSOR_TEST);
     reset();
@@ -206,11 +206,11 @@ const gl::Program& Renderer::prepare_shown(const FrameInputs& inputs) const {
     return linked.program;
 }
 
-void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile) const {
+void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile, glm::dvec2 offset) const {
     const Doing drawing = doing(k_drawing, scene());
     const gl::Program& program = prepare_shown(inputs);
     if (const gl::Uniform* origin = program.reflection().find("tidemark_tile"))
-        gl::set_uniform(program, *origin, std::array{double(tile.x), double(tile.y)});
+        gl::set_uniform(program, *origin, std::array{tile.x + offset.x, tile.y + offset.y});
     draw_face(program, target(), tile.extent);
 }
 
@@ -219,9 +219,9 @@ void Renderer::draw_again(const FrameInputs& inputs, const gl::RenderTarget& int
     draw_face(prepare_shown(inputs), into, into.extent());
 }
 
-void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile, Image& band) const {
+void Renderer::draw_tile(const FrameInputs& inputs, const Tile& tile, Image& band, glm::dvec2 offset) const {
     const Doing drawing = doing(k_drawing, scene());
-    draw_tile(inputs, tile);
+    draw_tile(inputs, tile, offset);
     const size_t pixel = 4 * image::size_of(samples());
     gl::read_corner(target(), tile.extent, GL_RGBA, type_of(samples()), band.extent.width,
                     band.bytes.data() + size_t(tile.x) * pixel);

@@ -62,8 +62,10 @@ public:
     /// The tiles of the shown pass; nothing where it is drawn whole.
     std::optional<TileGrid> tiles() const;
     /// One tile, after the `draw` of the same frame, and its pixels in their place in `band`: a picture of
-    /// the whole width whose bottom row is the tile's. The same bytes as in a picture drawn whole.
-    void draw_tile(const FrameInputs& inputs, const Tile& tile, image::Image& band) const;
+    /// the whole width whose bottom row is the tile's. The same bytes as in a picture drawn whole. `offset`:
+    /// from the middle of its pixels.
+    void draw_tile(const FrameInputs& inputs, const Tile& tile, image::Image& band,
+                   glm::dvec2 offset = {}) const;
 
     /// Whether `draw_again` gives the picture on show: nobody has read it, and it reads nothing that was
     /// drawn after it.
@@ -157,7 +159,7 @@ private:
     void draw_substitute(size_t pass, const gl::Program& program, const FrameInputs& inputs,
                          const gl::RenderTarget& into, int face) const;
     const gl::Program& prepare_shown(const FrameInputs& inputs) const;
-    void draw_tile(const FrameInputs& inputs, const Tile& tile) const;
+    void draw_tile(const FrameInputs& inputs, const Tile& tile, glm::dvec2 offset) const;
     void draw_face(const gl::Program& program, const gl::RenderTarget& into, Extent extent) const;
     ChannelFacts facts_of(size_t pass, const FrameInputs& inputs) const;
     void bind_textures(size_t pass) const;

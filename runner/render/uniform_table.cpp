@@ -48,6 +48,8 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         {"iChannelResolution", Source::channel_resolution},
         {scene::k_camera_uniform, Source::camera},
         {scene::k_view_uniform, Source::view},
+        {scene::k_orbit_uniform, Source::orbit},
+        {scene::k_orbit_pan_uniform, Source::orbit_pan},
         {scene::k_mouse_button_uniform, Source::mouse_button},
         // The VS Code extension and glslsandbox.com fill these where a text declares them, …
         {"resolution", Source::resolution},
@@ -136,6 +138,8 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
         case Source::channel_resolution: return resolutions_of(channels);
         case Source::camera: return elements_of(inputs.camera);
         case Source::view: return elements_of(inputs.view);
+        case Source::orbit: return {inputs.orbit.x, inputs.orbit.y, inputs.orbit.z, inputs.orbit.w};
+        case Source::orbit_pan: return {inputs.orbit_pan.x, inputs.orbit_pan.y, inputs.orbit_pan.z};
         case Source::mouse_button: return {inputs.mouse_button.x, inputs.mouse_button.y, 0, 0};
         case Source::struct_size: return UniformNumbers(channels[entry.index].resolution);
         case Source::struct_time: return {channels[entry.index].time};

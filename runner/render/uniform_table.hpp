@@ -56,6 +56,8 @@ private:
         struct_loaded, ///< iChN.loaded
         camera,
         view,
+        orbit,
+        orbit_pan,
         knob
     };
     /// What the member of a channel's struct tells; nothing for other uniforms.

@@ -42,8 +42,10 @@ inline constexpr std::string_view k_mouse_button_uniform = "iMouseButton";
 inline constexpr std::string_view k_view_uniform = "iViewMatrix";
 
 /// Ours, for scenes that declare them: the matrix of the orbit camera, and what iTime, rounded to a float,
-/// leaves of the seconds.
+/// leaves of the seconds; and for scenes with a view of their own, how that camera was moved.
 inline constexpr std::string_view k_camera_uniform = "iCamera";
+inline constexpr std::string_view k_orbit_uniform = "iOrbit";
+inline constexpr std::string_view k_orbit_pan_uniform = "iOrbitPan";
 inline constexpr std::string_view k_time_low_uniform = "iTimeLow";
 
 /// A name that a scene may not give to a uniform of its own with another meaning.
@@ -52,8 +54,8 @@ inline bool is_host_uniform(std::string_view name) {
     return std::ranges::any_of(k_site_uniforms, is_name, &SiteUniform::name) ||
            std::ranges::any_of(k_channel_names, is_name) || std::ranges::any_of(k_channel_structs, is_name) ||
            name == k_camera_uniform || name == k_time_low_uniform || name == k_mouse_button_uniform ||
-           name == k_view_uniform || name == "iChannel" || name == "iKeyboard" ||
-           name.starts_with("tidemark_");
+           name == k_view_uniform || name == k_orbit_uniform || name == k_orbit_pan_uniform ||
+           name == "iChannel" || name == "iKeyboard" || name.starts_with("tidemark_");
 }
 
 } // namespace tidemark::scene

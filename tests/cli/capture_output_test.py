@@ -69,7 +69,7 @@ class Names(CaptureTest):
         self.assertEqual(done.stderr.splitlines(), ["wrote 2 frames, f0.png to f1.png"])
 
     def test_errors(self):
-        formats = (".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr for pictures, in .mp4, .webm or .gif for a video, or "
+        formats = (".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr for pictures, in .mp4, .webm, .mov, .gif or .webp for a video, or "
                    "in .wav for the sound alone")
         for options, words in [
             ("-o a.xyz", f"cannot tell the format of 'a.xyz': its name must end in {formats}"),

@@ -1,4 +1,4 @@
-"""`capture -o x.mp4|.webm|.gif`: the frames as a video, whole or not at all."""
+"""`capture -o x.mp4|.webm|.mov|.gif|.webp`: the frames as a video, whole or not at all."""
 import array
 import contextlib
 import json
@@ -40,17 +40,26 @@ class Video(ProgramTest):
                     self.assertLessEqual(abs(got - 255 * want), tolerance, (name, number, x, y))
 
     def test_shows_the_frames_at_their_rate(self):
-        for name, codec, tolerance in (("a.mp4", "h264", 6), ("a.webm", "vp9", 8), ("a.gif", "gif", 20)):
+        for name, codec, tolerance in (("a.mp4", "h264", 6), ("a.webm", "vp9", 8), ("a.mov", "prores", 3), ("a.gif", "gif", 20)):
             done = self.succeed("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "3-12", "-o", name)
             self.assertTrue(done.stderr.endswith(f"wrote {name}: 10 frames\n"))
             video = self.facts(name)["video"]
             self.assertEqual((video["codec_name"], video["width"], video["height"], video["r_frame_rate"],
                               video["nb_read_frames"]), (codec, 64, 36, "25/1", "10"))
             self.expect_frames(name, 64, 36, 3, 10, tolerance)
-        self.assertEqual(self.files(), {"a.glsl", "a.mp4", "a.webm", "a.gif"})
+        self.assertEqual(self.files(), {"a.glsl", "a.mp4", "a.webm", "a.mov", "a.gif"})
+
+    def test_webp_keeps_every_byte(self):
+        """ffmpeg writes animated ones and does not read them."""
+        self.succeed("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "3-12", "-o", "a.webp")
+        file = (self.folder / "a.webp").read_bytes()
+        self.assertEqual((file[:4], file[8:16], file.count(b"ANMF")), (b"RIFF", b"WEBPVP8X", 10))
+        self.succeed("capture", "a.glsl", *SIZE, "--frame", "3", "-o", "one.webp")
+        self.succeed("capture", "a.glsl", *SIZE, "--frame", "3", "-o", "one.png")
+        self.assertIn("RMSE 0,", self.succeed("compare", "one.webp", "one.png").stdout.decode())
 
     def test_odd_sizes(self):
-        for name in ("odd.mp4", "odd.webm", "odd.gif"):
+        for name in ("odd.mp4", "odd.webm", "odd.mov", "odd.gif"):
             self.succeed("capture", "a.glsl", "--size", "33x17", "--fps", "10", "--frames", "0-2", "-o", name)
             video = self.facts(name)["video"]
             self.assertEqual((video["width"], video["height"]), (33, 17))
@@ -73,7 +82,7 @@ class Video(ProgramTest):
             self.assertRegex(done.stderr, f"error: cannot write 'disk/{name}': ffmpeg says: .*No space left on device")
 
     def test_same_frames_make_the_same_file(self):
-        for extension in (".mp4", ".webm", ".gif"):
+        for extension in (".mp4", ".webm", ".mov", ".gif", ".webp"):
             for name in ("one", "two"):
                 self.succeed("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "0-5", "-o", name + extension)
             one, two = ((self.folder / (name + extension)).read_bytes() for name in ("one", "two"))
@@ -84,7 +93,7 @@ class Video(ProgramTest):
         # A tone in the second second only.
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) {"
                                    "return t < 1.0 ? vec2(0.0) : vec2(0.5 * sin(6.283185307 * 441.0 * t)); }")
-        for name in ("s.mp4", "s.webm"):
+        for name in ("s.mp4", "s.webm", "s.mov"):
             self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", "5-14", "-o", name)
             samples = array.array("h", self.decoded(name, "-ac", "1", "-ar", "44100", "-f", "s16le"))
             self.assertLess(abs(len(samples) - 44100), 3000)

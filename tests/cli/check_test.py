@@ -142,6 +142,22 @@ class Check(ProgramTest):
         for probe, entry in self.verdicts(self.write("sound.glsl", sound), *options).items():
             self.assertIn(entry["verdict"], ("pass", "warn"), f"{probe}: {entry['found']}")
 
+    def test_the_field_of_the_text_is_followed_along_its_rays(self):
+        ball = MARCH.replace("max(d, 0.4)", "d").replace("t > 9.0", "t > 9e6")
+        # Repeated every thousandth: 1e3 units out a float has no digits for that.
+        fine = ball.replace("length(p) - 1.0", "0.02 + 0.01 * abs(fract(1000.0 * p.z) - 0.5)")
+        for text, verdict, found in ((ball, "pass", "^float and double agree to 1e6 units along the rays$"),
+                                     (fine, "warn", r"^float and double agree to 100+ units along the rays; at 100+ units \S+ % of the "),
+                                     (ball.replace("i < 99", "i < 99 && t < 9.0"), "n/a", "further out no march goes$")):
+            entry = self.verdicts(self.write("far.glsl", text), "--probe", "places")["places"]
+            self.assertEqual(entry["verdict"], verdict, entry["found"])
+            self.assertRegex(entry["found"], found)
+        for step, field, verdict in (("1e-3", "length(p) - 1.0", "pass"), ("1e-7", "length(p) - 1.0", "warn"),
+                                     ("1e-3", "length(p) - 1.0 + 0.001 * fract(43758.5 * sin(91.7 * p.z))", "n/a")):
+            scene = self.write("slope.glsl", f"#define normal_eps {step}\n" + ball.replace("length(p) - 1.0", field).replace("9e6", "9.0"))
+            entry = self.verdicts(scene, "--probe", "normals")["normals"]
+            self.assertEqual(entry["verdict"], verdict, entry["found"])
+
     def test_a_main_hit_that_drifts_is_told(self):
         hit = ("#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) {\n"
                "    vec4 c;\n    mainImage(c, p);\n    float t = 10.0 * c.x;\n"

@@ -159,6 +159,21 @@ class Behaviour(Page):
         self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="r", code="KeyR", windowsVirtualKeyCode=82)
         self.wait_for_pixel(before)
 
+    def test_a_drag_moves_a_scene_of_its_own_view(self):
+        self.write("own.glsl", "uniform vec4 iOrbit;\nuniform vec3 iOrbitPan;\nvoid mainImage(out vec4 c, in vec2 p) "
+                   "{ c = vec4(0.5 + 0.1 * (p.x < 32.0 ? iOrbit.xyz : iOrbitPan), 1.0); }\n")
+        self.export("own.glsl")
+        self.assert_same("own.glsl", "frame=0&size=64x36", "--size", "64x36")
+        before = self.shown()
+        for button, buttons in (("left", 1), ("middle", 4)):
+            self.browser.mouse("mousePressed", *self.place(0.5, 0.5), button=button, buttons=buttons, clickCount=1)
+            self.browser.mouse("mouseMoved", *self.place(0.9, 0.2), button=button, buttons=buttons)
+            self.browser.mouse("mouseReleased", *self.place(0.9, 0.2), button=button, buttons=0)
+        camera = self.browser.wait_for(f"{FIGURE}.needsFrame ? null : (({{azimuth, elevation, distance, target}}) => "
+                                       f"[azimuth, elevation, distance, ...target].join())({FIGURE}.camera)")
+        self.assertNotEqual(self.shown(), before)
+        self.assertEqual(self.captured("own.glsl", "--size", "64x36", "--camera", camera), self.shown())
+
     def test_a_key(self):
         self.write("keys.glsl", "#iChannel0 \"keyboard\"\nvoid mainImage(out vec4 c, in vec2 p) "
                    "{ c = vec4(texelFetch(iChannel0, ivec2(65, 0), 0).r, texelFetch(iChannel0, ivec2(65, 2), 0).r, 0, 1); }\n")

@@ -65,10 +65,13 @@ TEST_F(ShippedScenes, EveryKnobChangesThePictureAndNeverBreaksIt) {
             define(*scene, "TOP_VIEW=1"); // has knobs of its own
             drawings.push_back(renderer(*scene, {48, 27}));
         }
-        // Before the mouse is used and after, high and low; late enough for periods to have passed.
+        // Before the mouse is used and after, high and low, and with the host's camera moved; late enough for
+        // periods to have passed.
+        FrameInputs orbited = at(1234.5, 34, 11);
+        orbited.orbit = {0.4, 0.1, 0.9, 1};
         std::vector<Look> looks;
         for (Renderer& drawing : drawings)
-            for (const FrameInputs& inputs : {at(1234.5, 0, 0), at(1234.5, 34, 11), at(1234.5, 20, 1)})
+            for (const FrameInputs& inputs : {at(1234.5, 0, 0), at(1234.5, 34, 11), at(1234.5, 20, 1), orbited})
                 looks.push_back({&drawing, inputs, frame(drawing, inputs)});
         for (size_t i = 0; i < scene->knobs.size(); ++i) {
             bool changes = false;

@@ -183,6 +183,16 @@ TEST_F(CameraTest, matrix_arrives_element_by_element) {
     EXPECT_EQ(seen(camera), matrix_of(camera));
 }
 
+TEST_F(CameraTest, its_motion_arrives_number_by_number) {
+    FrameInputs inputs;
+    inputs.orbit = {0.25, -0.5, 2, 1};
+    inputs.orbit_pan = {1, -2, 4};
+    EXPECT_THAT(
+        told({"iOrbit.x", "iOrbit.y", "iOrbit.z", "iOrbit.w", "iOrbitPan.x", "iOrbitPan.y", "iOrbitPan.z"},
+             inputs, "uniform vec4 iOrbit;\nuniform vec3 iOrbitPan;"),
+        ElementsAre(0.25f, -0.5f, 2.0f, 1.0f, 1.0f, -2.0f, 4.0f));
+}
+
 TEST_F(CameraTest, takes_from_camera_to_world) {
     const OrbitCamera front{0, 0, 5};
     EXPECT_THAT(moved(front, "vec4(0, 0, 0, 1)"), ElementsAre(0.0f, 0.0f, 5.0f));   // stands on +z

@@ -21,7 +21,7 @@ def program() -> str | None:
 
 
 class Browser:
-    """One page at a time; `requests` are the addresses that the page asked for."""
+    """One page at a time; `requests` are the addresses that the page asked for, `complaints` what went wrong in it."""
 
     def __init__(self) -> None:
         self.folder = tempfile.TemporaryDirectory(prefix="tidemark-browser-", ignore_cleanup_errors=True)
@@ -35,10 +35,10 @@ class Browser:
                                         start_new_session=True)
         os.close(to_child)
         os.close(from_child)
-        self.received, self.number, self.session, self.requests = b"", 0, None, []
+        self.received, self.number, self.session, self.requests, self.complaints = b"", 0, None, [], []
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        for domain in ("Page", "Network", "Runtime"):
+        for domain in ("Page", "Network", "Runtime", "Log"):
             self.call(f"{domain}.enable")
 
     def close(self) -> None:
@@ -59,6 +59,8 @@ class Browser:
             answer = self._next()
             if answer.get("method") == "Network.requestWillBeSent":
                 self.requests.append(answer["params"]["request"]["url"])
+            if answer.get("method") in ("Runtime.exceptionThrown", "Log.entryAdded"):
+                self.complaints.append(answer["params"])
             if answer.get("id") == self.number:
                 if "error" in answer:
                     raise AssertionError(f"{method}: {answer['error']['message']}")
@@ -83,7 +85,7 @@ class Browser:
         return done["result"].get("value")
 
     def open(self, address: str) -> None:
-        self.requests = []
+        self.requests, self.complaints = [], []
         self.call("Page.navigate", url="about:blank")  # another fragment of the same page would load nothing
         self.wait_for("location.href === 'about:blank'")
         self.call("Page.navigate", url=address)

@@ -130,6 +130,8 @@ Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     const bool written = complete || !plan.output.video();
     if (written && !plan.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
+    if (complete && plan.loop)
+        say(run.loop().words());
     if (!complete)
         say(interruption(plan, run));
     return {};
@@ -199,7 +201,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
     command
         .add_option("-o,--output", options.output,
                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
-                    "a cube; a video: .mp4 .webm .gif; - for "
+                    "a cube; a video: .mp4 .webm .mov .gif .webp; - for "
                     "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
@@ -232,8 +234,22 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                     "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
         ->type_name("N")
         ->check(number<int>("a whole number"));
-    command.add_flag("--resume", options.resume,
-                     "Goes on where a capture was cut short: frames that are there already are kept");
+    command
+        .add_option("--samples", options.samples,
+                    "Makes each frame the mean, in linear light, of N that are shifted within their pixels")
+        ->type_name("N")
+        ->check(number<int>("a whole number from 1 to 65536", 1, render::k_most_samples))
+        ->excludes("--allow-difference");
+    command
+        .add_option(
+            "--shutter", options.shutter,
+            "Motion blur: those samples see as much of the time to the next frame, 0 to 1 [16 samples]")
+        ->type_name("PART")
+        ->check(number<double>("a number from 0 to 1", 0, 1))
+        ->excludes("--allow-difference");
+    auto* resume =
+        command.add_flag("--resume", options.resume,
+                         "Goes on where a capture was cut short: frames that are there already are kept");
     command
         .add_option("--state-every", options.state_every,
                     "Saves the buffers of a scene that reads its own last frame, for --resume")
@@ -244,6 +260,11 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
             "--shard", options.shard,
             "Makes every N-th frame, from the K-th on, for one of N processes; slurm: as a task of an array")
         ->type_name("K/N|slurm");
+    command
+        .add_flag("--loop", options.loop,
+                  "Says whether the sequence goes round: how like its first the frame behind its last is")
+        ->excludes(resume)
+        ->excludes("--shard");
     command.add_flag("--json", options.json, "One JSON object about the frames on standard output");
 }
 

@@ -94,6 +94,17 @@ Result<void> check_keeping(const CaptureOptions& options, const OutputName& outp
     return {};
 }
 
+/// A frame of motion blur alone, or of smooth edges alone, is seldom wanted: both go together.
+constexpr int k_samples_of_shutter = 16;
+
+/// Whole numbers clip what they cannot hold; so does a display, sample by sample.
+render::Exposure exposure_of(const CaptureOptions& options, SampleDepth depth) {
+    const double shutter = options.shutter.value_or(0);
+    return {.samples = options.samples.value_or(shutter > 0 ? k_samples_of_shutter : 1),
+            .shutter = shutter,
+            .clamped = depth == SampleDepth::u8 || depth == SampleDepth::u16};
+}
+
 /// What the output can hold.
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
@@ -108,6 +119,8 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
             return fits;
     }
     TRY(check_keeping(options, output, extent));
+    if (options.loop && plan.frames.frames.size() < 2)
+        return fail(ErrorCode::usage, "--loop: give --frames, two at least");
     if (options.tile && output.video())
         return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
     if (options.timeout && !(*options.timeout > 0))
@@ -135,9 +148,11 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     const auto depth = TRY(parse_depth(options.depth, plan.output, plan.frames.state.pass));
     plan.depth = depth;
     plan.pace = pace_of(numbers, plan.frames.state.fps);
+    plan.exposure = exposure_of(options, plan.depth);
+    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several();
     plan.drawing = {
         .extent = plan.frames.state.extent,
-        .samples = plan.depth == SampleDepth::u8 ? SampleType::u8 : SampleType::f32,
+        .samples = bytes ? SampleType::u8 : SampleType::f32,
         .pass = plan.frames.state.pass,
         .precision = precision_of(options.scene),
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
@@ -153,6 +168,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.likeness = options.likeness;
     plan.json = options.json;
     plan.resume = options.resume;
+    plan.loop = options.loop;
     plan.state_every = options.state_every;
     plan.trace_command = [scene = options.scene, frames = plan.frames](const render::FrameState& state) {
         return trace_command(scene, frames, state);

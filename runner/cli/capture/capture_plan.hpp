@@ -9,6 +9,7 @@
 #include "cli/output_name.hpp"
 #include "cli/trial.hpp"
 #include "image/files/picture_file.hpp"
+#include "render/exposure.hpp"
 #include "render/renderer.hpp"
 
 #include <functional>
@@ -37,8 +38,11 @@ struct CaptureOptions {
     bool plain = false;
     std::optional<double> allowed_difference;
     std::optional<int> tile;
+    std::optional<int> samples;
+    std::optional<double> shutter;
     bool json = false;
     bool resume = false;
+    bool loop = false;
     int state_every = 0;
     std::string shard;
     std::vector<std::string> words{}; ///< as they were typed, without --shard and --resume
@@ -64,6 +68,7 @@ struct CapturePlan {
     VideoPace pace;                       ///< of a video
     std::vector<VideoSegment> segments{}; ///< of a video: all its frames
     render::RenderOptions drawing;        ///< frames drawn whole
+    render::Exposure exposure;
     std::optional<int> tile_side;
     std::optional<PlannedTrial> trial;
     std::string device;
@@ -73,6 +78,7 @@ struct CapturePlan {
     std::optional<Likeness> likeness{};
     bool json = false;            ///< reports the frames, with the SHA-256 of their pixels
     bool resume = false;          ///< goes on where a capture was cut short
+    bool loop = false;            ///< says whether the sequence goes round
     int state_every = 0;          ///< frames between two saved states of buffers; 0: none is saved
     std::optional<Shard> shard{}; ///< whose `frames` these are
     std::vector<int> kept{};      ///< frames that are there already, and no more among `frames`

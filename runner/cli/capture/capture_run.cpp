@@ -10,6 +10,7 @@
 #include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
 #include "image/files/cubemap_file.hpp"
+#include "image/files/file_samples.hpp"
 #include "render/bands.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
         const auto outcome =
-            TRY(renderer_.tiles() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record));
+            TRY(in_bands() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record));
         if (outcome == Outcome::interrupted) {
             if (video_)
                 video_->drop();
@@ -69,10 +70,17 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         records_.push_back(std::move(record));
         progress.advance();
     }
+    if (plan_.loop && whole_frames() > 0)
+        TRY(close_loop(interrupt));
     TRY(close_output());
     if (plan_.shard && plan_.state_every > 0 && !plan_.frames.frames.empty() && renderer_.plan().feedback)
         TRY(saver_.save_buffers(plan_.frames.frames.back() + 1)); // the next shard may begin there
     return true;
+}
+
+/// Else the frame is in memory as a whole: samples that are one tile each are, as videos want it.
+bool Capture::in_bands() const {
+    return renderer_.tiles() && !(plan_.exposure.several() && renderer_.tiles()->count() == 1);
 }
 
 Result<void> Capture::open_output() {
@@ -80,7 +88,7 @@ Result<void> Capture::open_output() {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
         video_.emplace(
             TRY(SegmentedVideo::create(plan_, fingerprint_, cube ? image::k_panorama : renderer_.extent())));
-    } else if (!plan_.output.standard_output() && !renderer_.tiles()) {
+    } else if (!plan_.output.standard_output() && !in_bands()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
         writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
     }
@@ -141,14 +149,39 @@ Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord
     return steps_drawn.complete;
 }
 
-Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
+/// Nothing where it is interrupted.
+Result<std::optional<image::Image>> Capture::picture_of(int frame, const Interrupt& interrupt,
+                                                        FrameRecord& record) {
     std::optional<Work> work(std::in_place);
     if (!TRY(step_to(frame, interrupt, record, *work)))
-        return Outcome::interrupted;
-    image::Image image = read_back();
+        return std::nullopt;
+    auto drawn = plan_.exposure.several() ? draw_samples(frame, interrupt) : read_back();
+    if (!drawn)
+        return std::nullopt;
+    image::Image image = *std::move(drawn);
     record.milliseconds = milliseconds_since(work->start);
     work.reset();
     record.not_finite = count_not_finite(renderer_, image);
+    if (plan_.depth == image::SampleDepth::u8)
+        image = image::in_bytes(std::move(image));
+    if (plan_.loop)
+        loop_.see(image);
+    return image;
+}
+
+/// Behind the last frame: one more is drawn, and goes nowhere.
+Result<bool> Capture::close_loop(const Interrupt& interrupt) {
+    FrameRecord behind;
+    return picture_of(frame_behind(plan_.frames.frames), interrupt, behind).map([](const auto& picture) {
+        return picture.has_value();
+    });
+}
+
+Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
+    auto drawn = TRY(picture_of(frame, interrupt, record));
+    if (!drawn)
+        return Outcome::interrupted;
+    image::Image image = *std::move(drawn);
     if (plan_.json) {
         Sha256 hash;
         add_rows(hash, image);
@@ -167,7 +200,8 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     work.watch.reset();
     auto output = TRY(open_bands(record));
     BandOutput& bands = *output;
-    Progress progress("tiles", renderer_.tiles()->count());
+    const render::ExposedFrame exposed = expose(plan_.exposure, states_(frame));
+    Progress progress("tiles", renderer_.tiles()->count() * exposed.samples.size());
     const auto before_tile = [&] {
         if (work.watch)
             progress.advance();
@@ -175,7 +209,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
         return !interrupt.requested();
     };
-    auto drawn = render::draw_bands(renderer_, inputs_of(states_(frame)), before_tile,
+    auto drawn = render::draw_bands(renderer_, exposed, before_tile,
                                     [&](image::Image band) { return bands.take(std::move(band)); });
     if (drawn && *drawn) {
         progress.advance();
@@ -209,6 +243,16 @@ image::Image Capture::read_back() const {
         return renderer_.read_back();
     const image::CubeFaces faces = renderer_.read_back_cube();
     return plan_.output.six_faces() ? image::column_of(faces) : image::equirectangular_of(faces);
+}
+
+/// Nothing where it is interrupted.
+std::optional<image::Image> Capture::draw_samples(int frame, const Interrupt& interrupt) {
+    const render::ExposedFrame exposed = expose(plan_.exposure, states_(frame));
+    Progress progress("samples", exposed.samples.size());
+    return draw_in_tiles(renderer_, exposed, [&] {
+        progress.advance();
+        return !interrupt.requested();
+    });
 }
 
 size_t Capture::whole_frames() {
@@ -262,6 +306,10 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
                             {"Pass", renderer_.shown_pass().name},
                             {"Precision", name_of(renderer_.precision())},
                             {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)}});
+    if (plan_.exposure.several())
+        format.metadata.emplace_back("Samples", std::to_string(plan_.exposure.samples));
+    if (plan_.exposure.shutter > 0)
+        format.metadata.emplace_back("Shutter", fmt::format("{}", plan_.exposure.shutter));
     if (!plan_.request.defines.empty())
         format.metadata.emplace_back("Defines", fmt::format("{}", fmt::join(plan_.request.defines, "; ")));
     return format;
@@ -286,6 +334,8 @@ nlohmann::ordered_json Capture::report() const {
     report["left_out"] = facts_of(renderer_).left_out;
     if (plan_.resume)
         report["kept"] = plan_.kept;
+    if (plan_.loop)
+        report["loop"] = {{"closing_psnr", loop_.closing()}, {"step_psnr", loop_.step()}};
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records_) {
         const render::FrameState state = states_(record.frame);

@@ -3,6 +3,7 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
+#include "cli/capture/loop_check.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/state_saver.hpp"
 #include "cli/capture/watchdog.hpp"
@@ -51,6 +52,8 @@ public:
     size_t whole_frames();
 
     const std::vector<FrameRecord>& records() const { return records_; }
+    /// Of a sequence that is complete.
+    const LoopCheck& loop() const { return loop_; }
     /// What `--json` prints.
     nlohmann::ordered_json report() const;
 
@@ -63,13 +66,18 @@ private:
         std::optional<Watchdog::Watch> watch;
     };
 
+    bool in_bands() const;
     void prepare(Interrupt& interrupt);
     void restore();
     Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
+    Result<std::optional<image::Image>> picture_of(int frame, const Interrupt& interrupt,
+                                                   FrameRecord& record);
     Result<Outcome> make(int frame, const Interrupt& interrupt, FrameRecord& record);
+    Result<bool> close_loop(const Interrupt& interrupt);
     Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record);
     Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
     image::Image read_back() const;
+    std::optional<image::Image> draw_samples(int frame, const Interrupt& interrupt);
     Result<bool> deliver(const FrameRecord& record, image::Image image);
     image::PictureFormat format_of(const FrameRecord& record) const;
     Result<void> open_output();
@@ -89,7 +97,8 @@ private:
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_; ///< of pictures
     std::optional<SegmentedVideo> video_; ///< neither: frames go to standard output
-    Watchdog watchdog_;                   ///< last: its thread may use the writer
+    LoopCheck loop_;
+    Watchdog watchdog_; ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;
 };
 

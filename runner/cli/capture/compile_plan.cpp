@@ -18,9 +18,29 @@ Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
         return render::tile_of_side(*plan.tile_side, limit).map([](Extent tile) {
             return std::optional(tile);
         });
-    if (plan.output.video())
-        return std::nullopt;
-    return render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
+    const auto tile = plan.output.video() ? std::nullopt
+                                          : render::tile_for(plan.drawing.extent,
+                                                             4 * image::size_of(plan.drawing.samples), limit);
+    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, which is shifted
+}
+
+/// What the scene does not allow, whatever the command line says.
+Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
+    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
+    if (plan.tile_side && !renderer.tiles())
+        return refuse(fmt::format(
+            "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
+            renderer.shown_pass().name));
+    if (plan.loop && renderer.tiles() && renderer.tiles()->count() > 1)
+        return refuse("--loop: pictures that are drawn in tiles are never in memory as a whole");
+    if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
+        return refuse("--samples: only Image is a picture; what other passes hold has no mean");
+    if (plan.exposure.several() && !renderer.tiles())
+        return refuse("--samples: Image cannot be drawn again: a pass reads it, or it discards pixels");
+    if (plan.exposure.shutter > 0 && renderer.plan().feedback)
+        return refuse("--shutter: this scene reads its own last frame, so that it has no moments between "
+                      "two frames; --samples alone smooths its edges");
+    return {};
 }
 
 /// Where it pays, the faster of two programs; in tiles too large a picture is drawn to draw it for a trial.
@@ -44,12 +64,7 @@ Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
     render::RenderOptions drawing = plan.drawing;
     drawing.tile = tile;
     auto compiled = TRY(choose_renderer(plan, drawing));
-    if (plan.tile_side && !compiled.renderer.tiles())
-        return fail(
-            ErrorCode::usage,
-            fmt::format(
-                "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
-                compiled.renderer.shown_pass().name));
+    TRY(check_compiled(plan, compiled.renderer));
     return compiled;
 }
 

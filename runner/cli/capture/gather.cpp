@@ -148,7 +148,8 @@ Result<void> make_video(const CapturePlan& pictures, const std::string& name, co
     CapturePlan plan = pictures;
     plan.output = TRY(OutputName::parse(name, plan.frames.frames.size()));
     if (!plan.output.video() || pictures.output.six_faces())
-        return fail(ErrorCode::usage, fmt::format("-o {}: give an .mp4, a .webm or a .gif", name));
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: give an .mp4, a .webm, a .mov, a .gif or a .webp", name));
     plan.segments = segments_of(plan.frames.frames, 0);
     const auto sound = draw_sound_of_video(plan, interrupt);
     std::optional<SegmentedVideo> video;
@@ -201,7 +202,7 @@ void add_gather(CLI::App& app, Action& chosen) {
     command->add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
         ->required()
         ->check(unnamed(CLI::ExistingDirectory));
-    command->add_option("-o,--output", options->video, "A video of the frames: .mp4 .webm .gif")
+    command->add_option("-o,--output", options->video, "A video of the frames: .mp4 .webm .mov .gif .webp")
         ->type_name("OUT");
     command->add_option("--sample", options->samples, "Frames that are drawn again and compared")
         ->type_name("N")

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 namespace tidemark::cli {
 namespace {
 
@@ -56,6 +58,25 @@ void keep_inside(const std::string& picture, const SceneRequest& typed, Moment& 
         moment.sequence.input_file.clear();
 }
 
+/// What the picture says of itself under that name, if it is a number that an option could give.
+template <class T>
+std::optional<T> number_in(const image::Metadata& metadata, std::string_view name, T low, T high) {
+    const std::string* const text = image::find(metadata, name);
+    T number{};
+    if (!text || std::from_chars(text->data(), text->data() + text->size(), number).ec != std::errc() ||
+        !(number >= low && number <= high))
+        return std::nullopt;
+    return number;
+}
+
+/// What the picture is the mean of.
+void take_exposure(const image::Metadata& metadata, CaptureOptions& options) {
+    if (!options.samples)
+        options.samples = number_in(metadata, "Samples", 1, render::k_most_samples);
+    if (!options.shutter)
+        options.shutter = number_in(metadata, "Shutter", 0.0, 1.0);
+}
+
 /// What is typed counts, all else is the moment's.
 SceneRequest completed(SceneRequest typed, Moment& moment) {
     SceneRequest& scene = moment.scene;
@@ -98,6 +119,7 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
         moment.sequence.state = without_recorded(std::move(moment.sequence.state));
     }
     scene = completed(std::move(scene), moment);
+    take_exposure(*metadata, options);
     const std::string* fingerprint = image::find(*metadata, k_fingerprint);
     options.likeness = Likeness{std::move(moment.sequence), fingerprint ? *fingerprint : ""};
     return options;

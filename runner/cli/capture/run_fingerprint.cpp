@@ -14,10 +14,13 @@ Json knob_facts(const scene::Scene& scene) {
 Json drawing_facts(const CapturePlan& plan) {
     const auto& [extent, samples, pass, precision, specialise, extras, tile, marks] = plan.drawing;
     const bool differs = plan.trial && plan.trial->frames.allowed;
-    return Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
-                        plan.output.pattern().extension().string(), plan.output.six_faces(),
-                        plan.output.video() ? Json(plan.pace.fps) : Json(),
-                        differs ? Json(*plan.trial->frames.allowed) : Json()});
+    Json facts = Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
+                              plan.output.pattern().extension().string(), plan.output.six_faces(),
+                              plan.output.video() ? Json(plan.pace.fps) : Json(),
+                              differs ? Json(*plan.trial->frames.allowed) : Json()});
+    if (plan.exposure.several())
+        facts.push_back(Json::array({plan.exposure.samples, plan.exposure.shutter}));
+    return facts;
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "cli/check/check_fix.hpp"
 #include "cli/check/check_portable.hpp"
 #include "cli/check/check_probes.hpp"
 #include "cli/check/check_trace.hpp"
@@ -19,6 +20,8 @@ struct CheckOptions {
     TraceOptions trace; ///< its scene, its device and its form are those of the probes
     bool portable = false;
     bool traced = false;
+    bool mended = false;
+    bool write = false;
     bool list = false;
 };
 
@@ -48,6 +51,11 @@ Result<int> trace(const CheckOptions& options) {
     return check_trace(trace);
 }
 
+FixOptions fix_options(const CheckOptions& options) {
+    const ProbesRequest& probes = options.probes;
+    return {probes.scene, probes.device, probes.budget, options.write, probes.json};
+}
+
 } // namespace
 
 void add_check(CLI::App& app, Action& chosen) {
@@ -58,7 +66,9 @@ void add_check(CLI::App& app, Action& chosen) {
     add_scene_options(*command, probes.scene);
     repeatable(command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]"))
         ->type_name("NAME");
-    command->add_option("-o,--output", probes.output, "Folder for a picture of each failure and warning")
+    command
+        ->add_option("-o,--output", probes.output,
+                     "Folder for index.html and a picture of each failure and warning")
         ->type_name("FOLDER");
     command
         ->add_option("--budget", probes.budget,
@@ -78,6 +88,16 @@ void add_check(CLI::App& app, Action& chosen) {
                    "Instead: where a NaN or an infinity in the picture has its origin")
         ->excludes(list)
         ->excludes("--portable");
+    auto* fix = command->add_flag("--fix", options->mended,
+                                  "Instead: cures of what is not finite, undefined or without a value, each "
+                                  "drawn before it is offered, as a diff");
+    fix->excludes(list)
+        ->excludes("--portable")
+        ->excludes("--trace")
+        ->excludes("--probe")
+        ->excludes("--output");
+    command->add_flag("--write", options->write, "Writes the cures into the scene's files, one by one")
+        ->needs(fix);
     add_trace_options(*command, options->trace);
     command->add_flag("--json", probes.json, "One JSON object on standard output");
     command->callback([options, &chosen] {
@@ -90,6 +110,7 @@ void add_check(CLI::App& app, Action& chosen) {
                    : options->portable
                        ? check_portable(options->probes.scene, options->probes.device, options->probes.json)
                    : options->traced ? trace(*options)
+                   : options->mended ? check_fix(fix_options(*options))
                                      : check_probes(options->probes);
         };
     });

@@ -4,6 +4,7 @@
 #include "base/try.hpp"
 #include "cli/check/one_thread.hpp"
 #include "cli/check/probe_result.hpp"
+#include "cli/check/verdict_page.hpp"
 #include "cli/check/verdicts.hpp"
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
@@ -61,24 +62,20 @@ Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::stri
     return chosen;
 }
 
-Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scene& scene) {
-    const fs::path file = file_beside(request.path, "check.json");
-    std::error_code ignored;
-    if (!fs::exists(file, ignored))
-        return lab::Promises{};
-    const auto text = TRY(scene::Bounds(file.parent_path(), request.files.allow_outside).read_text(file));
-    return lab::parse_promises(text, file.string(),
-                               [&](const std::string& name) { return glsl::definition_of(scene, name); });
-}
-
 Result<void> keep_picture(const OutputPath& folder, ProbeResult& asked) {
     if (folder.empty() || !asked.answer.picture || !is_finding(asked.answer))
         return {};
-    if (auto made = make_folder(folder); !made)
-        return made;
     const OutputPath picture = folder / fmt::format("{}.png", asked.probe->name);
     asked.picture = picture.path();
     return image::write_picture(picture, *asked.answer.picture);
+}
+
+Result<void> keep_page(const OutputPath& folder, const ProbesRequest& request,
+                       std::span<const ProbeResult> all, double seconds) {
+    const OutputPath page = folder / "index.html";
+    TRY(write_file(page, verdict_page(request, all, seconds)));
+    say(fmt::format("wrote {}", page.string()));
+    return {};
 }
 
 /// Asks one probe, unless the scene leaves it out and nobody named it.
@@ -204,6 +201,16 @@ void trace(const ProbesRequest& request, const scene::Scene& scene, ProbeResult&
 
 } // namespace
 
+Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scene& scene) {
+    const fs::path file = file_beside(request.path, "check.json");
+    std::error_code ignored;
+    if (!fs::exists(file, ignored))
+        return lab::Promises{};
+    const auto text = TRY(scene::Bounds(file.parent_path(), request.files.allow_outside).read_text(file));
+    return lab::parse_promises(text, file.string(),
+                               [&](const std::string& name) { return glsl::definition_of(scene, name); });
+}
+
 Result<int> list_probes() {
     std::string text;
     for (const lab::Probe& probe : lab::all_probes())
@@ -218,6 +225,9 @@ Result<int> check_probes(const ProbesRequest& request) {
     const Clock::time_point start = Clock::now();
     auto scene = TRY(load(request.scene));
     const auto promises = TRY(promises_of(request.scene, scene));
+    const OutputPath folder = OutputPath::typed(request.output).sparing(files_read(scene));
+    if (!request.output.empty())
+        TRY(make_folder(folder)); // now: one that cannot be made is worth no minute of probes
     const bool verdicts_tell = !request.json && ::isatty(STDERR_FILENO) != 1;
     Progress progress("probes", verdicts_tell ? 0 : probes.size(), {.limit = request.budget});
     std::vector<ProbeResult> all;
@@ -238,6 +248,8 @@ Result<int> check_probes(const ProbesRequest& request) {
     if (!done)
         return fail(done.error());
     progress.step_aside();
+    if (!request.output.empty())
+        TRY(keep_page(folder, request, all, seconds_since(start)));
     const std::string last = request.json                 ? report(request, all)
                              : findings_are_diagnostics() ? ""
                                                           : summary(all, seconds_since(start));

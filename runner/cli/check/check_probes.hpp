@@ -3,6 +3,7 @@
 
 #include "base/result.hpp"
 #include "cli/requests.hpp"
+#include "lab/check/promises.hpp"
 
 #include <string>
 #include <vector>
@@ -12,11 +13,14 @@ namespace tidemark::cli {
 struct ProbesRequest {
     SceneRequest scene;
     std::vector<std::string> probes; ///< --probe; empty: all
-    std::string output;              ///< folder for pictures of failures; empty: none
+    std::string output;              ///< folder for index.html and pictures of failures; empty: none
     std::string device = "auto";
     double budget = 60; ///< seconds after which no other probe is begun
     bool json = false;
 };
+
+/// What the file beside a scene promises of it.
+Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scene& scene);
 
 /// What each probe looks at.
 Result<int> list_probes();

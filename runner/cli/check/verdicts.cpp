@@ -30,15 +30,6 @@ size_t count(std::span<const ProbeResult> all, Verdict verdict) {
         std::ranges::count(all, verdict, [](const ProbeResult& asked) { return asked.answer.verdict; }));
 }
 
-std::string reproduction(const ProbesRequest& request, const render::FrameState& state) {
-    const std::filesystem::path& scene = request.scene.path;
-    std::vector<std::string> words{"tidemark", "capture", file_word(scene)};
-    std::ranges::copy(option_words(request.scene), std::back_inserter(words));
-    std::ranges::copy(option_words(state), std::back_inserter(words));
-    words.insert(words.end(), {"-o", file_word(name_after_scene(scene, ".exr"))});
-    return shell_words(words);
-}
-
 std::string line(Verdict verdict, const std::string& probes, const std::string& sentence) {
     return fmt::format("{:4}  {:10}  {}\n", lab::to_string(verdict), probes, sentence);
 }
@@ -50,16 +41,6 @@ std::string indented(const std::string& text) {
     for (std::string each; std::getline(lines, each);)
         result += std::string(k_margin, ' ') + each + '\n';
     return result;
-}
-
-/// `2 fail, 1 warn, 14 pass, 12 n/a`.
-std::string counted(std::span<const ProbeResult> all) {
-    std::string text;
-    for (const Verdict verdict :
-         {Verdict::fail, Verdict::warn, Verdict::pass, Verdict::not_applicable, Verdict::cut})
-        if (const size_t number = count(all, verdict); number > 0)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, lab::to_string(verdict));
-    return text;
 }
 
 /// `: horizon 40 %, rays 22 %`: the shares of the time that are a percent or more, the largest first.
@@ -79,13 +60,32 @@ bool is_finding(const lab::Answer& answer) {
     return answer.verdict == Verdict::fail || answer.verdict == Verdict::warn;
 }
 
+std::string reproduction(const ProbesRequest& request, const ProbeResult& asked) {
+    if (!is_finding(asked.answer) || !asked.answer.where)
+        return {};
+    const std::filesystem::path& scene = request.scene.path;
+    std::vector<std::string> words{"tidemark", "capture", file_word(scene)};
+    std::ranges::copy(option_words(request.scene), std::back_inserter(words));
+    std::ranges::copy(option_words(*asked.answer.where), std::back_inserter(words));
+    words.insert(words.end(), {"-o", file_word(name_after_scene(scene, ".exr"))});
+    return shell_words(words);
+}
+
+std::string counted(std::span<const ProbeResult> all) {
+    std::string text;
+    for (const Verdict verdict :
+         {Verdict::fail, Verdict::warn, Verdict::pass, Verdict::not_applicable, Verdict::cut})
+        if (const size_t number = count(all, verdict); number > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, lab::to_string(verdict));
+    return text;
+}
+
 std::string row(const ProbesRequest& request, const ProbeResult& asked) {
     if (waits(asked))
         return {};
     std::string text = line(asked.answer.verdict, std::string(asked.probe->name), asked.answer.sentence) +
                        indented(asked.trace);
-    if (is_finding(asked.answer) && asked.answer.where)
-        text += indented(reproduction(request, *asked.answer.where));
+    text += indented(reproduction(request, asked));
     if (!asked.picture.empty())
         text += indented(asked.picture.string());
     return text;
@@ -129,8 +129,8 @@ std::string report(const ProbesRequest& request, std::span<const ProbeResult> al
                       {"verdict", lab::to_string(asked.answer.verdict)},
                       {"found", asked.answer.sentence},
                       {"seconds", asked.seconds}};
-        if (is_finding(asked.answer) && asked.answer.where)
-            entry["reproduction"] = reproduction(request, *asked.answer.where);
+        if (const std::string command = reproduction(request, asked); !command.empty())
+            entry["reproduction"] = command;
         if (!asked.picture.empty())
             entry["picture"] = asked.picture.string();
         if (asked.answer.non_finite) {

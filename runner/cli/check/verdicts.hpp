@@ -13,6 +13,13 @@ namespace tidemark::cli {
 /// Whether there is something to show.
 bool is_finding(const lab::Answer& answer);
 
+/// The command that draws the frame in which a probe found something; empty: it found nothing, or in no
+/// frame.
+std::string reproduction(const ProbesRequest& request, const ProbeResult& asked);
+
+/// `2 fail, 1 warn, 14 pass, 12 n/a`.
+std::string counted(std::span<const ProbeResult> all);
+
 /// A verdict with all that belongs to it. Empty for those that wait for `rest`.
 std::string row(const ProbesRequest& request, const ProbeResult& asked);
 

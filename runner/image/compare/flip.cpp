@@ -1,5 +1,7 @@
 #include "image/compare/flip.hpp"
 
+#include "image/transfer.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -21,10 +23,6 @@ constexpr double k_to_xyz[3][3] = {
     {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
     {1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0},
 };
-
-double linear_of(double srgb) {
-    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
 
 /// X, Y, Z as parts of the white's.
 Triple relative_xyz(const Triple& rgb) {
@@ -85,7 +83,8 @@ Planes opponent_of(const Image& image) {
     Planes planes = shown_colours(image);
     for (size_t i = 0; i < planes[0].values.size(); ++i) {
         const Triple rgb = at(planes, i);
-        const Triple yxz = opponent(relative_xyz({linear_of(rgb[0]), linear_of(rgb[1]), linear_of(rgb[2])}));
+        const Triple yxz =
+            opponent(relative_xyz({light_of_srgb(rgb[0]), light_of_srgb(rgb[1]), light_of_srgb(rgb[2])}));
         for (size_t c = 0; c < 3; ++c)
             planes[c].values[i] = yxz[c];
     }

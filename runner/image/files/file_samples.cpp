@@ -53,6 +53,16 @@ std::vector<std::byte> file_samples(const Image& image, SampleDepth depth) {
     return image.type == SampleType::u8 ? from_u8(image, depth) : from_f32(image, depth);
 }
 
+Image in_bytes(Image image) {
+    if (image.type == SampleType::u8)
+        return image;
+    Image bytes;
+    bytes.extent = image.extent;
+    bytes.channels = image.channels;
+    bytes.bytes = file_samples(image, SampleDepth::u8);
+    return bytes;
+}
+
 Image radiance_samples(const Image& image) {
     const Image colour = without_alpha(image);
     const std::vector<std::byte> floats = file_samples(colour, SampleDepth::f32);

@@ -14,6 +14,9 @@ namespace tidemark::image {
 /// rounds to nearest; f32 to f32 keeps every bit.
 std::vector<std::byte> file_samples(const Image& image, SampleDepth depth);
 
+/// The same picture in bytes, as `file_samples` makes them.
+Image in_bytes(Image image);
+
 /// What Radiance HDR can hold: three channels of f32, grey repeated, alpha left out, negatives and NaN as 0,
 /// nothing above the format's largest number.
 Image radiance_samples(const Image& image);

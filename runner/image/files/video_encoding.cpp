@@ -29,6 +29,26 @@ Words vp9(Extent) {
                   "-pix_fmt", "yuv420p"});
 }
 
+/// Of 4444 all colours are kept, in 10 bits, and sound as it is. The encoder takes what frames say of their
+/// colours.
+Words prores() {
+    return {"-vf",
+            "scale=out_color_matrix=bt709:out_range=tv,"
+            "setparams=colorspace=bt709:color_primaries=bt709:color_trc=iec61966-2-1",
+            "-c:v",
+            "prores_ks",
+            "-profile:v",
+            "4444",
+            "-pix_fmt",
+            "yuv444p10le",
+            "-vendor",
+            "apl0",
+            "-movflags",
+            "+write_colr",
+            "-c:a",
+            "pcm_s16le"};
+}
+
 Words lossless(Extent) {
     return {"-vf", "vflip", "-c:v", "libx264rgb", "-qp", "0", "-preset", "ultrafast", "-pix_fmt", "rgb24"};
 }
@@ -40,6 +60,8 @@ const VideoEncoding* encoding_of(const std::filesystem::path& path) {
         {".mp4", h264, {"-c:v", "copy", "-c:a", "aac", "-b:a", "192k", "-movflags", "+faststart"}},
         {".webm", vp9, {"-c:v", "copy", "-c:a", "libopus"}},
         {".gif", lossless, {"-filter_complex", k_palettes, "-loop", "0"}},
+        {".webp", lossless, {"-an", "-c:v", "libwebp_anim", "-lossless", "1", "-loop", "0"}},
+        {".mov", lossless, prores()},
     };
     const std::string extension = path.extension().string();
     const auto* found = std::ranges::find(encodings, std::string_view(extension), &VideoEncoding::extension);

@@ -10,8 +10,9 @@
 
 namespace tidemark::image {
 
-/// H.264 (with AAC) in .mp4, VP9 (with Opus) in .webm; colours as BT.709. A GIF has a palette for each frame,
-/// which is made when it is whole; until then its frames are kept without loss.
+/// H.264 (with AAC) in .mp4, VP9 (with Opus) in .webm, ProRes 4444 (with PCM) in .mov; colours as BT.709. A
+/// GIF has a palette for each frame, a WebP all bytes of it. These two and ProRes are encoded when they are
+/// whole; until then their frames are kept without loss.
 struct VideoEncoding {
     std::string_view extension;
     /// From frames that run from the bottom up into an .mp4 without sound.

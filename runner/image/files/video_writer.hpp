@@ -18,7 +18,7 @@ namespace tidemark::image {
 /// down.
 inline constexpr double k_fastest_gif = 50;
 
-/// Whether the name is one of a video: `.mp4`, `.webm`, `.gif`.
+/// Whether the name is one of a video: `.mp4`, `.webm`, `.mov`, `.gif`, `.webp`.
 bool is_video_name(const std::filesystem::path& path);
 
 struct VideoFormat {

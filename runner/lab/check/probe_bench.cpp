@@ -161,10 +161,11 @@ bool ProbeBench::has_hits() {
     return hit_problem_.empty();
 }
 
-const Result<PassFunction>& ProbeBench::image_function() {
-    if (!image_function_)
-        image_function_ = PassFunction::create(scene_, scene_.image());
-    return *image_function_;
+const Result<PassFunction>& ProbeBench::function_of(size_t pass) {
+    const auto found = functions_.find(pass);
+    return found != functions_.end()
+               ? found->second
+               : functions_.emplace(pass, PassFunction::create(scene_, scene_.passes[pass])).first->second;
 }
 
 std::string ProbeBench::see_bounds() const {

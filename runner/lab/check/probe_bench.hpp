@@ -68,7 +68,8 @@ public:
     bool fixed_steps() const { return fixed_steps_; }
 
     /// Image as a function in SSA form.
-    const Result<PassFunction>& image_function();
+    const Result<PassFunction>& image_function() { return function_of(scene_.image_index()); }
+    const Result<PassFunction>& function_of(size_t pass);
 
     /// A pass that is about to be drawn in that state: all frames before are drawn.
     Result<render::PassPreview> preview(const FrameState& state, size_t pass);
@@ -102,7 +103,7 @@ private:
     std::optional<std::string> recording_problem_;
     bool sees_below_ = false;
     bool fixed_steps_ = false;
-    std::optional<Result<PassFunction>> image_function_;
+    std::map<size_t, Result<PassFunction>> functions_;
     Promises promises_;
     DrawElsewhere with_one_thread_;
     bool has_main_hit_;

@@ -3,6 +3,7 @@
 // camera_position.
 #include "base/try.hpp"
 #include "image/census.hpp"
+#include "lab/check/field_on_rays.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
 #include "lab/defined_numbers.hpp"
@@ -149,9 +150,72 @@ std::optional<FrameState> level_view(const scene::Scene& scene) {
 
 } // namespace
 
+namespace {
+
+/// Of the rays, so far from their starts.
+struct FarAway {
+    size_t ended = 0;      ///< the march does not come there
+    size_t known = 0;      ///< where the field is bounded
+    size_t not_finite = 0; ///< of those: in float it is NaN or infinite
+    size_t off = 0;        ///< in float it is another distance
+
+    double off_percent() const { return 100.0 * double(off) / double(known); }
+};
+
+FarAway far_away(FieldOnRays& field, double units) {
+    constexpr double k_off = 0.01; // of the distance, and of the march's longest
+    FarAway seen;
+    for (size_t ray = 0; ray < field.rays(); ++ray) {
+        const auto in_float = field.in_float(ray, units);
+        const auto exact = in_float ? field.exact(ray, units) : std::nullopt;
+        seen.ended += !in_float;
+        if (!exact)
+            continue;
+        ++seen.known;
+        seen.not_finite += !std::isfinite(*in_float);
+        seen.off += std::abs(*in_float - *exact) > k_off * (std::abs(*exact) + field.longest(ray));
+    }
+    return seen;
+}
+
+/// Of a camera that cannot be moved: the field where its rays lead.
+Result<Answer> along_the_rays(ProbeBench& bench) {
+    auto field = FieldOnRays::create(bench, typical_view());
+    if (!field || field->rays() == 0)
+        return Answer{Verdict::not_applicable,
+                      "no iCamera and no knob camera_position to move, and no ray whose field is known"};
+    double good = 0;
+    for (const double units : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+        const FarAway seen = far_away(*field, units);
+        if (seen.known == 0)
+            return Answer{
+                good > 0 ? Verdict::pass : Verdict::not_applicable,
+                fmt::format("float and double agree to {:g} units along the rays; further out {}", good,
+                            seen.ended == field->rays() ? "no march goes" : "the field cannot be bounded")};
+        if (seen.not_finite > 0)
+            return Answer{fault(bench),
+                          fmt::format("{:g} units along {} of {} rays the distance is NaN or infinite", units,
+                                      seen.not_finite, seen.known)};
+        if (seen.off_percent() <= k_same) {
+            good = units;
+            continue;
+        }
+        return Answer{
+            good >= bench.promises().space_horizon ? Verdict::pass : fault(bench),
+            fmt::format("float and double agree to {:g} units along the rays; at {:g} units {:.3g} % of "
+                        "the distances are off by more than 1 % in float",
+                        good, units, seen.off_percent())};
+    }
+    return Answer{Verdict::pass, "float and double agree to 1e6 units along the rays"};
+}
+
+} // namespace
+
 Result<Answer> ask_places(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
+    if (!away(bench, 0) && !bench.has_main_hit())
+        return along_the_rays(bench);
     if (!away(bench, 0))
         return Answer{Verdict::not_applicable, "no iCamera and no knob camera_position to move"};
     for (const FrameState& state : below_and_above(bench)) {

@@ -18,9 +18,9 @@ namespace {
 
 constexpr Extent k_rays{16, 9};
 constexpr double k_moments[] = {1.0 / 3, 10};
-constexpr uint64_t k_most_evaluations = 5'000; ///< of a ray
+constexpr uint64_t k_most_evaluations = 20'000; ///< of a ray
 /// Of all rays of a moment: some seconds of a field of seven octaves. What is left of them is not looked at.
-constexpr uint64_t k_most_of_all = 12'500;
+constexpr uint64_t k_most_of_all = 50'000;
 /// Of the decided rays; below that is a matter of silhouettes.
 constexpr double k_most_wrong_percent = 0.5;
 
@@ -47,14 +47,33 @@ void look_at_rays(Extent whole, Look look) {
         left -= std::min<uint64_t>(left, look(pixel_of(i, whole)));
 }
 
-Result<RayCounts> count(ProbeBench& bench, const PassFunction& function) {
-    const size_t image = bench.scene().image_index();
+/// The pass that marches along rays.
+struct MarchingPass {
+    size_t index;
+    const PassFunction* function;
+};
+
+/// Image, if it does; else the first of those that lead to it.
+Result<std::optional<MarchingPass>> marching_pass(ProbeBench& bench) {
+    std::vector<size_t> passes{bench.scene().image_index()};
+    for (const render::PlannedPass& planned : TRY(bench.compiled())->plan().passes)
+        passes.push_back(planned.pass);
+    for (const size_t pass : passes) {
+        const auto& function = bench.function_of(pass);
+        if (function && !function->loops().empty())
+            return MarchingPass{pass, &*function};
+    }
+    return std::nullopt;
+}
+
+Result<RayCounts> count(ProbeBench& bench, const MarchingPass& pass) {
+    const PassFunction& function = *pass.function;
     RayCounts counts;
     for (const double moment : k_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
-        const ir::TextureSet textures = textures_of(renderer, image);
-        ir::FloatEvaluator pixel = function.frame(renderer, image, render::inputs_of(state));
+        const ir::TextureSet textures = textures_of(renderer, pass.index);
+        ir::FloatEvaluator pixel = function.frame(renderer, pass.index, render::inputs_of(state));
         look_at_rays(renderer.extent(), [&](glm::ivec2 at) -> uint64_t {
             function.move_to(pixel, at);
             const auto ray = prove_ray(function, pixel, textures, at, k_most_evaluations);
@@ -85,23 +104,20 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
     return text;
 }
 
-/// Why nothing can be proved of its rays.
-std::optional<Answer> without_march(ProbeBench& bench) {
-    const auto& function = bench.image_function();
-    if (!function)
-        return none("the text cannot be followed: " + function.error().message);
-    if (function->loops().empty())
-        return none("no loop of Image is found to march along a ray");
-    return std::nullopt;
+/// Why nothing can be proved of a scene's rays.
+Answer without_march(ProbeBench& bench) {
+    const auto& image = bench.image_function();
+    return none(image ? "no loop of a pass is found to march along a ray"
+                      : "the text cannot be followed: " + image.error().message);
 }
 
 } // namespace
 
 Result<Answer> ask_first_hit(ProbeBench& bench) {
-    if (auto answer = without_march(bench))
-        return *std::move(answer);
-    const auto& function = bench.image_function();
-    const RayCounts counts = TRY(count(bench, *function));
+    const auto pass = TRY(marching_pass(bench));
+    if (!pass)
+        return without_march(bench);
+    const RayCounts counts = TRY(count(bench, *pass));
     if (counts.rays == 0)
         return none("no ray comes to the loop that marches");
     if (counts.unknown_texture == counts.rays)
@@ -109,12 +125,13 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
     if (counts.unfaithful == counts.rays)
         return none("the march remembers more than its place on the ray");
     if (counts.decided() == 0)
-        return none(fmt::format("no ray is decided: {}", to_string(counts.commonest())));
+        return none(
+            fmt::format("none of {} rays is decided: {}", counts.rays, to_string(counts.commonest())));
     if (counts.contradicted > 0)
         return none(
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted));
     const bool wrong = percent(counts.step_over + counts.miss, counts.decided()) > k_most_wrong_percent;
-    return Answer{wrong ? Verdict::warn : Verdict::pass, sentence_of(*function, counts)};
+    return Answer{wrong ? Verdict::warn : Verdict::pass, sentence_of(*pass->function, counts)};
 }
 
 namespace {
@@ -150,7 +167,7 @@ struct Scales {
 uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& scales) {
     ir::MarchSlice& slice = *ray.slice;
     const double last = slice.end(ray.march);
-    if (!(last > slice.start()) || !std::isfinite(last))
+    if (last < slice.start() || !std::isfinite(last))
         return 0;
     const ir::FirstHit hit = ir::first_hit(slice, last, k_most_evaluations);
     if (hit.verdict != ir::FirstHit::Verdict::hit)
@@ -169,13 +186,12 @@ uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& s
     return slice.evaluations();
 }
 
-Result<Scales> scales_of(ProbeBench& bench, const PassFunction& function) {
-    const size_t image = bench.scene().image_index();
+Result<Scales> scales_of(ProbeBench& bench, const MarchingPass& pass) {
     Scales scales;
     for (const double moment : k_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
-        const MarchRays rays({function, renderer, image, render::inputs_of(state)});
+        const MarchRays rays({*pass.function, renderer, pass.index, render::inputs_of(state)});
         look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) -> uint64_t {
             auto ray = rays.enter(pixel, ir::Surface::zero);
             const bool marches = ray && ray->slice && !ray->march.turns.empty();
@@ -205,20 +221,21 @@ std::string scales_sentence(const Scales& scales) {
 } // namespace
 
 Result<Answer> ask_step_scale(ProbeBench& bench) {
-    if (auto answer = without_march(bench))
-        return *std::move(answer);
-    const auto& function = bench.image_function();
+    const auto pass = TRY(marching_pass(bench));
+    if (!pass)
+        return without_march(bench);
+    const std::vector<ir::MarchingLoop>& loops = pass->function->loops();
     const auto fixed = [](const ir::MarchingLoop& loop) {
         return loop.kind == ir::MarchingLoop::Kind::fixed_step;
     };
-    if (std::ranges::all_of(function->loops(), fixed))
+    if (std::ranges::all_of(loops, fixed))
         return none("the march goes in steps of a fixed length");
-    const Scales scales = TRY(scales_of(bench, *function));
+    const Scales scales = TRY(scales_of(bench, *pass));
     if (scales.hits == 0)
         return none("no ray is proved to come to a zero of the distance");
     // A march that waits for a sample below the surface goes back from it.
     const bool too_long =
-        function->loops()[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
+        loops[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
     if (!scales.bounded() && !too_long)
         return none(scales_sentence(scales));
     Answer answer{too_long ? Verdict::warn : Verdict::pass, scales_sentence(scales)};

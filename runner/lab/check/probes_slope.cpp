@@ -1,6 +1,7 @@
 // Slopes from differences of the field, as normals are made: of scenes with mainHit whose field is the
-// march_field of shaders/lib/march.glsl.
+// march_field of shaders/lib/march.glsl, and of those whose march is known from the text.
 #include "lab/check/field_bench.hpp"
+#include "lab/check/field_on_rays.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
 #include "lab/defined_numbers.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -62,15 +64,69 @@ std::vector<double> own_steps(const scene::Scene& scene) {
     return steps;
 }
 
-} // namespace
-
 /// Angles that this much of the rays' slopes err by show as facets.
 constexpr double k_visible_angle = 1; // degree
 
-Result<Answer> ask_normals(ProbeBench& bench) {
-    if (!bench.has_hits())
-        return without_hits(bench);
-    if (!bench.has_main_hit() || !has_march_field(bench.scene()))
+/// Over so far to either side.
+using SlopesOver = std::function<std::vector<double>(double step)>;
+
+Answer without_a_hit() {
+    return {Verdict::not_applicable, "no ray hits the surface"};
+}
+
+/// What differences over the distance that the scene itself takes are off by; none: it names none, or they
+/// do.
+std::optional<Answer> fault_of_own(const ProbeBench& bench, const SlopesOver& in_float,
+                                   const std::vector<double>& truth, double best_step) {
+    for (const double step : own_steps(bench.scene())) {
+        const auto angle = median_angle(in_float(step), truth);
+        if (!angle)
+            return Answer{
+                fault(bench),
+                fmt::format("every slope over the scene's own {:g} is NaN or infinite; best is {:g}", step,
+                            best_step),
+                typical_view()};
+        if (*angle > k_visible_angle)
+            return Answer{
+                fault(bench),
+                fmt::format("over the scene's own {:g} half of the slopes along the rays are off by {:.2g} "
+                            "degrees and more; best is {:g}",
+                            step, *angle, best_step),
+                typical_view()};
+    }
+    return std::nullopt;
+}
+
+Answer judged(const ProbeBench& bench, const SlopesOver& in_float, const SlopesOver& exact) {
+    const std::vector<double> truth = exact(1e-6);
+    // A picture's filter has steps, and a noise of floats: then there is no slope to be right about.
+    if (const auto own = median_angle(exact(1e-5), truth); own && *own > 0.1)
+        return {Verdict::not_applicable,
+                fmt::format("the field is not smooth: in double its slopes over 1e-5 and 1e-6 are {:.2g} "
+                            "degrees apart",
+                            *own)};
+    double best_step = 0, best = 1e9;
+    std::string range;
+    for (const double step : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+        const auto angle = median_angle(in_float(step), truth);
+        if (!angle)
+            return without_a_hit();
+        range += fmt::format("{}{:.2g} over {:g}", range.empty() ? "" : ", ", *angle, step);
+        if (*angle < best) {
+            best = *angle;
+            best_step = step;
+        }
+    }
+    if (auto answer = fault_of_own(bench, in_float, truth, best_step))
+        return *std::move(answer);
+    return {best > k_visible_angle ? Verdict::warn : Verdict::pass,
+            fmt::format("differences of the field give slopes along the rays to {:.2g} degrees at best, over "
+                        "{:g} (medians: {})",
+                        best, best_step, range)};
+}
+
+Result<Answer> ask_march_field(ProbeBench& bench) {
+    if (!has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take differences of"};
     const FieldQuestion question{k_slope_hit, {{.name = "tidemark_step"}}};
     auto in_float = FieldBench::create(bench.scene(), question, glsl::Precision::single);
@@ -80,49 +136,42 @@ Result<Answer> ask_normals(ProbeBench& bench) {
     auto in_double = FieldBench::create(bench.scene(), question, glsl::Precision::promoted);
     if (!in_double)
         return Answer{Verdict::not_applicable, "cannot be drawn in double: " + to_string(in_double.error())};
+    return judged(
+        bench, [&](double step) { return slopes(*in_float, step, typical_view()); },
+        [&](double step) { return slopes(*in_double, step, typical_view()); });
+}
 
-    const FrameState view = typical_view();
-    const std::vector<double> truth = slopes(*in_double, 1e-6, view);
-    // A picture's filter has steps, and a noise of floats: then there is no slope to be right about.
-    if (const auto own = median_angle(slopes(*in_double, 1e-5, view), truth); own && *own > 0.1)
-        return Answer{
-            Verdict::not_applicable,
-            fmt::format("the field is not smooth: in double its slopes over 1e-5 and 1e-6 are {:.2g} "
-                        "degrees apart",
-                        *own)};
-    double best_step = 0, best = 1e9;
-    std::string range;
-    for (const double step : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
-        const auto angle = median_angle(slopes(*in_float, step, view), truth);
-        if (!angle)
-            return Answer{Verdict::not_applicable, "no ray hits the surface"};
-        range += fmt::format("{}{:.2g} over {:g}", range.empty() ? "" : ", ", *angle, step);
-        if (*angle < best) {
-            best = *angle;
-            best_step = step;
+/// Where the march of the text itself ends: the field is known from that text.
+Result<Answer> ask_recorded(ProbeBench& bench) {
+    auto field = FieldOnRays::create(bench, typical_view());
+    if (!field)
+        return Answer{Verdict::not_applicable, "the text cannot be followed: " + field.error().message};
+    const auto over = [&](double step, auto distance) {
+        std::vector<double> slopes;
+        for (size_t ray = 0; ray < field->rays(); ++ray) {
+            const auto hit = field->hit(ray);
+            const auto before = hit ? distance(ray, *hit - step) : std::nullopt;
+            const auto behind = hit ? distance(ray, *hit + step) : std::nullopt;
+            slopes.push_back(before && behind ? (*behind - *before) / (2 * step) : std::nan(""));
         }
-    }
-    for (const double step : own_steps(bench.scene())) {
-        const auto angle = median_angle(slopes(*in_float, step, view), truth);
-        if (!angle)
-            return Answer{
-                Verdict::fail,
-                fmt::format("every slope over the scene's own {:g} is NaN or infinite; best is {:g}", step,
-                            best_step),
-                view};
-        if (*angle > k_visible_angle)
-            return Answer{
-                Verdict::fail,
-                fmt::format("over the scene's own {:g} half of the slopes along the rays are off by {:.2g} "
-                            "degrees and more; best is {:g}",
-                            step, *angle, best_step),
-                view};
-    }
-    return Answer{
-        best > k_visible_angle ? Verdict::warn : Verdict::pass,
-        fmt::format("differences of the field give slopes along the rays to {:.2g} degrees at best, over "
-                    "{:g} (medians: {})",
-                    best, best_step, range)};
+        return slopes;
+    };
+    return judged(
+        bench,
+        [&](double step) {
+            return over(step, [&](size_t ray, double at) { return field->in_float(ray, at); });
+        },
+        [&](double step) {
+            return over(step, [&](size_t ray, double at) { return field->exact(ray, at); });
+        });
+}
+
+} // namespace
+
+Result<Answer> ask_normals(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench);
+    return bench.has_main_hit() ? ask_march_field(bench) : ask_recorded(bench);
 }
 
 } // namespace tidemark::lab

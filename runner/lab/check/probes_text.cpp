@@ -10,18 +10,6 @@
 #include <algorithm>
 
 namespace tidemark::lab {
-namespace {
-
-/// `sum (a.glsl:4)`, `hit (a.glsl:9, an `out` that some path does not write)`; empty: not the author's.
-std::string to_text(const glsl::ParsedText& text, const glsl::Unassigned& each) {
-    const std::string place = place_of(text, word_without_value(text, each));
-    if (place.empty())
-        return {};
-    return fmt::format("{} ({}{})", text.word_of(each.what), place, words_for(each.why));
-}
-
-} // namespace
-
 Result<Answer> ask_unassigned(ProbeBench& bench) {
     const auto texts = read_texts(bench, true);
     if (!texts)
@@ -29,7 +17,7 @@ Result<Answer> ask_unassigned(ProbeBench& bench) {
     std::vector<std::string> found;
     for (const PassText& pass : *texts)
         for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
-            std::string said = to_text(*pass.text, each);
+            std::string said = sentence_for(*pass.text, each);
             if (!said.empty() && std::ranges::find(found, said) == found.end())
                 found.push_back(std::move(said));
         }

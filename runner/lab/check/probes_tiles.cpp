@@ -25,7 +25,7 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
             renderer->draw(inputs);
         return renderer;
     };
-    const auto cut = TRY(drawn(k_tile));
+    auto cut = TRY(drawn(k_tile));
     if (!cut.tiles())
         return Answer{Verdict::not_applicable, "a pass reads the picture, which is drawn whole at any size"};
     const image::Image tiled = render::draw_in_tiles(cut, inputs);

@@ -24,6 +24,13 @@ size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& 
     return text.tree()[declared ? each.what : each.at].word;
 }
 
+std::string sentence_for(const glsl::ParsedText& text, const glsl::Unassigned& each) {
+    const std::string place = place_of(text, word_without_value(text, each));
+    if (place.empty())
+        return {};
+    return fmt::format("{} ({}{})", text.word_of(each.what), place, words_for(each.why));
+}
+
 std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch) {
     const glsl::Node& at = text.tree()[branch.at];
     const std::string place = place_of(text, at.begin);

@@ -17,6 +17,9 @@ std::string_view words_for(glsl::Unassigned::Why why);
 /// The word of a text that it is about.
 size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& each);
 
+/// `sum (a.glsl:4)`, `hit (a.glsl:9, an `out` that some path does not write)`; empty: not the author's.
+std::string sentence_for(const glsl::ParsedText& text, const glsl::Unassigned& each);
+
 /// `neighbours may branch at a.glsl:3`, `called after the return at a.glsl:4`.
 std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch);
 

@@ -31,8 +31,10 @@ std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel, ir::Surface surface) 
     const ir::LoopSlice& slice = function.slices()[*index];
     const ir::FloatEvaluator entered = in_float;
     ray.march = ir::follow(in_float, function.function(), slice.loop);
-    if (ir::is_faithful(slice, entered, ray.march))
-        ray.slice.emplace(slice, in_double, ir::textures_in<ir::Interval>(textures_), surface);
+    if (!ir::is_faithful(slice, entered, ray.march))
+        return ray;
+    ray.slice.emplace(slice, in_double, ir::textures_in<ir::Interval>(textures_), surface);
+    ray.in_float.emplace(slice, entered);
     return ray;
 }
 

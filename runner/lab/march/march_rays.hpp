@@ -24,6 +24,8 @@ struct MarchRay {
     /// Nothing where the loop carries more than the place on the ray,
     /// or is another one in double.
     std::optional<ir::MarchSlice> slice;
+    /// The distance as the text has it in float, likewise.
+    std::optional<ir::FloatField> in_float;
 };
 
 class MarchRays {

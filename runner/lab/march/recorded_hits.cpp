@@ -23,7 +23,7 @@ constexpr double k_least_agreeing = 0.9;
 /// Of the values that the loop carries the one that is the ray's parameter itself.
 std::optional<size_t> parameter_of(const ir::MarchingLoop& loop) {
     for (size_t i = 0; i < loop.carried.size(); ++i)
-        if (loop.by_parameter() || loop.carried[i].factor == ir::k_no_value)
+        if (loop.by_parameter() || loop.carried[i].factors.empty())
             return i;
     return std::nullopt;
 }

@@ -20,6 +20,9 @@ namespace tidemark::lab {
 namespace fs = std::filesystem;
 namespace {
 
+/// Of all pictures in the page; those beyond it are links to the files beside it.
+constexpr size_t k_most_embedded = size_t{16} << 20;
+
 class Report {
 public:
     Report(const OutputPath& folder, Findings& findings)
@@ -95,9 +98,6 @@ private:
         for (const char* ending : {".svg", ".png"})
             if (auto picture = read_file(scratch.path() / (name + ending)))
                 add(name + ending, *std::move(picture));
-        if (const auto svg = std::ranges::find(files_, fs::path(name + ".svg"), &File::first);
-            svg != files_.end())
-            media_.diagrams.push_back({name, "data:image/svg+xml;base64," + base64(svg->second)});
     }
 
     /// The view on which the scene as it is does worst: there the differences are to be seen.
@@ -108,47 +108,42 @@ private:
         return worst == views.end() ? 0 : size_t(worst - views.begin());
     }
 
-    /// Keeps a picture, and returns it for the page.
-    Result<std::string> keep(const std::string& name, const image::Image& picture) {
+    /// Keeps a picture as `maps/NAME.png`, and as the page has it.
+    Result<PagePicture> keep(const std::string& label, const std::string& name, const image::Image& picture) {
         const fs::path file = scratch_.path() / (name + ".png");
         TRY(image::write_picture(file, picture));
         auto bytes = TRY(read_file(file, size_t{1} << 30));
-        std::string source = "data:image/png;base64," + base64(bytes);
-        add(fs::path("maps") / (name + ".png"), std::move(bytes));
-        return source;
+        PagePicture kept{label, "maps/" + name + ".png", {}};
+        if (embedded_ + bytes.size() <= k_most_embedded) {
+            embedded_ += bytes.size();
+            kept.source = "data:image/png;base64," + base64(bytes);
+        }
+        add(kept.file, std::move(bytes));
+        return kept;
     }
 
-    Result<void> show(const std::string& label, const std::string& name, const image::Image& picture) {
-        auto source = TRY(keep(name, picture));
-        media_.pictures.push_back({label, std::move(source)});
-        return {};
+    /// What a point shows, how far that is from the reference, and why.
+    Result<std::vector<PagePicture>> maps_of(size_t point, size_t view) {
+        std::vector<PagePicture> maps;
+        if (!set_.points[point].measured())
+            return maps;
+        const image::Image& picture = evidence_.pictures[point][view];
+        const auto flip = image::heat_map(image::flip(evidence_.reference[view], picture).map);
+        maps.push_back(TRY(keep("picture", fmt::format("{:02}-picture", point), picture)));
+        maps.push_back(TRY(keep("FLIP", fmt::format("{:02}-flip", point), flip)));
+        if (const auto& causes = evidence_.causes[point]; !causes.empty())
+            maps.push_back(TRY(keep("causes", fmt::format("{:02}-causes", point), causes[view])));
+        return maps;
     }
 
     Result<void> make_maps() {
         if (evidence_.reference.empty())
             return {};
         const size_t view = shown_view();
-        media_.pictures_view = set_.study.views[view].name;
-        const image::Image& reference = evidence_.reference[view];
-        if (auto done = show("reference", "reference", reference); !done)
-            return done;
-        std::vector<EmbeddedPicture> maps;
-        for (size_t i = 0; i < set_.points.size(); ++i) {
-            if (!set_.points[i].measured())
-                continue;
-            const std::string& label = set_.points[i].point.label;
-            const image::Image& picture = evidence_.pictures[i][view];
-            if (auto done = show(label, fmt::format("{:02}-picture", i), picture); !done)
-                return done;
-            auto flip =
-                TRY(keep(fmt::format("{:02}-flip", i), image::heat_map(image::flip(reference, picture).map)));
-            maps.push_back({"FLIP: " + label, std::move(flip)});
-            if (evidence_.causes[i].empty())
-                continue;
-            auto causes = TRY(keep(fmt::format("{:02}-causes", i), evidence_.causes[i][view]));
-            maps.push_back({"causes: " + label, std::move(causes)});
-        }
-        std::ranges::move(maps, std::back_inserter(media_.pictures));
+        media_.view = set_.study.views[view].name;
+        media_.reference = TRY(keep("reference", "reference", evidence_.reference[view]));
+        for (size_t i = 0; i < set_.points.size(); ++i)
+            media_.points.push_back(TRY(maps_of(i, view)));
         return {};
     }
 
@@ -157,6 +152,7 @@ private:
     const Evidence& evidence_;
     PageMedia media_;
     ScratchFolder scratch_;
+    size_t embedded_ = 0; ///< bytes of pictures in the page
     using File = std::pair<fs::path, std::string>;
     std::vector<File> files_; ///< names in the folder, and what is in them
 };

@@ -33,6 +33,15 @@ class OrbitCamera {
         return [...axes, position].flatMap((column, i) => [...column, i === 3 ? 1 : 0]);
     }
 
+    // How it was moved from where it begins: iOrbit without its last number, and iOrbitPan.
+    get motion() {
+        const first = new OrbitCamera(), turned = (this.azimuth - first.azimuth + 540) % 360 - 180;
+        const heading = first.azimuth * Math.PI / 180, [s, c] = [Math.sin(heading), Math.cos(heading)];
+        const [x, y, z] = this.target.map(at => at / first.distance);
+        return {orbit: [turned * Math.PI / 180, (this.elevation - first.elevation) * Math.PI / 180,
+                        this.distance / first.distance], pan: [c * x - s * z, y, s * x + c * z]};
+    }
+
     // The same, as seen from another camera.
     seenFrom(other) {
         const theirs = other.matrix, ours = this.matrix, seen = [];

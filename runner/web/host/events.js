@@ -40,7 +40,7 @@ class Drag {
 }
 
 function listenToPointer(figure) {
-    const {canvas, camera, renderer} = figure, turnsCamera = renderer.uses("iCamera", "iViewMatrix");
+    const {canvas, camera, renderer} = figure, turnsCamera = renderer.uses("iCamera", "iViewMatrix", "iOrbit");
     const drag = new Drag(figure, turnsCamera);
     const on = (name, act, options) => canvas.addEventListener(name, event => {
         act(event);

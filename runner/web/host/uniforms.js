@@ -40,6 +40,7 @@ function setUniform(gl, {type, size, place}, numbers, width = numbers.length) {
 // What each uniform is told: numbers, and how many make an element. `channels`: textures by number, or nothing.
 function uniformsAt(moment, size, channels) {
     const [width, height] = size, mouse = moment.mouse.uniform;
+    const {orbit, pan} = moment.camera.motion;
     const all = read => Array.from({length: 10}, (_, i) => channels[i] && read(channels[i]));
     const values = {
         iResolution: [[width, height, 1]], resolution: [[width, height, 1]],
@@ -51,6 +52,7 @@ function uniformsAt(moment, size, channels) {
         iChannelTime: [all(texture => texture.time).map(time => time ?? 0), 1],
         iChannelResolution: [all(texture => texture.size).flatMap(of => of ?? [0, 0, 0]), 3],
         iCamera: [moment.camera.matrix], iViewMatrix: [moment.camera.seenFrom(new OrbitCamera())],
+        iOrbit: [[...orbit, 1]], iOrbitPan: [pan],
     };
     channels.forEach((texture, i) => {
         values[`iCh${i}.size`] = values[`iChannel[${i}].resolution`] = [texture.size];

@@ -9,7 +9,9 @@
 namespace tidemark::cli {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
+using testing::Not;
 
 TEST(ParseSize, width_x_height) {
     EXPECT_EQ(parse_size("640x360"), (Extent{640, 360}));
@@ -122,6 +124,20 @@ TEST(StatesOf, a_frame_sees_what_was_asked_for) {
     EXPECT_EQ(inputs.date, (render::Date{2020, 5, 6, 7.5})) << "iDate goes on with iTime";
     EXPECT_EQ(inputs.camera, sequence.state.camera.matrix());
     EXPECT_EQ(inputs.view, glm::mat4(1));
+}
+
+TEST(StatesOf, a_mouse_moves_the_camera_where_there_is_one_to_move) {
+    render::FrameState state;
+    state.mouse = render::Mouse::clicked({1, 2}, false);
+    EXPECT_EQ(inputs_of(state).orbit, glm::dvec4(0, 0, 1, 0)) << "--mouse";
+    EXPECT_THAT(option_words(state), Not(Contains("--camera")));
+    state.initial_camera = state.camera;
+    EXPECT_EQ(inputs_of(state).orbit, glm::dvec4(0, 0, 1, 1)) << "--mouse --camera, a window";
+    EXPECT_THAT(option_words(state), Contains("--camera"));
+    state.mouse = {};
+    EXPECT_EQ(inputs_of(state).orbit.w, 0) << "nothing was touched";
+    state.camera.distance = 20;
+    EXPECT_EQ(inputs_of(state).orbit, glm::dvec4(0, 0, 2, 1));
 }
 
 TEST(StatesOf, a_time_falls_in_a_frame_and_the_frames_before_lead_to_it) {

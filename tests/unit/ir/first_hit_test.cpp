@@ -114,6 +114,29 @@ TEST(FirstHit, is_narrow_however_long_the_ray_is) {
     expect_hit(hit, 3 - 1.001);
 }
 
+TEST(FirstHit, of_a_ray_that_begins_below_the_surface_is_its_start) {
+    const FirstHit inside = hit_of("p.z + 3.0 > 0.5 ? 1.0 : -2.0", 0, 0);
+    EXPECT_EQ(inside.verdict, Verdict::hit);
+    EXPECT_EQ(inside.where.high, 0);
+    EXPECT_EQ(hit_of("length(p) - 1.0", 0, 0).verdict, Verdict::none);
+}
+
+/// Where nothing ends it, the march goes on until its place is no number any more.
+TEST(FirstHit, is_looked_for_up_to_the_last_place_that_is_a_number) {
+    const Function function =
+        marcher("length(p) - 1.0", "for (int i = 0; i < 200; ++i) { float d = map(ro + rd * t);"
+                                   "if (d < 0.001) break; t += d; }");
+    const auto loops = find_marching_loops(function);
+    ASSERT_EQ(loops.size(), 1u);
+    FloatEvaluator evaluator = entered(function, loops, 1.5f);
+    const LoopSlice turn = slice_of(function, loops[0]);
+    MarchSlice slice(turn, evaluator);
+    const March march = follow(evaluator, function, loops[0]);
+    EXPECT_FALSE(std::isfinite(march.turns.back().carried[0]));
+    EXPECT_TRUE(std::isfinite(slice.end(march)));
+    EXPECT_EQ(first_hit(slice, slice.end(march)).verdict, Verdict::none);
+}
+
 TEST(FirstHit, is_left_open_where_nothing_is_known) {
     const FirstHit grazing = hit_of("length(p) - 1.0", 1.001f);
     EXPECT_NE(grazing.verdict, Verdict::hit);

@@ -216,6 +216,14 @@ TEST(Interval, an_exact_product_is_not_widened) {
     EXPECT_LT((Interval{0.1, 0.1} * Interval{0.1, 0.1}).low, (Interval{0.1, 0.1} * Interval{0.1, 0.1}).high);
 }
 
+/// Else its power is not defined.
+TEST(Interval, a_quotient_has_no_other_sign_than_its_operands) {
+    EXPECT_EQ((Interval{0, 1} / Interval{2, 3}).low, 0);
+    EXPECT_EQ((Interval{0, 1} / Interval{-3, -2}).high, 0);
+    EXPECT_EQ((Interval{-1, 0} / Interval{2, 3}).high, 0);
+    EXPECT_LT((Interval{-1, 0} / Interval{2, 3}).low, -0.5);
+}
+
 TEST(Interval, an_exact_sum_is_not_widened) {
     EXPECT_EQ((Interval{0.01, 0.01} - Interval{0.01, 0.01}).high, 0);
     EXPECT_EQ((Interval{0.5, 3} + Interval{0.25, 0.25}).low, 0.75);

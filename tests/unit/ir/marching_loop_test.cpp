@@ -38,8 +38,30 @@ TEST(MarchingLoop, is_found_in_the_forms_that_authors_write) {
         "vec3 p = ro; for (int i = 0; i < 99; ++i) { float d = map(p); if (d < 1e-3) break; p += rd * d; }\n"
         "t = p.z;",
         Kind::sphere_tracing, 3);
+    expect_loop("vec3 p = ro, go = rd + vec3(iTime, 2.0 * iTime, iTime);\n"
+                "for (int i = 0; i < 99; ++i) { float d = map(p); if (d < 1e-3) break; p += go * d * 0.9; "
+                "}\nt = p.z;",
+                Kind::sphere_tracing, 3);
+    expect_loop(
+        "for (int i = 0; i < 99; ++i) { vec3 p = ro + rd * t; float d = p.x < 0.5 ? map(p) : map(p.yxz);\n"
+        "if (d < 1e-3) { t = min(t, 8.0); break; } if (t > 9.0) { t = 20.0; break; } t += d; }",
+        Kind::sphere_tracing, 1);
     expect_loop("for (int i = 0; i < 400; ++i) { t += 0.01; if (map(ro + rd * t) < 0.0) break; }",
                 Kind::fixed_step, 1);
+}
+
+/// What counts the way behind the test is a turn late there.
+TEST(MarchingLoop, carries_what_its_distance_is_made_of_alone) {
+    const std::string march = "vec3 p = ro, go = vec3(iTime, 2.0 * iTime, 0.1 + iTime);\n"
+                              "for (int i = 0; i < 100; ++i) { p += go; if (map(p) < 0.0) break; t += 0.1; }";
+    expect_loop(march, Kind::fixed_step, 3);
+    const Function function = marcher("length(p) - 1.0", march);
+    const auto loops = find_marching_loops(function);
+    FloatEvaluator evaluator = entered(function, loops, 0);
+    const LoopSlice turn = slice_of(function, loops[0]);
+    const MarchSlice slice(turn, evaluator);
+    const March followed = follow(evaluator, function, loops[0]);
+    EXPECT_NEAR(slice.parameter(followed.turns.back()) * slice.unit(), 2.1, 1e-4);
 }
 
 TEST(MarchingLoop, tells_where_the_ray_ends_and_in_which_line_it_is_tested) {

@@ -1,6 +1,7 @@
 // What is said of a study, made by hand so that the right answers are known.
 #include "lab/study/baseline.hpp"
 #include "lab/study/diagram.hpp"
+#include "lab/study/report_cells.hpp"
 #include "lab/study/report_data.hpp"
 #include "lab/study/report_html.hpp"
 #include "lab/study/timing.hpp"
@@ -170,14 +171,32 @@ TEST(Html, escapes_and_needs_no_network) {
     WorkPrecisionSet set = usual();
     set.points[2].failure = "a <b> & c";
     set.study.omissions = {"left <out>"};
-    const std::string html = to_html(
-        set,
-        {{}, {{"reference", "data:image/png;base64,AA=="}, {"<8>", "data:image/png;base64,BB=="}}, "first"});
+    PageMedia media{
+        "first", PagePicture{"reference", "maps/reference.png", "data:image/png;base64,AA=="}, {}};
+    media.points.resize(set.points.size());
+    media.points[1] = {{"<8>", "maps/01-picture.png", "data:image/png;base64,BB=="},
+                       {"large", "maps/01-flip.png", ""}};
+    const std::string html = to_html(set, media);
     EXPECT_THAT(html, HasSubstr("a &lt;b&gt; &amp; c"));
     EXPECT_THAT(html, HasSubstr("left &lt;out&gt;"));
     EXPECT_THAT(html, HasSubstr("&lt;8&gt;"));
-    EXPECT_THAT(html, Not(HasSubstr("http")));
+    EXPECT_THAT(html, HasSubstr("<a href=\"maps/01-flip.png\">large</a>"));
+    EXPECT_THAT(html, Not(HasSubstr("http:")));
+    EXPECT_THAT(html, Not(HasSubstr("https:")));
     EXPECT_THAT(html, Not(HasSubstr("<of it>")));
+}
+
+TEST(Html, numbers_have_three_digits_and_what_is_unknown_a_dash) {
+    for (const auto& [value, text] : std::vector<std::pair<double, std::string>>{{0, "0"},
+                                                                                 {0.0121, "0.0121"},
+                                                                                 {0.58, "0.580"},
+                                                                                 {-7, "-7.00"},
+                                                                                 {134.4, "134"},
+                                                                                 {20000, "20000"},
+                                                                                 {1.5e-7, "1.50e-07"},
+                                                                                 {INFINITY, "&infin;"},
+                                                                                 {NAN, "&ndash;"}})
+        EXPECT_EQ(number(value), text);
 }
 
 TEST(Baseline, tells_what_became_slower_or_more_wrong_and_nothing_else) {

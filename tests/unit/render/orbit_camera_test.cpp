@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -170,6 +171,31 @@ TEST(ParseCamera, azimuth_elevation_distance) {
     EXPECT_EQ(parse_camera("45.5,-20,1e2,1,-2.5,3")->target, glm::dvec3(1, -2.5, 3));
     EXPECT_EQ(parse_camera("0,90,1")->elevation, 89.9);
     EXPECT_EQ(parse_camera("0,-90,1")->elevation, -89.9);
+}
+
+TEST(OrbitMotion, is_exactly_none_at_the_start) {
+    const OrbitMotion motion = motion_of(OrbitCamera{});
+    EXPECT_EQ(motion.turn, glm::dvec2(0));
+    EXPECT_EQ(motion.distance, 1);
+    EXPECT_EQ(motion.pan, glm::dvec3(0));
+}
+
+TEST(OrbitMotion, turns_the_short_way_round) {
+    EXPECT_NEAR(motion_of(camera(350, 20, 10)).turn.x, glm::radians(-40.0), 1e-12);
+    EXPECT_NEAR(motion_of(camera(200, 65, 10)).turn.x, glm::radians(170.0), 1e-12);
+    EXPECT_NEAR(motion_of(camera(200, 65, 10)).turn.y, glm::radians(45.0), 1e-12);
+    EXPECT_EQ(motion_of(camera(30, 20, 25)).distance, 2.5);
+}
+
+TEST(OrbitMotion, pans_along_the_first_heading) {
+    OrbitCamera moved;
+    moved.elevation = 0; // the picture is 1 high at distance 1: a drag across its height pans by the distance
+    moved.pan(-100, 0, 100);
+    expect_near(motion_of(moved).pan, {1, 0, 0}, 1e-12);
+    moved.pan(0, -50, 100);
+    expect_near(motion_of(moved).pan, {1, 0.5, 0}, 1e-12);
+    expect_near(motion_of(camera(30, 20, 10, glm::dvec3(column(camera(30, 0, 10), 2)) * 20.0)).pan, {0, 0, 2},
+                1e-6);
 }
 
 TEST(ParseCamera, what_is_no_camera) {

@@ -1,0 +1,147 @@
+#include "cli/check/check_fix.hpp"
+
+#include "base/try.hpp"
+#include "cli/changed_files.hpp"
+#include "cli/check/check_probes.hpp"
+#include "cli/check/fix_text.hpp"
+#include "cli/console.hpp"
+#include "cli/error_json.hpp"
+#include "cli/forked.hpp"
+#include "cli/supervisor.hpp"
+#include "cli/version.hpp"
+#include "platform/headless_context.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::cli {
+namespace {
+
+Json files_json(const std::vector<ChangedFile>& files) {
+    Json json = Json::array();
+    for (const ChangedFile& file : files)
+        json.push_back({{"file", file.file}, {"before", file.before}, {"after", file.after}});
+    return json;
+}
+
+std::vector<ChangedFile> files_of(const Json& json) {
+    std::vector<ChangedFile> files;
+    for (const Json& file : json)
+        files.push_back({file.at("file").get<std::string>(), file.at("before").get<std::string>(),
+                         file.at("after").get<std::string>()});
+    return files;
+}
+
+/// In a process of its own, for a driver may hang or crash: one line for each cure, and for what remains.
+Result<void> mend(const FixOptions& options, const scene::Scene& scene, const lab::Promises& promises,
+                  const Tell& tell) {
+    const auto context = TRY(platform::HeadlessContext::create(options.device));
+    lab::Mending mending;
+    CuredFiles cured;
+    std::vector<ChangedFile> files; // of the last cure that can be written
+    mending.can_be_written = [&](std::span<const glsl::Cure> cures) {
+        auto changed = cured.with_last(cures);
+        if (changed)
+            files = *std::move(changed);
+        return changed.has_value();
+    };
+    mending.offered = [&](const lab::Offer& offer, std::span<const glsl::Cure> cures) {
+        tell(dump(Json{{"offer", to_json(offer, cures.back())},
+                       {"text", to_text(offer, cures.back())},
+                       {"files", files_json(files)}}));
+    };
+    mending.remains = [&](const lab::Remaining& remaining) {
+        tell(dump(Json{{"remains", {{"finding", remaining.finding}, {"why", remaining.why}}}}));
+    };
+    return lab::mend(scene, promises, mending);
+}
+
+/// What was told, shown as it comes.
+class Report {
+public:
+    explicit Report(const FixOptions& options) : options_(options) {}
+
+    Result<void> hear(const Json& line) {
+        if (auto error = error_of(line))
+            return fail(*std::move(error));
+        return line.contains("offer") ? take_offer(line) : take_remaining(line.at("remains"));
+    }
+
+    Result<int> finish(const scene::Scene& scene, const std::string& cut) {
+        if (!cut.empty())
+            say(cut);
+        if (options_.json)
+            TRY(put(dump(Json{{"tidemark", k_version},
+                              {"scene", scene.file.string()},
+                              {"cures", offers_},
+                              {"remain", remaining_},
+                              {"cut", cut}},
+                         2) +
+                    "\n"));
+        else if (offers_.empty() && remaining_.empty() && cut.empty())
+            TRY(put("nothing to mend\n"));
+        return !cut.empty()         ? exit_code(ErrorCode::timed_out)
+               : remaining_.empty() ? 0
+                                    : exit_code(ErrorCode::check_failed);
+    }
+
+private:
+    Result<void> take_offer(const Json& line) {
+        const std::vector<ChangedFile> files = files_of(line.at("files"));
+        if (options_.write)
+            TRY(write_files(files));
+        std::string difference_text;
+        for (const ChangedFile& file : files)
+            difference_text += difference(file);
+        Json offer = line.at("offer");
+        offer["difference"] = difference_text;
+        offer["written"] = options_.write;
+        offers_.push_back(std::move(offer));
+        return options_.json ? Result<void>()
+                             : put(line.at("text").get<std::string>() + difference_text + "\n");
+    }
+
+    Result<void> take_remaining(const Json& remaining) {
+        remaining_.push_back(remaining);
+        return options_.json
+                   ? Result<void>()
+                   : put(fmt::format("{}\n  not mended: {}\n", remaining.at("finding").get<std::string>(),
+                                     remaining.at("why").get<std::string>()));
+    }
+
+    const FixOptions& options_;
+    Json offers_ = Json::array(), remaining_ = Json::array();
+};
+
+/// Why it came to no end of its own; empty: it did.
+std::string why_cut(const ForkedResult& run, double budget) {
+    return run.timed_out     ? fmt::format("--budget of {:.3g} s is spent: there may be more", budget)
+           : run.signal != 0 ? crash_text(run.signal, run.doing)
+                             : "";
+}
+
+} // namespace
+
+Result<int> check_fix(const FixOptions& options) {
+    if (!(options.budget > 0))
+        return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
+    const scene::Scene scene = TRY(load(options.scene));
+    const lab::Promises promises = TRY(promises_of(options.scene, scene));
+    TRY(can_be_changed(scene));
+    Report report(options);
+    Result<void> heard;
+    const auto run = TRY(run_forked(
+        [&](const Tell& tell) {
+            if (auto done = mend(options, scene, promises, tell); !done)
+                tell(dump(to_json(done.error())));
+        },
+        {.seconds = options.budget, .unwanted = [&] { return !heard; }},
+        [&](std::string_view line) {
+            if (heard)
+                heard = report.hear(Json::parse(line));
+        }));
+    if (!heard)
+        return fail(heard.error());
+    return report.finish(scene, why_cut(run, options.budget));
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,22 @@
+// `tidemark check --fix SCENE`: cures of what the probes find (lab/fix), as differences of the scene's files.
+#pragma once
+
+#include "base/result.hpp"
+#include "cli/requests.hpp"
+
+#include <string>
+
+namespace tidemark::cli {
+
+struct FixOptions {
+    SceneRequest scene;
+    std::string device;
+    double budget = 60; ///< seconds for all of it
+    bool write = false; ///< into the files, each as soon as it is found better
+    bool json = false;
+};
+
+/// Exit code 1 where something was found that no cure is offered for.
+Result<int> check_fix(const FixOptions& options);
+
+} // namespace tidemark::cli

@@ -1,0 +1,113 @@
+#include "glsl/cure/cure.hpp"
+
+#include "text/lines.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace tidemark::glsl {
+namespace {
+
+/// One insertion, in the order in which those at one place have to stand: what ends an inner wrap, what ends
+/// an outer one, what begins an outer one, what begins an inner one. Of two around the same words the later
+/// cure is the outer one.
+struct Insertion {
+    size_t at = 0;
+    bool front = false;
+    size_t other = 0; ///< where its wrap's other half stands
+    std::string_view text{};
+    size_t cure = 0;
+
+    bool stands_before(const Insertion& next) const {
+        if (at != next.at)
+            return at < next.at;
+        if (front != next.front)
+            return next.front;
+        return other != next.other ? other > next.other : front ? cure > next.cure : cure < next.cure;
+    }
+};
+
+std::vector<text::Edit> edits_of(std::vector<Insertion> insertions) {
+    std::ranges::stable_sort(insertions, [](const auto& a, const auto& b) { return a.stands_before(b); });
+    std::vector<text::Edit> edits;
+    for (const Insertion& each : insertions)
+        edits.push_back({each.at, each.at, std::string(each.text)});
+    return edits;
+}
+
+/// Where the lines of a text begin, by the lines that their authors know.
+class Lines {
+public:
+    explicit Lines(const text::MappedText& text) : text_(text) {
+        int number = 0;
+        for (const std::string_view line : text::lines_of(text.text())) {
+            const SourceLocation where = text.lines().locate(++number);
+            lines_[{where.file, where.line}].push_back({number, line});
+        }
+    }
+
+    /// Every offset at which a word stands. A file may be in the text more than once.
+    std::vector<size_t> find(const WrittenWord& wanted) const {
+        std::vector<size_t> found;
+        const auto lines = lines_.find({wanted.where.file, wanted.where.line});
+        if (lines == lines_.end())
+            return found;
+        for (const Line& line : lines->second)
+            for (size_t i = line.text.find(wanted.word); i != line.text.npos;
+                 i = line.text.find(wanted.word, i + 1))
+                if (text_.lines().locate(line.number, int(i) + 1).column == wanted.where.column) {
+                    found.push_back(size_t(line.text.data() - text_.text().data()) + i);
+                    break;
+                }
+        return found;
+    }
+
+private:
+    struct Line {
+        int number;
+        std::string_view text;
+    };
+    const text::MappedText& text_;
+    std::map<std::pair<std::string, int>, std::vector<Line>> lines_;
+};
+
+/// Nothing where the ends of a wrap are not as many as its beginnings.
+std::optional<std::vector<Insertion>> insertions_of(const Lines& lines, std::span<const Cure> cures) {
+    std::vector<Insertion> all;
+    for (size_t number = 0; number < cures.size(); ++number)
+        for (const Wrap& wrap : cures[number].wraps) {
+            const auto begins = lines.find(wrap.first), ends = lines.find(wrap.last);
+            if (begins.size() != ends.size())
+                return std::nullopt;
+            for (size_t i = 0; i < begins.size(); ++i) {
+                const size_t end = ends[i] + wrap.last.word.size();
+                all.push_back({begins[i], true, end, wrap.front, number});
+                all.push_back({end, false, begins[i], wrap.behind, number});
+            }
+        }
+    return all;
+}
+
+} // namespace
+
+std::optional<std::string> cured(std::string_view text, std::string_view file, std::span<const Cure> cures) {
+    text::MappedText whole;
+    whole.append(text, file, 1);
+    const bool has_end = text.ends_with('\n');
+    if (!apply(whole, cures))
+        return std::nullopt;
+    std::string result = whole.text();
+    if (!has_end && result.ends_with('\n'))
+        result.pop_back();
+    return result;
+}
+
+bool apply(text::MappedText& text, std::span<const Cure> cures) {
+    auto insertions = insertions_of(Lines(text), cures);
+    if (!insertions)
+        return false;
+    text.apply(edits_of(*std::move(insertions)));
+    return true;
+}
+
+} // namespace tidemark::glsl

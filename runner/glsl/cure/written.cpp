@@ -1,0 +1,90 @@
+#include "glsl/cure/written.hpp"
+
+#include "glsl/syntax/builtin_functions.hpp"
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+constexpr size_t k_longest_repeated = 60;
+
+SourceLocation place_of(const ParsedText& text, size_t token) {
+    const text::Token& at = text.tokens()[token];
+    return text.source().lines().locate(at.line, at.column);
+}
+
+bool has_no_effect(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    const Node& node = tree[id];
+    const std::string_view word = text.word(node.word);
+    if (node.kind == NodeKind::assign || node.kind == NodeKind::postfix || word == "++" || word == "--")
+        return false;
+    if (node.kind == NodeKind::call) {
+        const std::string_view name = called_name(text, id);
+        const BuiltinFunction* const function = find_builtin(name);
+        if (facts.function(name) || !(facts.is_type(name) || (function && function->is(Trait::pure))))
+            return false;
+    }
+    for (NodeId child = node.first_child; child != k_no_node; child = tree[child].next)
+        if (!has_no_effect(text, facts, child))
+            return false;
+    return true;
+}
+
+/// An argument is what stands between two signs of its call, whatever macros it is made of.
+std::optional<WrittenTokens> between_signs(const ParsedText& text, const Node& argument) {
+    const Word &before = text.words()[argument.begin - 1], &behind = text.words()[argument.end];
+    if (before.from_macro() != behind.from_macro() || before.spelled + 1 >= behind.spelled ||
+        (before.from_macro() && before.used != behind.used))
+        return std::nullopt;
+    return WrittenTokens{before.spelled + 1u, behind.spelled - 1u};
+}
+
+std::optional<WrittenTokens> edges(const ParsedText& text, const Node& node, bool in_macro) {
+    const Word &first = text.words()[node.begin], &last = text.words()[node.end - 1];
+    if (!in_macro) {
+        const bool takes_arguments = last.from_macro() && last.used + 1u < text.tokens().size() &&
+                                     text.tokens()[last.used + 1u].is("(");
+        return takes_arguments ? std::nullopt : std::optional(WrittenTokens{first.used, last.used});
+    }
+    if (!first.from_macro() || !last.from_macro() || first.used != last.used || first.spelled > last.spelled)
+        return std::nullopt;
+    return WrittenTokens{first.spelled, last.spelled};
+}
+
+} // namespace
+
+std::optional<WrittenTokens> written_for(const ParsedText& text, NodeId id, NodeId operation) {
+    const SyntaxTree& tree = text.tree();
+    const bool in_macro = text.words()[tree[operation].word].from_macro();
+    const bool is_argument = id != operation && tree[operation].kind == NodeKind::call;
+    const auto tokens = is_argument ? between_signs(text, tree[id]) : edges(text, tree[id], in_macro);
+    if (!tokens)
+        return std::nullopt;
+    const SourceLocation from = place_of(text, tokens->first), to = place_of(text, tokens->last);
+    // The tokens of one macro's body stand on one line, or on lines that are joined: then they are left.
+    if (from.file.empty() || from.file != to.file || (in_macro && from.line != to.line))
+        return std::nullopt;
+    return tokens;
+}
+
+Wrap wrapped(const ParsedText& text, WrittenTokens tokens, std::string front, std::string behind) {
+    const auto word = [&](size_t token) {
+        return WrittenWord{place_of(text, token), std::string(text.tokens()[token].text)};
+    };
+    return {word(tokens.first), word(tokens.last), std::move(front), std::move(behind)};
+}
+
+std::optional<std::string> said_again(const ParsedText& text, const TreeFacts& facts, NodeId id,
+                                      WrittenTokens tokens) {
+    const text::Token &first = text.tokens()[tokens.first], &last = text.tokens()[tokens.last];
+    const std::string_view words =
+        std::string_view(text.source().text()).substr(first.begin, last.end() - first.begin);
+    if (words.size() > k_longest_repeated || first.line != last.line || words.find("//") != words.npos ||
+        !has_no_effect(text, facts, id))
+        return std::nullopt;
+    return std::string(words);
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,30 @@
+// Nodes of a text that is read to its tree, back to where their author wrote them: what a cure is made of.
+#pragma once
+
+#include "glsl/cure/cure.hpp"
+#include "glsl/syntax/parsed_text.hpp"
+#include "glsl/syntax/tree_facts.hpp"
+
+#include <optional>
+#include <string>
+
+namespace tidemark::glsl {
+
+/// Tokens of a ParsedText, both ends included.
+struct WrittenTokens {
+    size_t first = 0, last = 0;
+};
+
+/// What is written for a node that is `operation` or a part of it. Where a macro's body says the operation it
+/// is that body's tokens, and every use of the macro shares them. Nothing where they are not the author's, or
+/// where the body says only a part of it.
+std::optional<WrittenTokens> written_for(const ParsedText& text, NodeId id, NodeId operation);
+
+Wrap wrapped(const ParsedText& text, WrittenTokens tokens, std::string front, std::string behind);
+
+/// The tokens of an expression, to be said once more: nothing where that would do something twice, or where
+/// they are long.
+std::optional<std::string> said_again(const ParsedText& text, const TreeFacts& facts, NodeId id,
+                                      WrittenTokens tokens);
+
+} // namespace tidemark::glsl

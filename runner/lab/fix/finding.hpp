@@ -1,0 +1,35 @@
+// What the probes find in a scene and a text could be cured of: places, and what could be written there. A
+// context must be current.
+#pragma once
+
+#include "glsl/cure/cure.hpp"
+#include "lab/check/probe_bench.hpp"
+#include "lab/check/undefined_calls.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::lab {
+
+struct Finding {
+    enum class Kind {
+        no_value,   ///< read before it has one
+        not_finite, ///< NaN or infinity in a picture
+        undefined,  ///< a function outside of its domain, and visible
+    };
+    Kind kind = Kind::no_value;
+    std::string sentence;              ///< what is wrong, and where
+    std::optional<FrameState> where{}; ///< in which it shows
+    std::vector<glsl::Cure> cures{};   ///< the plainest first; empty: none is known
+};
+
+struct Findings {
+    std::vector<Finding> all;
+    std::vector<PictureView> views; ///< in which calls were looked at
+    std::string left_out{};         ///< why the text was not followed; empty: it was
+};
+
+Result<Findings> find_curable(ProbeBench& bench);
+
+} // namespace tidemark::lab

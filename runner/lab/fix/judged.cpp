@@ -1,0 +1,225 @@
+#include "lab/fix/judged.hpp"
+
+#include "base/try.hpp"
+#include "glsl/analysis/unassigned.hpp"
+#include "image/census.hpp"
+#include "image/compare/flip.hpp"
+#include "lab/statistics.hpp"
+#include "lab/stopwatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace tidemark::lab {
+namespace {
+
+using Kind = Finding::Kind;
+
+/// A guard leaves pixels that met nothing undefined as they are. Others may change though they were finite,
+/// where a clamp hid the NaN; by more than this, and it is another picture.
+constexpr double k_most_flip = 0.02;
+/// Of the pixels that a fault shows in: the percentage counts what differs visibly.
+constexpr double k_rounding = 0.01;
+/// Nobody knows what the picture should be where it is undefined: of more than this a person has to judge.
+constexpr double k_most_undefined = 0.1;
+/// Of 1, in the mean of the samples that were not finite and are so in double.
+constexpr double k_most_gap = 0.1;
+constexpr Extent k_timed_extent{320, 180};
+constexpr int k_timed_frames = 5;
+
+bool is_finite(std::span<const float> pixel) {
+    return std::ranges::all_of(pixel, [](float sample) { return std::isfinite(sample); });
+}
+
+std::span<const float> pixel_of(const image::Image& picture, size_t pixel) {
+    const auto channels = size_t(picture.channels);
+    return picture.f32().subspan(pixel * channels, channels);
+}
+
+double count_not_finite(const std::vector<PassPicture>& passes) {
+    size_t count = 0;
+    for (const PassPicture& pass : passes)
+        for (size_t i = 0; i < pass.picture.extent.pixels(); ++i)
+            count += !is_finite(pixel_of(pass.picture, i));
+    return double(count);
+}
+
+Result<double> count_without_value(ProbeBench& bench) {
+    size_t count = 0;
+    for (const PassText& pass : TRY(read_texts(bench, true)))
+        count += glsl::find_unassigned(*pass.text, pass.facts).size();
+    return double(count);
+}
+
+Result<double> undefined_percent(ProbeBench& bench, const std::vector<PictureView>& views) {
+    const auto texts = TRY(read_texts(bench, false));
+    double percent = 0;
+    for (const UndefinedCall& each : TRY(find_undefined(bench, texts, views)))
+        percent += each.percent;
+    return percent;
+}
+
+std::string name_of(Kind kind) {
+    return kind == Kind::no_value     ? "reads without a value"
+           : kind == Kind::not_finite ? "pixels that are not finite"
+                                      : "percent of the pixels that show what is undefined";
+}
+
+/// Adds a pass in one situation; false where a pixel is not finite any more.
+bool compare(const image::Image& before, const image::Image& after, Judgement& judgement) {
+    for (size_t i = 0; i < before.extent.pixels(); ++i) {
+        const auto left = pixel_of(before, i), right = pixel_of(after, i);
+        if (!is_finite(left))
+            continue;
+        if (!is_finite(right))
+            return false;
+        ++judgement.compared;
+        judgement.changed += std::memcmp(left.data(), right.data(), left.size_bytes()) != 0;
+    }
+    return true;
+}
+
+Result<bool> compare_all(Specimen& before, Specimen& after, const std::vector<FrameState>& states,
+                         Judgement& judgement) {
+    for (const FrameState& state : states) {
+        const auto &left = *TRY(before.passes(state)), &right = *TRY(after.passes(state));
+        if (left.size() != right.size())
+            return false;
+        const size_t changed = judgement.changed, compared = judgement.compared;
+        for (size_t pass = 0; pass < left.size(); ++pass)
+            if (!compare(left[pass].picture, right[pass].picture, judgement))
+                return false;
+        if (judgement.compared > compared)
+            judgement.largest_share =
+                std::max(judgement.largest_share,
+                         double(judgement.changed - changed) / double(judgement.compared - compared));
+        const image::Image &shown = left.back().picture, &now = right.back().picture;
+        if (judgement.changed > changed && !image::census(shown).first_non_finite)
+            judgement.flip = std::max(
+                judgement.flip, image::flip(image::without_alpha(shown), image::without_alpha(now)).mean);
+    }
+    return true;
+}
+
+/// The pictures of one scene in floats and in doubles; none where it has no doubles.
+struct InBoth {
+    image::Image floats, doubles;
+
+    double gap(size_t sample) const { return double(floats.f32()[sample]) - double(doubles.f32()[sample]); }
+};
+
+std::optional<InBoth> drawn_in_both(ProbeBench& bench, const FrameState& state) {
+    auto floats = bench.picture(state), doubles = bench.picture(state, glsl::Precision::promoted);
+    if (!floats || !doubles)
+        return std::nullopt;
+    return InBoth{*std::move(floats), *std::move(doubles)};
+}
+
+/// Where only the floats were not finite, doubles know what should be there.
+bool is_as_in_double(const InBoth& before, const image::Image& cured) {
+    double gap = 0;
+    size_t samples = 0;
+    for (size_t i = 0; i < cured.samples(); ++i) {
+        const double truth = before.doubles.f32()[i];
+        if (std::isfinite(before.floats.f32()[i]) || !std::isfinite(truth))
+            continue;
+        ++samples;
+        gap += std::abs(std::clamp(truth, 0.0, 1.0) - std::clamp(double(cured.f32()[i]), 0.0, 1.0));
+    }
+    return gap <= k_most_gap * double(samples);
+}
+
+/// False where doubles say that it is another picture. RMSE of floats against doubles, of both scenes over
+/// the samples that are finite in all four pictures.
+bool compare_errors(ProbeBench& before, ProbeBench& after, const FrameState& state, Judgement& judgement) {
+    const auto left = drawn_in_both(before, state), right = drawn_in_both(after, state);
+    if (!left || !right)
+        return true;
+    if (!is_as_in_double(*left, right->floats))
+        return false;
+    double squares[2]{};
+    size_t samples = 0;
+    for (size_t i = 0; i < left->floats.samples(); ++i) {
+        const double gaps[2]{left->gap(i), right->gap(i)};
+        if (!std::isfinite(gaps[0]) || !std::isfinite(gaps[1]))
+            continue;
+        ++samples;
+        for (const int which : {0, 1})
+            squares[which] += gaps[which] * gaps[which];
+    }
+    if (samples == 0)
+        return true;
+    judgement.error_before = std::sqrt(squares[0] / double(samples));
+    judgement.error_after = std::sqrt(squares[1] / double(samples));
+    return true;
+}
+
+/// Whether the picture is another one. A few pixels that showed something undefined may show anything.
+bool is_another(const Judgement& judgement, Kind kind) {
+    if (kind == Kind::no_value)
+        return judgement.changed > 0;
+    const bool by_the_fault =
+        kind == Kind::undefined &&
+        judgement.largest_share <= std::min(judgement.fault.before / 100 + k_rounding, k_most_undefined);
+    return judgement.flip > k_most_flip && !by_the_fault;
+}
+
+Result<void> time_both(ProbeBench& before, ProbeBench& after, Judgement& judgement) {
+    if (TRY(before.has_feedback()))
+        return {};
+    std::vector<double> times[2];
+    for (int frame = 0; frame <= k_timed_frames; ++frame)
+        for (ProbeBench* const bench : {&before, &after}) {
+            const Stopwatch watch;
+            TRY(bench->picture(state_at(frame, k_timed_extent)));
+            if (frame > 0) // the first one compiles
+                times[bench == &after].push_back(watch.elapsed().cpu);
+        }
+    judgement.milliseconds_before = median(times[0]);
+    judgement.milliseconds_after = median(times[1]);
+    return {};
+}
+
+} // namespace
+
+Result<const std::vector<PassPicture>*> Specimen::passes(const FrameState& state) {
+    for (const auto& [drawn, pictures] : drawn_)
+        if (drawn == state)
+            return &pictures;
+    auto pictures = TRY(bench_.passes(state));
+    return &drawn_.emplace_back(state, std::move(pictures)).second;
+}
+
+Result<double> Specimen::fault(const Finding& finding, const std::vector<PictureView>& views) {
+    if (finding.kind == Kind::no_value)
+        return count_without_value(bench_);
+    if (finding.kind == Kind::not_finite)
+        return count_not_finite(*TRY(passes(*finding.where)));
+    if (!undefined_)
+        undefined_ = TRY(undefined_percent(bench_, views));
+    return *undefined_;
+}
+
+Result<std::optional<Judgement>> judge(Specimen& before, Specimen& after, const Finding& finding,
+                                       const std::vector<PictureView>& views) {
+    std::optional<Judgement> none;
+    Judgement judgement{{name_of(finding.kind), TRY(before.fault(finding, views)), 0}};
+    judgement.fault.after = TRY(after.fault(finding, views));
+    if (!(judgement.fault.after < judgement.fault.before))
+        return none;
+    std::vector<FrameState> states = usual_moments();
+    if (finding.where)
+        states.push_back(*finding.where);
+    if (!TRY(compare_all(before, after, states, judgement)))
+        return none;
+    if (is_another(judgement, finding.kind))
+        return none;
+    if (!compare_errors(before.bench(), after.bench(), finding.where.value_or(plain_state()), judgement))
+        return none;
+    TRY(time_both(before.bench(), after.bench(), judgement));
+    return judgement;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,39 @@
+"""`capture --loop`: whether a sequence goes round."""
+import json
+
+from support.program import ProgramTest, main
+
+SPIN = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5 + 0.5 * sin(6.2831853 * iTime * TURNS + p.x / 9.0), 0.0, 0.0, 1.0); }\n"
+
+
+class Loop(ProgramTest):
+    def looped(self, turns: str, *options: str) -> str:
+        self.write("spin.glsl", SPIN.replace("TURNS", turns))
+        return self.succeed("capture", "spin.glsl", "--size", "32x18", "--fps", "20", "-o", "%d.png", "--loop", *options).stderr
+
+    def test_a_sequence_that_goes_round(self) -> None:
+        said = self.looped("1.0", "--frames", "0-19")
+        self.assertRegex(said, r"loop: the frame behind the last is the first to (inf|[5-9]\d\.\d) dB \(the second is it to [12]\d\.\d\): it goes round\n")
+        self.assertIn("it goes round", self.looped("1.0", "--frames", "0-18x2"))
+
+    def test_a_sequence_that_jumps(self) -> None:
+        self.assertIn("it jumps where it begins again", self.looped("0.5", "--frames", "0-19"))
+        self.assertNotIn("20.png", self.files())  # what was drawn behind the last goes nowhere
+
+    def test_samples_and_json(self) -> None:
+        self.write("spin.glsl", SPIN.replace("TURNS", "1.0"))
+        done = self.succeed("capture", "spin.glsl", "--size", "32x18", "--fps", "20", "--frames", "0-19", "-o", "%d.png", "--loop",
+                            "--shutter", "0.5", "--samples", "4", "--json")
+        loop = json.loads(done.stdout)["loop"]
+        self.assertGreater(loop["closing_psnr"] or 999, loop["step_psnr"] + 20)
+
+    def test_what_it_needs(self) -> None:
+        self.write("spin.glsl", SPIN.replace("TURNS", "1.0"))
+        for words, says in ((["--loop"], "give --frames, two at least"),
+                            (["--loop", "--frames", "0-9", "-o", "%d.png", "--tile", "8", "--size", "32x32"], "are never in memory as a whole"),
+                            (["--loop", "--frames", "0-9", "-o", "%d.png", "--resume"], "excludes")):
+            self.expect_failure_like(["capture", "spin.glsl", *words], 2, f"(.|\n)*{says}(.|\n)*")
+
+
+if __name__ == "__main__":
+    main()

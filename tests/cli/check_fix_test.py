@@ -1,0 +1,100 @@
+"""`tidemark check --fix`: planted faults are mended, measured and written; what is sound stays as it is."""
+import json
+import signal
+import subprocess
+
+from support.program import PROGRAM, ProgramTest, environment, main
+
+BODY = "void mainImage(out vec4 c, in vec2 p) {\n    vec2 uv = p / iResolution.xy, d = floor(uv * 4.0) - 2.0;\n    %s\n}\n"
+BUDGET = ("--budget", "900")  # else a busy machine cuts it
+
+# A fault in a line, and the line that mends it.
+PLANTED = {
+    "c = vec4(sqrt(uv.x - 0.5));": "c = vec4(sqrt(max(uv.x - 0.5, 0.0)));",
+    "c = vec4(pow(uv.x - 0.5, 2.0));": "c = vec4(pow(abs(uv.x - 0.5), 2.0));",
+    "c = vec4(0.1 / d.x);": "c = vec4(0.1 / (d.x + (1.0 - abs(sign(d.x))) * 1e-18));",
+    "c = vec4(normalize(d), 0.5, 1.0);": "c = vec4((dot(d, d) > 0.0 ? normalize(d) : d), 0.5, 1.0);",
+    "c = vec4(0.5 + atan(d.y, d.x) / 6.3);":
+        "c = vec4(0.5 + atan(d.y, (d.x + (1.0 - abs(sign(d.x))) * 1e-30)) / 6.3);",
+    "float s; s += uv.x; c = vec4(s);": "float s = 0.0; s += uv.x; c = vec4(s);",
+}
+MENDED_BY = ["--probe", "times", "--probe", "unassigned", "--probe", "undefined"]
+
+
+class CheckFix(ProgramTest):
+    def fix(self, scene: str, *options: str, code: int = 0) -> dict:
+        done = self.run_program("check", "--fix", scene, "--json", *BUDGET, *options)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_planted_faults_are_mended_and_check_is_clean_after(self):
+        for number, (fault, mended) in enumerate(PLANTED.items()):
+            with self.subTest(fault):
+                name = f"planted{number}.glsl"
+                scene = self.write(name, BODY % fault)
+                cure, = self.fix(name, "--write")["cures"]
+                self.assertEqual(scene.read_text(), BODY % mended)
+                self.assertLess(cure["fault"]["after"], cure["fault"]["before"])
+                self.assertIn(f"\n+    {mended}\n", cure["difference"])
+                probes = json.loads(self.succeed("check", name, "--json", *BUDGET, *MENDED_BY).stdout)["probes"]
+                self.assertEqual({each["verdict"] for each in probes}, {"pass"})
+
+    def test_without_write_the_file_stays(self):
+        scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
+        before = scene.read_text()
+        said = self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout.decode()
+        self.assertIn("  elsewhere: the same bytes in ", said)
+        self.assertIn("--- a.glsl\n+++ a.glsl\n@@ -3 +3 @@\n-    c = vec4(sqrt(uv.x - 0.5));\n", said)
+        self.assertEqual(scene.read_text(), before)
+
+    def test_a_sound_scene_has_nothing_to_mend(self):
+        self.write("a.glsl", BODY % "c = vec4(uv, 0.5, 1.0);")
+        self.assertEqual(self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout, b"nothing to mend\n")
+
+    def test_an_include_is_mended_where_it_is_written(self):
+        root = self.write("root.glsl", "float root(float x) {\n    return sqrt(\n        x - 0.3);\n}\n")
+        scene = self.write("a.glsl", '#include "root.glsl"\n' + BODY % "c = vec4(root(uv.x));")
+        before = scene.read_text()
+        self.fix("a.glsl", "--write")
+        self.assertEqual(root.read_text(), "float root(float x) {\n    return sqrt(\n        max(x - 0.3, 0.0));\n}\n")
+        self.assertEqual(scene.read_text(), before)
+
+    def test_lines_that_end_as_on_windows_stay_so(self):
+        scene = self.write("a.glsl", (BODY % "c = vec4(sqrt(uv.x - 0.5));").replace("\n", "\r\n"))
+        self.fix("a.glsl", "--write")
+        self.assertEqual(scene.read_bytes(), (BODY % "c = vec4(sqrt(max(uv.x - 0.5, 0.0)));").replace("\n", "\r\n").encode())
+
+    def test_two_faults_of_a_line_are_mended_one_after_the_other(self):
+        scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5), log(uv.x / d.y), 0.0, 1.0);")
+        self.assertEqual(len(self.fix("a.glsl", "--write")["cures"]), 3)
+        self.assertEqual(scene.read_text(), BODY % (
+            "c = vec4(sqrt(max(uv.x - 0.5, 0.0)), "
+            "log(max(uv.x / (d.y + (1.0 - abs(sign(d.y))) * 1e-18), 1e-30)), 0.0, 1.0);"))
+
+    def test_what_doubles_know_better_is_not_mended(self):
+        """Where floats overflow a guard would show another picture."""
+        self.write("a.glsl", BODY % "c = vec4(exp(200.0 * uv.x) / exp(200.0 * uv.x));")
+        found = self.fix("a.glsl", code=1)
+        self.assertEqual(found["cures"], [])
+        self.assertIn("no known cure makes it better", found["remain"][0]["why"])
+
+    def test_a_project_is_to_be_imported_first(self):
+        self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
+        self.succeed("export", "a.glsl", "-o", "a.json")
+        self.expect_failure(["check", "--fix", "a.json"], 4,
+                            "tidemark: error: 'a.json' is no text of its own: `tidemark import` makes files of it that can "
+                            "be changed")
+
+    def test_it_stops_at_once(self):
+        """There are more faults to come when the first is told."""
+        self.write("a.glsl", BODY % "\n".join(f"c += sqrt(uv.x - 0.{i});" for i in range(1, 10)))
+        with subprocess.Popen([PROGRAM, "check", "--fix", "a.glsl", *BUDGET], cwd=self.folder,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=environment()) as program:
+            program.stdout.readline()
+            program.send_signal(signal.SIGINT)
+            program.communicate()
+        self.assertEqual(program.returncode, 130)
+
+
+if __name__ == "__main__":
+    main()
