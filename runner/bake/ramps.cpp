@@ -1,5 +1,7 @@
 #include "bake/ramps.hpp"
 
+#include "bake/smooth_step.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,13 +22,6 @@ struct Stop {
     double at;
     Rgba color;
 };
-
-/// 0 up to `from`, 1 beyond `to`, without a corner between. Sums and products only: the bytes must not
-/// depend on a mathematics library.
-double rise(double from, double to, double x) {
-    const double part = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return part * part * (3.0 - 2.0 * part);
-}
 
 Rgba blend(const Rgba& a, const Rgba& b, double part) {
     Rgba result{};

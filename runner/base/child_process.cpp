@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <system_error>
 
 extern "C" { // glibc 2.36 leaves it to us
 #include <sys/pidfd.h>
@@ -33,16 +32,12 @@ constexpr int k_longest_wait_ms = 1 << 30;
 constexpr size_t k_pipe_holds = size_t{1} << 16;
 constexpr std::string_view k_too_long = "the program that was started takes too long";
 
-std::string reason(int error_number) {
-    return std::generic_category().message(error_number);
-}
-
 tl::unexpected<Error> cannot_run(const std::string& program, int error_number, std::string_view advice) {
     if (error_number == ENOENT)
         return fail(ErrorCode::load,
                     fmt::format("there is no program '{}'{}{}", program,
                                 program.find('/') == program.npos ? " in PATH" : "", advice));
-    return fail(ErrorCode::load, fmt::format("cannot run '{}': {}", program, reason(error_number)));
+    return fail(ErrorCode::load, fmt::format("cannot run '{}': {}", program, system_reason(error_number)));
 }
 
 void close_and_forget(int& fd) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <system_error>
 
 namespace tidemark {
 namespace {
@@ -62,6 +63,10 @@ Error error_at(SourceLocation where, std::string message, ErrorCode code) {
     Error error{code, {}, {}};
     error.diagnostics.push_back({std::move(where), Severity::error, std::move(message)});
     return error;
+}
+
+std::string system_reason(int error_number) {
+    return std::generic_category().message(error_number);
 }
 
 std::string to_string(const Error& error) {

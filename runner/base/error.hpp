@@ -59,6 +59,9 @@ struct Error {
 /// An Error about one place in a text.
 Error error_at(SourceLocation where, std::string message, ErrorCode code = ErrorCode::load);
 
+/// What the system says of an errno.
+std::string system_reason(int error_number);
+
 /// The whole error for people: the message (when there is one), then a line for each diagnostic.
 std::string to_string(const Error& error);
 

@@ -14,10 +14,6 @@ namespace tidemark {
 namespace fs = std::filesystem;
 namespace {
 
-std::string reason(int error_number) {
-    return std::generic_category().message(error_number);
-}
-
 /// Of a path at which there is nothing: the link on the way that leads nowhere is named.
 std::string why_missing(const fs::path& path) {
     fs::path way;
@@ -58,12 +54,12 @@ Result<std::string> read_file(const fs::path& path, size_t largest) {
     // Without waiting: it may have become a pipe since, and files of /proc may never have anything to say.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (file.get() < 0)
-        return refuse(reason(errno));
+        return refuse(system_reason(errno));
     auto bytes = read_all(file.get(), largest);
     if (bytes)
         return *std::move(bytes);
     return refuse(bytes.error() == EFBIG ? fmt::format("it is larger than {} MiB", largest >> 20)
-                                         : reason(bytes.error()));
+                                         : system_reason(bytes.error()));
 }
 
 Result<std::string> read_text_file(const fs::path& path) {

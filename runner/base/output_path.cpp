@@ -38,8 +38,7 @@ Result<fs::path> behind_links(fs::path path) {
             return path;
         path = path.parent_path() / target;
     }
-    return fail(ErrorCode::write,
-                fmt::format("cannot write '{}': {}", asked.string(), std::generic_category().message(ELOOP)));
+    return fail(ErrorCode::write, fmt::format("cannot write '{}': {}", asked.string(), system_reason(ELOOP)));
 }
 
 bool is_stream(const fs::path& path) {

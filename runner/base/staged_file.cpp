@@ -41,7 +41,7 @@ tl::unexpected<Error> cannot_write(const OutputPath& output, std::string_view wh
 }
 
 tl::unexpected<Error> cannot_write(const OutputPath& output, int error_number) {
-    return cannot_write(output, std::generic_category().message(error_number));
+    return cannot_write(output, system_reason(error_number));
 }
 
 /// -1 with errno. A pipe that nobody reads yet is waited for.

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <string>
-#include <system_error>
 
 namespace tidemark::cli {
 
@@ -46,8 +45,7 @@ Result<void> put(std::span<const std::byte> bytes) {
     const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
     if (written && std::fflush(stdout) == 0)
         return {};
-    return fail(ErrorCode::write,
-                fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)));
+    return fail(ErrorCode::write, fmt::format("cannot write to standard output: {}", system_reason(errno)));
 }
 
 } // namespace tidemark::cli

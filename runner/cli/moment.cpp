@@ -13,7 +13,7 @@ namespace {
 constexpr int k_largest_side = 1 << 20;
 
 template <class T>
-void put(Json& json, const char* name, const T& value) {
+void put_unless_default(Json& json, const char* name, const T& value) {
     if (value != T{})
         json[name] = value;
 }
@@ -59,13 +59,13 @@ Moment moment_of(SceneRequest scene, const FrameSequence& sequence, render::Fram
 Json to_json(const Moment& moment) {
     const SceneRequest& scene = moment.scene;
     Json json{{"scene", scene.path.string()}};
-    put(json, "set", scene.sets);
-    put(json, "define", scene.defines);
-    put(json, "channel", scene.channels);
-    put(json, "media", scene.files.media.string());
-    put(json, "double", scene.doubles.value_or(false));
-    put(json, "double_hashes", scene.double_hashes);
-    put(json, "input", moment.sequence.input_file);
+    put_unless_default(json, "set", scene.sets);
+    put_unless_default(json, "define", scene.defines);
+    put_unless_default(json, "channel", scene.channels);
+    put_unless_default(json, "media", scene.files.media.string());
+    put_unless_default(json, "double", scene.doubles.value_or(false));
+    put_unless_default(json, "double_hashes", scene.double_hashes);
+    put_unless_default(json, "input", moment.sequence.input_file);
     if (moment.sequence.lead_in_fps)
         json["lead_in_fps"] = *moment.sequence.lead_in_fps;
     json["state"] = changes_of(moment.sequence.state);

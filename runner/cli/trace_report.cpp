@@ -253,7 +253,7 @@ Json numbers_json(const auto& numbers) {
     return json;
 }
 
-Json to_json(const TracedValue& value) {
+Json json_of(const TracedValue& value) {
     static constexpr const char* k_kinds[] = {"real", "whole", "condition"};
     return {{"name", value.name},
             {"kind", k_kinds[size_t(value.kind)]},
@@ -267,13 +267,13 @@ Json to_json(const TracedValue& value) {
             {"unstable", value.unstable}};
 }
 
-Json to_json(const TracedLine& line) {
+Json json_of(const TracedLine& line) {
     Json json = {{"file", line.line.where.file}, {"line", line.line.where.line}, {"text", line.line.text},
                  {"values", line.values},        {"digits", line.digits},        {"lost", line.lost}};
     if (!line.fewest.empty())
         json["fewest"] = {{"name", line.fewest}, {"turns", line.fewest_turns}};
     if (line.not_finite)
-        json["not_finite"] = to_json(*line.not_finite);
+        json["not_finite"] = json_of(*line.not_finite);
     if (line.mismatch.times > 0)
         json["parted"] = {{"times", line.mismatch.times},
                           {"turns", line.mismatch.first},
@@ -283,12 +283,12 @@ Json to_json(const TracedLine& line) {
     return json;
 }
 
-Json to_json(const LineInCall& call) {
+Json json_of(const LineInCall& call) {
     Json json = {{"function", call.function}, {"called_at", Json::array()}, {"values", Json::array()}};
     for (const SourceLocation& where : call.callers)
         json["called_at"].push_back({{"file", where.file}, {"line", where.line}});
     for (const TracedValue& value : call.values)
-        json["values"].push_back(to_json(value));
+        json["values"].push_back(json_of(value));
     return json;
 }
 
@@ -321,11 +321,11 @@ Json trace_json(const TraceReport& report) {
                    {"textures_at_base_level", trace.at_base_level}}},
                  {"lines", Json::array()}};
     for (const TracedLine& line : trace.lines)
-        json["lines"].push_back(to_json(line));
+        json["lines"].push_back(json_of(line));
     if (trace.asked) {
         json["calls"] = Json::array();
         for (const LineInCall& call : trace.calls)
-            json["calls"].push_back(to_json(call));
+            json["calls"].push_back(json_of(call));
     }
     return json;
 }

@@ -1,5 +1,7 @@
 #include "glsl/follow_up_errors.hpp"
 
+#include "text/tokens.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -34,10 +36,6 @@ constexpr std::array<std::string_view, 3> k_no_news = {"compilation errors", "co
 /// Mesa's, of a value that failed as of any other; it quotes the function, which has no part in it.
 constexpr std::string_view k_returned = "could not implicitly convert return value";
 
-bool is_word(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 /// `vec3`, `float`, `dmat2x3`; and what ANGLE quotes of an operator.
 bool is_of_the_language(std::string_view word) {
     constexpr std::array<std::string_view, 12> k_words = {"float",  "int",    "uint",        "bool",
@@ -57,9 +55,9 @@ std::set<std::string> quoted_words(std::string_view text) {
     if (text.starts_with(k_returned))
         return words;
     for (size_t at = text.find_first_of("`'\""); at != text.npos; at = text.find_first_of("`'\"", at + 1)) {
-        const bool opens = at == 0 || !is_word(text[at - 1]);
+        const bool opens = at == 0 || !text::is_word_character(text[at - 1]);
         const auto rest = text.substr(at + 1);
-        const std::string word(rest.begin(), std::ranges::find_if_not(rest, is_word));
+        const std::string word(rest.begin(), std::ranges::find_if_not(rest, text::is_word_character));
         if (opens && !word.empty() && !is_of_the_language(word))
             words.insert(word);
     }

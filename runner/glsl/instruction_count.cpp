@@ -1,9 +1,14 @@
 #include "glsl/instruction_count.hpp"
 
+#include "base/trimmed.hpp"
+
 #include <charconv>
 
 namespace tidemark::glsl {
 namespace {
+
+/// Drivers end a message with a zero, too.
+constexpr std::string_view k_blanks{" \n\0", 3};
 
 constexpr bool is_digit(char c) {
     return c >= '0' && c <= '9';
@@ -18,14 +23,6 @@ std::optional<int> count_of(std::string_view text) {
     return count;
 }
 
-std::string_view trimmed(std::string_view text) {
-    while (text.starts_with(' '))
-        text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\n' || text.back() == '\0'))
-        text.remove_suffix(1);
-    return text;
-}
-
 /// `123 inst` or `inst: 123`, whole.
 std::optional<int> count_in(std::string_view item) {
     for (const std::string_view word : {" instructions", " inst"})
@@ -38,7 +35,7 @@ std::optional<int> count_in(std::string_view item) {
 } // namespace
 
 std::optional<InstructionCount> read_instruction_count(std::string_view message) {
-    message = trimmed(message);
+    message = trimmed(message, k_blanks);
     const std::string_view first = message.substr(0, message.find(','));
     const size_t colon = first.rfind(": ");
     if (colon == std::string_view::npos)
@@ -56,7 +53,7 @@ std::optional<InstructionCount> read_instruction_count(std::string_view message)
     for (std::string_view rest = message.substr(first.size()); !rest.empty();) {
         rest.remove_prefix(1);
         const std::string_view item = rest.substr(0, rest.find(','));
-        if (const auto count = count_in(trimmed(item)))
+        if (const auto count = count_in(trimmed(item, k_blanks)))
             return InstructionCount{std::string(first), *count};
         rest.remove_prefix(item.size());
     }

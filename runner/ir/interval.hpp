@@ -29,6 +29,7 @@ struct Interval {
     double width() const { return high - low; }
 };
 
+inline constexpr Interval k_one{1, 1};
 inline constexpr double k_infinity = std::numeric_limits<double>::infinity();
 inline constexpr int k_library_ulps = 3;
 

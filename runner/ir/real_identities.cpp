@@ -9,9 +9,9 @@ namespace tidemark::ir {
 namespace {
 
 /// Looks at how a value is computed. A value that has been narrowed stands for what the text says.
-class Reader {
+class Identities {
 public:
-    explicit Reader(const Function& function) : function_(function) {}
+    explicit Identities(const Function& function) : function_(function) {}
 
     Op op(Value value) const { return function_.instructions[said(value)].op; }
     Value operand(Value value, size_t index) const {
@@ -48,7 +48,7 @@ private:
 using Found = std::optional<EqualInReal>;
 
 /// b floor(a / b) and b round(a / b): the operation and b.
-std::optional<std::pair<Op, Value>> multiple_near(const Reader& read, Value value, Value a) {
+std::optional<std::pair<Op, Value>> multiple_near(const Identities& read, Value value, Value a) {
     if (read.op(value) != Op::multiply)
         return std::nullopt;
     for (const auto& [unit, turns] : read.both_orders(value)) {
@@ -64,7 +64,7 @@ std::optional<std::pair<Op, Value>> multiple_near(const Reader& read, Value valu
 }
 
 /// s (b - a): s and b.
-std::optional<std::pair<Value, Value>> part_of_way(const Reader& read, Value value, Value a) {
+std::optional<std::pair<Value, Value>> part_of_way(const Identities& read, Value value, Value a) {
     if (read.op(value) != Op::multiply)
         return std::nullopt;
     for (const auto& [share, way] : read.both_orders(value))
@@ -74,7 +74,7 @@ std::optional<std::pair<Value, Value>> part_of_way(const Reader& read, Value val
 }
 
 /// a (1 - s): a and s.
-std::optional<std::pair<Value, Value>> rest_of(const Reader& read, Value value) {
+std::optional<std::pair<Value, Value>> rest_of(const Identities& read, Value value) {
     if (read.op(value) != Op::multiply)
         return std::nullopt;
     for (const auto& [a, rest] : read.both_orders(value))
@@ -84,7 +84,7 @@ std::optional<std::pair<Value, Value>> rest_of(const Reader& read, Value value) 
 }
 
 /// x - floor(x), x - fract(x) and their kind.
-Found of_difference(const Reader& read, Value value) {
+Found of_difference(const Identities& read, Value value) {
     const Value a = read.operand(value, 0), b = read.operand(value, 1);
     const bool same = read.op(b) == Op::floor || read.op(b) == Op::fract || read.op(b) == Op::modulo;
     if (same && read.operand(b, 0) == a) {
@@ -100,7 +100,7 @@ Found of_difference(const Reader& read, Value value) {
 }
 
 /// Interpolation by hand: a + s (b - a), and a (1 - s) + b s.
-Found of_sum(const Reader& read, Value value) {
+Found of_sum(const Identities& read, Value value) {
     for (const auto& [a, other] : read.both_orders(value)) {
         if (const auto part = part_of_way(read, other, a))
             return EqualInReal{Op::mix, {a, part->second, part->first}};
@@ -115,14 +115,14 @@ Found of_sum(const Reader& read, Value value) {
 }
 
 /// x of 3 - 2 x.
-std::optional<Value> of_three_less_two(const Reader& read, Value value) {
+std::optional<Value> of_three_less_two(const Identities& read, Value value) {
     if (read.op(value) != Op::subtract || !read.is(read.operand(value, 0), 3))
         return std::nullopt;
     return read.times(read.operand(value, 1), 2);
 }
 
 /// x of x (6 x - 15) + 10.
-std::optional<Value> of_quintic_factor(const Reader& read, Value value) {
+std::optional<Value> of_quintic_factor(const Identities& read, Value value) {
     if (read.op(value) != Op::add)
         return std::nullopt;
     for (const auto& [ten, product] : read.both_orders(value)) {
@@ -137,7 +137,7 @@ std::optional<Value> of_quintic_factor(const Reader& read, Value value) {
 }
 
 /// All that a product multiplies, a square's twice.
-void add_factors(const Reader& read, Value value, std::vector<Value>& factors, int depth = 0) {
+void add_factors(const Identities& read, Value value, std::vector<Value>& factors, int depth = 0) {
     constexpr int k_deepest = 3;
     const Op op = read.op(value);
     if ((op != Op::multiply && op != Op::square) || depth > k_deepest) {
@@ -149,7 +149,7 @@ void add_factors(const Reader& read, Value value, std::vector<Value>& factors, i
 }
 
 /// Smooth steps by hand: x x (3 - 2 x), x x x (x (6 x - 15) + 10).
-Found of_product(const Reader& read, Value value) {
+Found of_product(const Identities& read, Value value) {
     std::vector<Value> factors;
     add_factors(read, value, factors);
     for (size_t i = 0; i < factors.size(); ++i) {
@@ -164,7 +164,7 @@ Found of_product(const Reader& read, Value value) {
 }
 
 /// The smaller or the larger by hand: a < b ? a : b.
-Found of_selection(const Reader& read, Value value) {
+Found of_selection(const Identities& read, Value value) {
     const Value condition = read.operand(value, 0);
     if (read.op(condition) != Op::less && read.op(condition) != Op::less_equal)
         return std::nullopt;
@@ -180,7 +180,7 @@ Found of_selection(const Reader& read, Value value) {
 } // namespace
 
 std::optional<EqualInReal> equal_in_real(const Function& function, Value value) {
-    const Reader read(function);
+    const Identities read(function);
     switch (function.instructions[value].op) {
     case Op::add: return of_sum(read, value);
     case Op::subtract: return of_difference(read, value);

@@ -7,7 +7,6 @@
 namespace tidemark::ir {
 namespace {
 
-constexpr Interval k_one{1, 1};
 constexpr Interval k_two{2, 2};
 
 Interval number(double value) {

@@ -16,7 +16,6 @@ constexpr int64_t k_few_cells = 3;
 /// Beyond that an index is no use: coordinates are anywhere.
 constexpr double k_largest_index = 1e9;
 
-constexpr Interval k_one{1, 1};
 constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
 /// One index of a texture of `size`, from one beyond its edges.

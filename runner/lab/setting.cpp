@@ -1,6 +1,7 @@
 #include "lab/setting.hpp"
 
 #include "base/hint.hpp"
+#include "base/trimmed.hpp"
 #include "base/try.hpp"
 #include "glsl/overrides.hpp"
 #include "scene/overrides.hpp"
@@ -11,12 +12,6 @@
 
 namespace tidemark::lab {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(" \t");
-    return first == text.npos ? std::string_view{}
-                              : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// The parts between commas that are not inside parentheses.
 std::vector<std::string> split(std::string_view text) {

@@ -1,5 +1,6 @@
 #include "lsp/comments.hpp"
 
+#include "base/trimmed.hpp"
 #include "text/lines.hpp"
 
 #include <algorithm>
@@ -7,12 +8,6 @@
 
 namespace tidemark::lsp {
 namespace {
-
-std::string_view trimmed(std::string_view line) {
-    const size_t first = line.find_first_not_of(" \t");
-    return first == line.npos ? std::string_view()
-                              : line.substr(first, line.find_last_not_of(" \t") + 1 - first);
-}
 
 /// Without `//`, `/**`, `*` and their kind; `///<` too.
 std::string_view without_marks(std::string_view line) {

@@ -14,6 +14,9 @@ namespace tidemark::scene {
 /// Keeps the members of an object in the order of the text.
 using Json = nlohmann::ordered_json;
 
+/// Of a line in the projects that we write.
+constexpr int k_json_indent = 2;
+
 /// Parses in linear time whatever the text is: what no project needs (nesting, long objects, a million
 /// values) is refused before the library sees it. Half of a surrogate pair, which is no text, becomes
 /// U+FFFD. `file` is for the messages.

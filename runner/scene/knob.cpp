@@ -1,6 +1,7 @@
 #include "scene/knob.hpp"
 
 #include "base/hint.hpp"
+#include "base/trimmed.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,15 +25,6 @@ constexpr std::array<KnobTypeInfo, 9> k_types{{
     {KnobType::ivec3, "ivec3", "ivec3", 3, true},
     {KnobType::ivec4, "ivec4", "ivec4", 4, true},
 }};
-
-std::string_view trimmed(std::string_view text) {
-    const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-    while (!text.empty() && blank(text.front()))
-        text.remove_prefix(1);
-    while (!text.empty() && blank(text.back()))
-        text.remove_suffix(1);
-    return text;
-}
 
 std::optional<double> parse_number(std::string_view text) {
     text = trimmed(text);

@@ -14,7 +14,6 @@
 namespace tidemark::scene {
 namespace {
 
-constexpr int k_indent = 2;
 constexpr int k_buffers = 4;
 
 /// ShaderToy's own files for what we generate, as its API names them.
@@ -217,7 +216,7 @@ std::string knobs_as_constants(const Scene& scene) {
 Result<std::string> make_project(const Scene& scene, std::vector<Diagnostic>& warnings) {
     auto json = TRY(ProjectWriter(scene, warnings).write());
     try {
-        return json.dump(k_indent) + "\n";
+        return json.dump(k_json_indent) + "\n";
     } catch (const Json::type_error&) { // JSON is Unicode
         return fail(ErrorCode::load,
                     fmt::format("'{}' has a text that is not UTF-8: save it as that, for JSON is",

@@ -11,11 +11,7 @@
 
 namespace tidemark::scene {
 namespace fs = std::filesystem;
-namespace {
-
-constexpr int k_indent = 2;
-
-} // namespace
+namespace {} // namespace
 
 Result<std::vector<ProjectFile>> split_project(std::string_view text, const std::string& file) {
     auto json = TRY(parse_json(text, file));
@@ -28,7 +24,7 @@ Result<std::vector<ProjectFile>> split_project(std::string_view text, const std:
         files.push_back({file_name_of(names[i]), std::move(pass.code)});
         (*passes)[i]["code"] = Json{{"file", files.back().name}};
     }
-    files.push_back({k_project_file, json.dump(k_indent) + "\n"});
+    files.push_back({k_project_file, json.dump(k_json_indent) + "\n"});
     return files;
 }
 
@@ -56,7 +52,7 @@ Result<std::string> join_project(const fs::path& folder, const Bounds& bounds) {
         }
         (*passes)[i]["code"] = std::move(value);
     }
-    return json.dump(k_indent) + "\n";
+    return json.dump(k_json_indent) + "\n";
 }
 
 } // namespace tidemark::scene

@@ -16,7 +16,6 @@ namespace tidemark::scene {
 namespace {
 
 constexpr size_t k_id_length = 6;
-constexpr int k_indent = 2;
 
 bool is_id(std::string_view text) {
     return text.size() == k_id_length &&
@@ -96,7 +95,7 @@ Result<std::string> saved_project(std::string text, std::string_view id, const s
         return text;
     auto projects = TRY(projects_in(text, file));
     const Json chosen = TRY(choose(std::move(projects), id, file));
-    return chosen.dump(k_indent) + "\n";
+    return chosen.dump(k_json_indent) + "\n";
 }
 
 } // namespace tidemark::scene

@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <system_error>
 
 namespace tidemark::serve {
 namespace {
@@ -55,8 +54,8 @@ bool is_own(std::string_view origin, std::string_view host) {
 Result<std::string> make_token() {
     std::array<unsigned char, k_token_letters> bytes{};
     if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
-        return fail(ErrorCode::load, fmt::format("the system gives no random numbers: {}",
-                                                 std::generic_category().message(errno)));
+        return fail(ErrorCode::load,
+                    fmt::format("the system gives no random numbers: {}", system_reason(errno)));
     std::string token;
     for (const unsigned char byte : bytes)
         token += k_letters[byte % k_letters.size()];

@@ -16,7 +16,7 @@
 namespace tidemark::serve {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using platform::Button;
 using platform::Key;
 

@@ -11,7 +11,7 @@ namespace tidemark::sound {
 namespace {
 
 /// Frames of a window that come later than this have gaps in what they hear.
-constexpr unsigned k_buffer_microseconds = 500'000;
+constexpr unsigned k_recorded_microseconds = 500'000;
 
 } // namespace
 
@@ -22,7 +22,7 @@ Microphone::~Microphone() = default;
 
 Result<Microphone> Microphone::open(const std::string& device) {
     auto opened = open_device({device.c_str(), SND_PCM_STREAM_CAPTURE, SND_PCM_FORMAT_S16, 1, k_analysed_rate,
-                               k_buffer_microseconds});
+                               k_recorded_microseconds});
     if (opened && (*opened)->alsa.start((*opened)->pcm) >= 0)
         return Microphone(*std::move(opened));
     return fail(ErrorCode::load, fmt::format("cannot listen to the microphone '{}': {}", device,

@@ -1,5 +1,7 @@
 #include "text/mapped_text.hpp"
 
+#include "text/tokens.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -33,16 +35,13 @@ private:
     int line_ = 1;
 };
 
-bool is_word(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 /// Where a word begins in what replaces something, behind the first: the author wrote all of them in one
 /// place.
 std::vector<size_t> inner_words(std::string_view replacement) {
     std::vector<size_t> begins;
     for (size_t i = 1; i < replacement.size(); ++i)
-        if (replacement[i] != ' ' && !(is_word(replacement[i]) && is_word(replacement[i - 1])))
+        if (replacement[i] != ' ' &&
+            !(is_word_character(replacement[i]) && is_word_character(replacement[i - 1])))
             begins.push_back(i);
     return begins;
 }

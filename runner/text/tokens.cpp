@@ -7,10 +7,6 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-bool is_word(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || is_digit(c);
-}
-
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\v' || c == '\f' || c == '\r';
 }
@@ -99,7 +95,7 @@ private:
         const char c = at(position_);
         if (is_digit(c) || (c == '.' && is_digit(at(position_ + 1))))
             return TokenKind::number;
-        if (is_word(c))
+        if (is_word_character(c))
             return TokenKind::identifier;
         if ((c == '"' || c == '\'') && closes_on_line())
             return TokenKind::string;
@@ -129,7 +125,7 @@ private:
         size_t i = position_ + 1;
         switch (kind) {
         case TokenKind::identifier:
-            while (is_word(at(i)))
+            while (is_word_character(at(i)))
                 ++i;
             return i;
         case TokenKind::number: return end_of_number();
@@ -144,7 +140,7 @@ private:
         size_t i = position_;
         if (at(i) == '0' && (at(i + 1) == 'x' || at(i + 1) == 'X')) {
             i += 2;
-            while (is_word(at(i)))
+            while (is_word_character(at(i)))
                 ++i;
             return i;
         }
@@ -180,6 +176,10 @@ private:
 };
 
 } // namespace
+
+bool is_word_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || is_digit(c);
+}
 
 std::vector<Token> tokenize(std::string_view text) {
     return Lexer(text).run();

@@ -27,6 +27,9 @@ struct Token {
     bool is(std::string_view wanted) const { return text == wanted; }
 };
 
+/// Whether it may stand in a name or a number.
+bool is_word_character(char c);
+
 /// All tokens of `text`, in order; linear in its size. The views stay valid as long as `text` does.
 std::vector<Token> tokenize(std::string_view text);
 

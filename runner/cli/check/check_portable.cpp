@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Diagnostic& diagnostic) {
+Json json_of(const Diagnostic& diagnostic) {
     return {{"file", diagnostic.where.file},
             {"line", diagnostic.where.line},
             {"column", diagnostic.where.column},
@@ -45,7 +45,7 @@ Result<int> check_portable(const SceneRequest& request, const std::string& devic
             say(finding_of(diagnostic, {"portable", "The texts compile on ShaderToy's own site"}));
         else
             text += to_string(diagnostic) + '\n';
-        json["findings"].push_back(to_json(diagnostic));
+        json["findings"].push_back(json_of(diagnostic));
     }
     const int code = found.empty() ? 0 : exit_code(ErrorCode::check_failed);
     return put(as_json ? dump(json, 2) + "\n" : text).map([code] { return code; });

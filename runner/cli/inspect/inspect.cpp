@@ -54,7 +54,7 @@ std::string_view name_of(platform::DeviceKind kind) {
     return "unknown";
 }
 
-Json to_json(const platform::HeadlessDevice& device) {
+Json json_of(const platform::HeadlessDevice& device) {
     Json json = {{"name", device.name}, {"kind", name_of(device.kind)}};
     if (device.reason.empty()) {
         json["renderer"] = device.renderer;
@@ -78,12 +78,12 @@ Result<int> inspect_devices(bool as_json) {
     Json json = {{"tidemark", k_version}, {"devices", Json::array()}};
     for (const platform::HeadlessDevice& device : devices) {
         text += to_line(device);
-        json["devices"].push_back(to_json(device));
+        json["devices"].push_back(json_of(device));
     }
     return put(as_json ? dump(json, 2) + "\n" : text).map([] { return 0; });
 }
 
-Json to_json(const glsl::LeftOut& left_out) {
+Json json_of(const glsl::LeftOut& left_out) {
     Json json = {{"lines", left_out.lines},
                  {"branches", left_out.branches},
                  {"out_of_loops", left_out.loop_invariants}};
@@ -105,7 +105,7 @@ std::string to_line(const glsl::LeftOut& left_out) {
 /// By pass.
 using Sizes = std::vector<std::optional<CompiledSizes>>;
 
-Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver, const Sizes& sizes) {
+Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, const Sizes& sizes) {
     const SceneFacts facts = facts_of(renderer);
     const scene::Scene& scene = renderer.scene();
     Json json;
@@ -125,7 +125,7 @@ Json to_json(const render::Renderer& renderer, const gl::Capabilities& driver, c
             Json{{"name", pass.name},
                  {"channels", channels},
                  {"code_removed",
-                  to_json(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))},
+                  json_of(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))},
                  {"marches", marches_of(scene, pass)}});
         if (const auto& size = sizes[facts_of_pass.pass])
             json_of_pass["program"] = to_json(*size);
@@ -196,7 +196,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
     const Sizes sizes = compiled_sizes(scene, target.precision); // before the driver has seen any of it
     const auto renderer = TRY(render::Renderer::create(std::move(scene), target));
     const gl::Capabilities driver = gl::query_capabilities();
-    return put(options.json ? dump(to_json(renderer, driver, sizes), 2) + "\n"
+    return put(options.json ? dump(json_of(renderer, driver, sizes), 2) + "\n"
                             : to_text(renderer, driver, sizes))
         .map([] { return 0; });
 }

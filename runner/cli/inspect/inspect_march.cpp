@@ -6,8 +6,6 @@
 
 namespace tidemark::cli {
 
-using Kind = ir::MarchingLoop::Kind;
-
 std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
     const auto function = lab::PassFunction::create(scene, pass);
     std::string text;
@@ -15,10 +13,10 @@ std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
         return text;
     for (const ir::MarchingLoop& loop : function->loops()) {
         const SourceLocation where = function->locate(loop.line);
-        text += fmt::format("  march     {}:{}: {}, leaves here where it is near the surface\n", where.file,
-                            where.line,
-                            loop.kind == Kind::sphere_tracing ? "steps by the distance (sphere tracing)"
-                                                              : "steps of a fixed length");
+        text += fmt::format(
+            "  march     {}:{}: {}, leaves here where it is near the surface\n", where.file, where.line,
+            loop.kind == ir::MarchingLoop::Kind::sphere_tracing ? "steps by the distance (sphere tracing)"
+                                                                : "steps of a fixed length");
     }
     return text;
 }
@@ -32,7 +30,8 @@ Json marches_of(const scene::Scene& scene, const scene::Pass& pass) {
         const SourceLocation where = function->locate(loop.line);
         loops.push_back({{"file", where.file},
                          {"line", where.line},
-                         {"kind", loop.kind == Kind::sphere_tracing ? "sphere tracing" : "fixed step"}});
+                         {"kind", loop.kind == ir::MarchingLoop::Kind::sphere_tracing ? "sphere tracing"
+                                                                                      : "fixed step"}});
     }
     return loops;
 }

@@ -146,18 +146,18 @@ std::string to_text(const LoadedLibrary& loaded) {
                        loaded.cost.mebibytes);
 }
 
-Json to_json(const Saved& saved) {
+Json json_of(const Saved& saved) {
     return {{"without", saved.without},
             {"more", saved.more},
             {"low", saved.interval.low},
             {"high", saved.interval.high}};
 }
 
-Json to_json(const lab::SavedTime& time) {
-    return {{"wall_ms", to_json(time.wall)}, {"cpu_ms", to_json(time.cpu)}};
+Json json_of(const lab::SavedTime& time) {
+    return {{"wall_ms", json_of(time.wall)}, {"cpu_ms", json_of(time.cpu)}};
 }
 
-Json to_json(const lab::Work& work) {
+Json json_of(const lab::Work& work) {
     Json json = {{"draws", work.frame.draws},
                  {"uniforms", work.frame.uniforms},
                  {"channels", work.frame.channels},
@@ -167,23 +167,23 @@ Json to_json(const lab::Work& work) {
     return json;
 }
 
-Json to_json(const Answer& answer) {
+Json json_of(const Answer& answer) {
     const Saving& saving = answer.saving;
     if (!saving.cut.empty())
         return {{"with", answer.name}, {"cut", saving.cut}};
     Json json = {{"with", answer.name}, {"left_out", saving.left_out()}};
     if (saving.in_frame())
-        json.update({{"start", to_json(saving.start)}, {"frame", to_json(saving.frame)}});
+        json.update({{"start", json_of(saving.start)}, {"frame", json_of(saving.frame)}});
     if (saving.in_file())
-        json["file"] = to_json(saving.file);
+        json["file"] = json_of(saving.file);
     if (saving.left_out())
-        json.update({{"without", to_json(saving.without)},
-                     {"with_it", to_json(saving.with_it)},
+        json.update({{"without", json_of(saving.without)},
+                     {"with_it", json_of(saving.with_it)},
                      {"same_pixels", saving.same_pixels}});
     return json;
 }
 
-Json to_json(const LoadedLibrary& loaded) {
+Json json_of(const LoadedLibrary& loaded) {
     const LibraryCost& cost = loaded.cost;
     return {{"name", loaded.library.name},
             {"left_out", !loaded.library.is_loaded()},
@@ -214,9 +214,9 @@ Json report_json(const SavingsOptions& options, const std::vector<Answer>& answe
                  {"size", options.size},     {"renderer", gl::query_capabilities().renderer},
                  {"savings", Json::array()}, {"libraries", Json::array()}};
     for (const Answer& answer : answers)
-        json["savings"].push_back(to_json(answer));
+        json["savings"].push_back(json_of(answer));
     for (const LoadedLibrary& library : libraries)
-        json["libraries"].push_back(to_json(library));
+        json["libraries"].push_back(json_of(library));
     return json;
 }
 

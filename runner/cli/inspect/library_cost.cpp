@@ -17,7 +17,7 @@ namespace {
 constexpr int k_runs = 5;
 constexpr double k_patience = 30; ///< seconds
 
-constexpr OptionalLibrary k_libraries[] = {
+constexpr OptionalLibrary k_optional_libraries[] = {
     {"OpenImageIO", "tidemark_pictures", [] { static_cast<void>(image::picture_codec()); }},
     {"libsndfile", "libsndfile", [] { static_cast<void>(sound::sound_library()); }},
 };
@@ -31,7 +31,7 @@ double peak_mebibytes() {
 } // namespace
 
 std::span<const OptionalLibrary> optional_libraries() {
-    return k_libraries;
+    return k_optional_libraries;
 }
 
 bool OptionalLibrary::is_loaded() const {

@@ -53,7 +53,7 @@ std::vector<Moment> moments_of(const Json& json) {
     return moments;
 }
 
-Json to_json(const platform::WindowPlace& place) {
+Json json_of(const platform::WindowPlace& place) {
     return {place.x, place.y, place.size.width, place.size.height};
 }
 
@@ -65,7 +65,7 @@ std::optional<platform::WindowPlace> place_of(const Json& json) {
     return platform::WindowPlace{numbers[0], numbers[1], {numbers[2], numbers[3]}};
 }
 
-Json to_json(const std::vector<live::Binding>& bindings) {
+Json json_of(const std::vector<live::Binding>& bindings) {
     Json json = Json::array();
     for (const live::Binding& binding : bindings)
         json.push_back({{"channel", binding.controller.channel},
@@ -109,11 +109,11 @@ std::string text_of(const fs::path& scene, const Remembered& state) {
     return dump(Json{{"tidemark_view", k_version_of_format},
                      {"scene", whole_name(scene)},
                      {"moment", state.moment ? to_json(*state.moment) : Json()},
-                     {"window", state.place ? to_json(*state.place) : Json::array()},
+                     {"window", state.place ? json_of(*state.place) : Json::array()},
                      {"scale", state.scale ? Json(state.scale->name()) : Json("")},
                      {"controls", state.controls_open},
                      {"views", std::move(views)},
-                     {"controllers", to_json(state.controllers)}},
+                     {"controllers", json_of(state.controllers)}},
                 2) +
            "\n";
 }

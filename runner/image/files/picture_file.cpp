@@ -294,7 +294,7 @@ PictureStream::~PictureStream() = default;
 /// The system's objection goes before the encoder's (empty: none).
 Result<void> PictureStream::checked(const std::string& objection) const {
     if (const int error = file_->error())
-        return cannot_write(path_, std::generic_category().message(error));
+        return cannot_write(path_, system_reason(error));
     return objection.empty() ? Result<void>() : cannot_write(path_, objection);
 }
 

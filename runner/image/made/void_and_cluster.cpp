@@ -17,11 +17,11 @@ constexpr int k_block = 16; ///< texels of a row whose least energy is kept
 constexpr int k_row_blocks = k_side / k_block;
 constexpr int32_t k_taken = std::numeric_limits<int32_t>::max();
 
-using Kernel = std::array<int32_t, size_t{k_width} * k_width>;
+using Energies = std::array<int32_t, size_t{k_width} * k_width>;
 
-Kernel gaussian() {
+Energies gaussian() {
     constexpr double variance = 1.5 * 1.5;
-    Kernel kernel;
+    Energies kernel;
     for (int y = 0; y < k_width; ++y)
         for (int x = 0; x < k_width; ++x) {
             const double square = (x - k_reach) * (x - k_reach) + (y - k_reach) * (y - k_reach);
@@ -38,7 +38,7 @@ static_assert(k_width <= k_block + 1);
 class Pattern {
 public:
     /// A little noise decides between texels that are equally crowded; else they would be taken row by row.
-    Pattern(std::mt19937& random, const Kernel& kernel) : kernel_(&kernel) {
+    Pattern(std::mt19937& random, const Energies& kernel) : kernel_(&kernel) {
         for (int32_t& energy : energy_)
             energy = int32_t(random() & 15u);
         free_ = energy_;
@@ -104,7 +104,7 @@ private:
         least_[size_t(block)] = least;
     }
 
-    const Kernel* kernel_;
+    const Energies* kernel_;
     std::vector<int> points_;
     std::array<int32_t, k_texels> energy_;
     std::array<int32_t, k_texels> free_; ///< the energy where there is no point, else k_taken
@@ -112,7 +112,7 @@ private:
 };
 
 /// A tenth of the texels, moved from crowds into voids until the move would be undone.
-Pattern initial_pattern(std::mt19937& random, const Kernel& kernel) {
+Pattern initial_pattern(std::mt19937& random, const Energies& kernel) {
     Pattern pattern(random, kernel);
     for (int points = 0; points < k_texels / 10;) {
         const int texel = int(random() % k_texels);
@@ -135,7 +135,7 @@ Pattern initial_pattern(std::mt19937& random, const Kernel& kernel) {
 } // namespace
 
 std::vector<uint8_t> make_blue_mask(std::mt19937& random) {
-    const Kernel kernel = gaussian();
+    const Energies kernel = gaussian();
     const Pattern initial = initial_pattern(random, kernel);
     std::vector<uint8_t> mask(k_texels);
     const auto put = [&](int texel, int rank) { mask[size_t(texel)] = uint8_t(rank * 256 / k_texels); };

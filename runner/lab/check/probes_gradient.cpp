@@ -173,7 +173,7 @@ Result<Answer> judged(ProbeBench& bench, const std::string& seen, const Steep& f
 
 /// Of a march that is recorded: by how much its distance falls between two samples, a unit of the way. No
 /// less than that is a slope of the field somewhere between them.
-Result<Answer> ask_recorded(ProbeBench& bench) {
+Result<Answer> ask_recorded_march(ProbeBench& bench) {
     if (!bench.sees_below())
         return without_sign();
     Steep found;
@@ -198,7 +198,7 @@ Result<Answer> ask_gradient(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
     if (!bench.has_main_hit())
-        return ask_recorded(bench);
+        return ask_recorded_march(bench);
     if (!has_march_field(bench.scene()))
         return Answer{Verdict::not_applicable, "the scene has no march_field to take slopes of"};
     const std::vector<FrameState> views = views_over_time();

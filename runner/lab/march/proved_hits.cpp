@@ -10,7 +10,7 @@ using Outcome = ProvedRay::Outcome;
 using Verdict = ir::FirstHit::Verdict;
 
 /// A march stops within its threshold, and nobody sees a step of a hundredth.
-constexpr double k_same_place = 0.01;
+constexpr double k_same_end = 0.01;
 /// Below the threshold by more than a rounding.
 constexpr float k_surely_below = -1e-5f;
 
@@ -47,7 +47,7 @@ Outcome outcome_of(const ir::MarchSlice& slice, const ir::March& march, const ir
     if (!march.hit)
         return Outcome::misses;
     const double ended = passed_by(slice, march);
-    const double tolerance = k_same_place * std::max(1.0, std::abs(ended));
+    const double tolerance = k_same_end * std::max(1.0, std::abs(ended));
     return ended > found.where.high + tolerance ? Outcome::steps_over : Outcome::agrees;
 }
 

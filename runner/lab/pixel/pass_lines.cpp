@@ -1,5 +1,6 @@
 #include "lab/pixel/pass_lines.hpp"
 
+#include "base/trimmed.hpp"
 #include "ir/dependence.hpp"
 
 #include <fmt/format.h>
@@ -15,13 +16,6 @@ using ir::Assignment;
 using ir::Function;
 using ir::Op;
 
-std::string trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos)
-        return {};
-    return std::string(text.substr(first, text.find_last_not_of(" \t\r") + 1 - first));
-}
-
 /// Of the value of a line that declares no variable, as its text has it.
 std::string name_of(std::string_view line) {
     for (const char* word : {"if", "while", "for", "else if", "} else if"})
@@ -33,7 +27,7 @@ std::string name_of(std::string_view line) {
     if (equals == std::string_view::npos || equals == 0 || line.substr(equals).starts_with("=="))
         return "value";
     const size_t end = line.find_last_not_of(" +-*/%&|^", equals - 1);
-    const std::string left = trimmed(line.substr(0, end == std::string_view::npos ? 0 : end + 1));
+    const std::string left(trimmed(line.substr(0, end == std::string_view::npos ? 0 : end + 1)));
     return left.empty() || left.find_first_of("(<>!?") != std::string::npos
                ? "value"
                : left.substr(left.find_last_of(" \t") + 1);

@@ -8,10 +8,6 @@
 namespace tidemark::lab {
 namespace {
 
-bool timed(const WorkPrecision& point) {
-    return point.measured() && point.all.time().runs > 0;
-}
-
 /// What a picture's PSNR is at least, whatever the truth's own error made of it; NaN: unknown.
 double least_psnr(const WorkPrecisionSet& set, const WorkPrecision& point) {
     const auto& truth = set.picture_standard.uncertainty;
@@ -35,7 +31,7 @@ template <class Wanted>
 const WorkPrecision* cheapest(const WorkPrecisionSet& set, Wanted wanted) {
     const WorkPrecision* best = nullptr;
     for (const WorkPrecision& point : set.points)
-        if (timed(point) && !point.idle && wanted(point) &&
+        if (point.timed() && !point.idle && wanted(point) &&
             (!best || point.all.time().median < best->all.time().median))
             best = &point;
     return best;
@@ -84,7 +80,7 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
                            "(hollow)",
                            set.words.defaults);
     const WorkPrecision* best = cheapest_as_exact(set);
-    if (!best || !timed(defaults))
+    if (!best || !defaults.timed())
         return {};
     const auto gain = speedup(defaults, *best);
     if (best != &defaults && !gain)
@@ -135,7 +131,7 @@ std::string figure(double value) {
 }
 
 std::optional<Speedup> speedup(const WorkPrecision& slow, const WorkPrecision& fast) {
-    if (!timed(slow) || !timed(fast))
+    if (!slow.timed() || !fast.timed())
         return std::nullopt;
     const std::vector<double> a = mean_of_views(slow.rounds()), b = mean_of_views(fast.rounds());
     std::vector<double> ratios;

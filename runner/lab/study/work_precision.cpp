@@ -8,10 +8,6 @@ namespace {
 
 constexpr double k_solid = 10; ///< an error is worth showing from so many uncertainties of the reference up
 
-bool timed(const WorkPrecision& point) {
-    return point.measured() && point.all.time().runs > 0;
-}
-
 /// At least as good in both, better in one.
 bool dominates(const WorkPrecisionSet& set, const WorkPrecision& a, const WorkPrecision& b) {
     const double error_a = error_of(set, a.all), error_b = error_of(set, b.all);
@@ -67,9 +63,9 @@ void judge(WorkPrecisionSet& set) {
     for (WorkPrecision& point : set.points) {
         const double error = error_of(set, point.all);
         point.hollow = point.measured() && (!uncertainty || !(error >= k_solid * *uncertainty));
-        point.on_front = timed(point) && !point.idle && !std::isnan(error) &&
+        point.on_front = point.timed() && !point.idle && !std::isnan(error) &&
                          std::ranges::none_of(set.points, [&](const WorkPrecision& other) {
-                             return timed(other) && !other.idle && dominates(set, other, point);
+                             return other.timed() && !other.idle && dominates(set, other, point);
                          });
     }
 }

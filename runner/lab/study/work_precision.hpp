@@ -60,6 +60,7 @@ struct WorkPrecision {
     /// By the clock that the study goes by.
     const std::vector<std::vector<double>>& rounds() const { return gpu.empty() ? wall : gpu; }
     bool measured() const { return failure.empty() && !views.empty(); }
+    bool timed() const { return measured() && all.time().runs > 0; }
 };
 
 /// A truth and what is known of it.

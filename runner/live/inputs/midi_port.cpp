@@ -15,10 +15,6 @@
 #include <vector>
 
 namespace tidemark::live {
-namespace {
-
-constexpr const char* k_sequencer = "/dev/snd/seq";
-constexpr unsigned k_queue = 1; ///< messages; unused, since a callback takes them
 
 /// The functions of librtmidi that we call.
 struct MidiLibrary {
@@ -29,6 +25,11 @@ struct MidiLibrary {
     decltype(&rtmidi_open_port) open_port = nullptr;
     decltype(&rtmidi_in_set_callback) set_callback = nullptr;
 };
+
+namespace {
+
+constexpr const char* k_sequencer = "/dev/snd/seq";
+constexpr unsigned k_queue = 1; ///< messages; unused, since a callback takes them
 
 Result<MidiLibrary> load() {
     MidiLibrary functions;
@@ -44,7 +45,7 @@ Result<MidiLibrary> load() {
 }
 
 template <class... Words>
-tl::unexpected<Error> refuse(fmt::format_string<Words...> form, Words&&... words) {
+tl::unexpected<Error> cannot_listen(fmt::format_string<Words...> form, Words&&... words) {
     return fail(ErrorCode::load,
                 "cannot listen to MIDI: " + fmt::format(form, std::forward<Words>(words)...));
 }
@@ -84,21 +85,21 @@ MidiPort::~MidiPort() = default;
 Result<std::unique_ptr<MidiPort>> MidiPort::open(std::string_view name, Inbox& into) {
     // The library would only say that there was an error.
     if (::access(k_sequencer, R_OK | W_OK) != 0)
-        return refuse("ALSA's sequencer, {}: {}; give a device's file, as in --midi /dev/snd/midiC1D0",
-                      k_sequencer, std::strerror(errno));
+        return cannot_listen("ALSA's sequencer, {}: {}; give a device's file, as in --midi /dev/snd/midiC1D0",
+                             k_sequencer, std::strerror(errno));
     auto device = std::make_unique<Device>(TRY(load()));
     if (!device->in->ok)
-        return refuse("ALSA's sequencer cannot be opened");
+        return cannot_listen("ALSA's sequencer cannot be opened");
     const auto ports = device->ports();
     const auto found =
         std::ranges::find_if(ports, [&](const std::string& port) { return port.find(name) != port.npos; });
     if (found == ports.end())
-        return refuse("no port is called '{}': there {} {}", name, ports.empty() ? "are" : "is",
-                      ports.empty() ? "none" : fmt::format("{}", fmt::join(ports, ", ")));
+        return cannot_listen("no port is called '{}': there {} {}", name, ports.empty() ? "are" : "is",
+                             ports.empty() ? "none" : fmt::format("{}", fmt::join(ports, ", ")));
     device->rtmidi.set_callback(device->in, put, &into);
     device->rtmidi.open_port(device->in, unsigned(found - ports.begin()), "knobs");
     if (!device->in->ok)
-        return refuse("'{}' cannot be opened", *found);
+        return cannot_listen("'{}' cannot be opened", *found);
     return std::unique_ptr<MidiPort>(new MidiPort(std::move(device)));
 }
 
