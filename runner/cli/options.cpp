@@ -60,6 +60,14 @@ void add_precision_options(CLI::App& command, SceneRequest& request) {
         ->needs(precision);
 }
 
+void add_device_options(CLI::App& command, platform::DeviceChoice& device) {
+    command.add_option("--device", device.name, "Where to draw: a name from `tidemark inspect --devices`")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command.add_flag("--require-gpu", device.gpu_only,
+                     "Fails where the CPU would draw instead of a graphics card");
+}
+
 void add_picture_options(CLI::App& command, FrameOptions& options) {
     command.add_option("--size", options.size, "Resolution in pixels")
         ->type_name("WxH")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/requests.hpp"
+#include "platform/device_choice.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -25,6 +26,9 @@ void add_file_options(CLI::App& command, SceneRequest& request);
 
 /// --precision, --double-hashes: of every command that draws.
 void add_precision_options(CLI::App& command, SceneRequest& request);
+
+/// --device, --require-gpu: of every command that draws without a window.
+void add_device_options(CLI::App& command, platform::DeviceChoice& device);
 
 /// The frame options as they were typed.
 struct FrameOptions {

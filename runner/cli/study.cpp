@@ -35,7 +35,7 @@ struct StudyOptions {
     std::string views;
     std::vector<std::string> reference;
     std::string baseline;
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     lab::Timing timing;
     bool json = false;
 };
@@ -223,10 +223,7 @@ void add_study(CLI::App& app, Action& chosen) {
         ->add_option("--baseline", options->baseline,
                      "An older study.json: exit 1 where something is slower or more wrong beyond noise")
         ->type_name("FILE");
-    command
-        ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_device_options(*command, options->device);
     command->add_flag("--json", options->json, "study.json on standard output, too");
     command->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
 }

@@ -23,7 +23,7 @@ struct TraceCommand {
     FrameOptions frames;
     std::string pixel, line, turns;
     uint64_t seed = 1;
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     bool json = false;
 };
 
@@ -119,10 +119,7 @@ void add_trace(CLI::App& app, Action& chosen) {
         ->type_name("N")
         ->check(number<uint64_t>("a whole number"))
         ->capture_default_str();
-    command
-        ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_device_options(*command, options->device);
     command->add_flag("--json", options->json, "One JSON object on standard output");
     command->callback([options, &chosen] {
         chosen = [options]() -> Result<int> {

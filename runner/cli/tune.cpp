@@ -36,7 +36,7 @@ struct TuneOptions {
     std::string output;
     bool write = false;
     bool json = false;
-    std::string device = "auto";
+    platform::DeviceChoice device{};
 };
 
 Result<lab::Goal> goal_of(const TuneOptions& options) {
@@ -179,10 +179,7 @@ void add_tune(CLI::App& app, Action& chosen) {
     command->add_option("-o,--output", options->output, "Folder for the report [SCENE-tune]")
         ->type_name("FOLDER");
     command->add_flag("--write", options->write, "Writes what was chosen into the scene's files");
-    command
-        ->add_option("--device", options->device, "Where to draw: a name from `tidemark inspect --devices`")
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_device_options(*command, options->device);
     command->add_flag("--json", options->json, "The outcome and its study on standard output, too");
     command->callback([options, &chosen] { chosen = [options] { return tune(*options); }; });
 }

@@ -1,6 +1,7 @@
 #include "platform/headless_context.hpp"
 
 #include "base/doing.hpp"
+#include "platform/device_identity.hpp"
 #include "platform/device_order.hpp"
 
 #include <EGL/egl.h>
@@ -64,6 +65,44 @@ DeviceKind kind_of_display(EGLDisplay display) {
     if (!query || !query(display, EGL_DEVICE_EXT, &device) || device == 0)
         return DeviceKind::unknown;
     return kind_of(reinterpret_cast<EGLDeviceEXT>(device));
+}
+
+bool is_software(std::string_view renderer) {
+    constexpr std::array<std::string_view, 4> k_software{"llvmpipe", "softpipe", "SwiftShader", "Software"};
+    return std::ranges::any_of(
+        k_software, [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
+}
+
+/// See HeadlessDevice::lasting_names.
+std::vector<std::string> lasting_names(EGLDeviceEXT device) {
+    std::vector<std::string> names;
+    const auto query = egl_function<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    if (!query || !device)
+        return names;
+    const char* extensions = query(device, EGL_EXTENSIONS);
+    const auto offers = [&](std::string_view extension) { return has_word(extensions, extension); };
+    if (offers("EGL_EXT_device_drm") || offers("EGL_EXT_device_drm_render_node")) {
+        const EGLint what =
+            offers("EGL_EXT_device_drm_render_node") ? EGL_DRM_RENDER_NODE_FILE_EXT : EGL_DRM_DEVICE_FILE_EXT;
+        const char* file = query(device, what);
+        if (auto name = file ? pci_name(file) : std::nullopt)
+            names.push_back(*std::move(name));
+    }
+    if (offers("EGL_EXT_device_persistent_id")) {
+        const auto binary = egl_function<PFNEGLQUERYDEVICEBINARYEXTPROC>("eglQueryDeviceBinaryEXT");
+        std::array<uint8_t, 16> uuid{};
+        EGLint size = 0;
+        if (binary && binary(device, EGL_DEVICE_UUID_EXT, EGLint(uuid.size()), uuid.data(), &size) &&
+            size == EGLint(uuid.size()))
+            names.push_back(uuid_name(uuid));
+    }
+    if (offers("EGL_NV_device_cuda")) {
+        const auto attribute = egl_function<PFNEGLQUERYDEVICEATTRIBEXTPROC>("eglQueryDeviceAttribEXT");
+        EGLAttrib number = 0;
+        if (attribute && attribute(device, EGL_CUDA_DEVICE_NV, &number))
+            names.push_back(fmt::format("cuda:{}", number));
+    }
+    return names;
 }
 
 /// Where a context may be made: a name that users type, and EGL's way there.
@@ -144,6 +183,13 @@ ContextOrReason make_context(const Place& place, DebugContext debug) {
     return context;
 }
 
+bool is_called(const Place& place, std::string_view name) {
+    if (place.name == name)
+        return true;
+    const bool may_last = name.starts_with("pci:") || name.starts_with("uuid:") || name.starts_with("cuda:");
+    return may_last && std::ranges::count(lasting_names(place.device), name) > 0;
+}
+
 /// The places that `device` names, in the order in which they are to be tried; empty for an unknown name.
 std::vector<Place> places_to_try(const std::vector<Place>& places, std::string_view device) {
     std::vector<std::string> names{std::string(device)};
@@ -160,7 +206,8 @@ std::vector<Place> places_to_try(const std::vector<Place>& places, std::string_v
     }
     std::vector<Place> chosen;
     for (const std::string& name : names) {
-        const auto place = std::ranges::find(places, name, &Place::name);
+        const auto place =
+            std::ranges::find_if(places, [&](const Place& each) { return is_called(each, name); });
         if (place != places.end())
             chosen.push_back(*place);
     }
@@ -169,8 +216,10 @@ std::vector<Place> places_to_try(const std::vector<Place>& places, std::string_v
 
 tl::unexpected<Error> unknown_device(std::string_view device, const std::vector<Place>& places) {
     std::vector<std::string> names{"auto"};
-    for (const Place& place : places)
+    for (const Place& place : places) {
         names.push_back(place.name);
+        std::ranges::move(lasting_names(place.device), std::back_inserter(names));
+    }
     return fail(ErrorCode::usage,
                 fmt::format("unknown device '{}'; there are {}", device, fmt::join(names, ", ")));
 }
@@ -183,13 +232,21 @@ tl::unexpected<Error> no_context(const std::vector<std::string>& tried) {
                             fmt::join(tried, "; ")));
 }
 
+tl::unexpected<Error> no_gpu(const std::vector<std::string>& tried) {
+    return fail(
+        ErrorCode::no_context,
+        fmt::format("no graphics card draws: {}. A driver that is missing or broken is passed over without a "
+                    "word, so look at the vendor's EGL driver; without --require-gpu the CPU draws",
+                    fmt::join(tried, "; ")));
+}
+
 std::string gl_string(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text ? reinterpret_cast<const char*>(text) : "";
 }
 
 HeadlessDevice describe(const Place& place) {
-    HeadlessDevice device{place.name, place.kind, {}, {}, {}};
+    HeadlessDevice device{place.name, place.kind, {}, {}, {}, lasting_names(place.device)};
     const ContextOrReason context = make_context(place, DebugContext::no);
     if (!context) {
         device.reason = context.error();
@@ -214,19 +271,22 @@ HeadlessContext::HeadlessContext(HeadlessContext&&) noexcept = default;
 HeadlessContext& HeadlessContext::operator=(HeadlessContext&&) noexcept = default;
 HeadlessContext::~HeadlessContext() = default;
 
-Result<HeadlessContext> HeadlessContext::create(std::string_view device, DebugContext debug) {
+Result<HeadlessContext> HeadlessContext::create(const DeviceChoice& choice, DebugContext debug) {
     const std::vector<Place> places = list_places();
-    const std::vector<Place> chosen = places_to_try(places, device);
+    const std::vector<Place> chosen = places_to_try(places, choice.name);
     if (chosen.empty())
-        return unknown_device(device, places);
+        return unknown_device(choice.name, places);
     std::vector<std::string> tried;
     for (const Place& place : chosen) {
         ContextOrReason context = make_context(place, debug);
+        // What EGL calls a card may still hand out the CPU: the renderer's own name decides.
+        if (context && choice.gpu_only && is_software(gl_string(GL_RENDERER)))
+            context = tl::unexpected(fmt::format("draws on the CPU ({})", gl_string(GL_RENDERER)));
         if (context)
             return HeadlessContext(std::make_unique<State>(State{std::move(*context), place.name}));
         tried.push_back(fmt::format("{}: {}", place.name, context.error()));
     }
-    return no_context(tried);
+    return choice.gpu_only ? no_gpu(tried) : no_context(tried);
 }
 
 Result<void> HeadlessContext::make_current() {
@@ -263,7 +323,7 @@ void list_headless_devices(const std::function<void(const HeadlessDevice&, bool 
             --skipped;
             continue;
         }
-        seen({place.name, place.kind, {}, {}, {}}, false);
+        seen({place.name, place.kind, {}, {}, {}, {}}, false);
         seen(describe(place), true);
     }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "platform/device_choice.hpp"
 #include "platform/shared_context.hpp"
 
 #include <functional>
@@ -18,10 +19,11 @@ enum class DebugContext { no, yes };
 
 class HeadlessContext {
 public:
-    /// `device`: "surfaceless", "device:N" (in EGL's order), "display" (the X or Wayland display), or
-    /// "auto", which tries them all (order_to_try). Fails with ErrorCode::usage on any other name and
-    /// with ErrorCode::no_context, saying what was tried and why each failed, when there is none.
-    static Result<HeadlessContext> create(std::string_view device = "auto",
+    /// The name of the choice: "surfaceless", "device:N" (in EGL's order), "display" (the X or Wayland
+    /// display), a name that stays (HeadlessDevice::lasting_names), or "auto", which tries them all
+    /// (order_to_try). Fails with ErrorCode::usage on any other name and with ErrorCode::no_context, saying
+    /// what was tried and why each failed, when there is none.
+    static Result<HeadlessContext> create(const DeviceChoice& choice = {},
                                           DebugContext debug = DebugContext::no);
     HeadlessContext(HeadlessContext&&) noexcept;
     HeadlessContext& operator=(HeadlessContext&&) noexcept;
@@ -47,9 +49,10 @@ enum class DeviceKind { hardware, software, unknown };
 struct HeadlessDevice {
     std::string name; ///< as `create` takes it
     DeviceKind kind = DeviceKind::unknown;
-    std::string renderer; ///< GL_RENDERER; empty when there is no context
-    std::string version;  ///< GL_VERSION; empty when there is no context
-    std::string reason;   ///< why there is no context; empty when there is one
+    std::string renderer;                     ///< GL_RENDERER; empty when there is no context
+    std::string version;                      ///< GL_VERSION; empty when there is no context
+    std::string reason;                       ///< why there is no context; empty when there is one
+    std::vector<std::string> lasting_names{}; ///< `pci:…`, `uuid:…`, `cuda:N`; `create` takes these, too
 };
 
 /// Every place, in EGL's order, each tried by making a context. What was current stays current.

@@ -118,7 +118,7 @@ class Looking(Page):
         first.picture()
         self.browser.open(service.address)
         self.browser.wait_for(f"{FIGURE}.number > 0 && document.querySelector('fieldset').disabled")
-        self.assertIn("you watch, 1 other looks", self.browser.evaluate("document.querySelector('.tidemark-status').textContent"))
+        self.browser.wait_for("document.querySelector('.tidemark-status').textContent.includes('you watch, 1 other looks')")
         self.press_button("Steer")
         self.browser.wait_for("!document.querySelector('fieldset').disabled")
         self.assertFalse(first.text("steering", lambda steering: not steering["you"])["you"])

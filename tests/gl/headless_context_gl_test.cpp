@@ -59,7 +59,7 @@ TEST(HeadlessContext, is_a_current_opengl_4_5_core_context) {
 }
 
 TEST(HeadlessContext, debug_context_says_so) {
-    const auto context = HeadlessContext::create("auto", DebugContext::yes);
+    const auto context = HeadlessContext::create({"auto"}, DebugContext::yes);
     ASSERT_TRUE(context) << context.error().message;
     EXPECT_NE(integer(GL_CONTEXT_FLAGS) & GL_CONTEXT_FLAG_DEBUG_BIT, 0);
 }
@@ -73,7 +73,7 @@ TEST(HeadlessContext, draws_on_every_device_of_the_list) {
             continue;
         }
         const auto start = std::chrono::steady_clock::now();
-        const auto context = HeadlessContext::create(device.name);
+        const auto context = HeadlessContext::create({device.name});
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
         ASSERT_TRUE(context) << context.error().message;
         fmt::print("{}: {}, {} in {:.1f} ms\n", device.name, device.renderer, device.version, taken.count());
@@ -151,16 +151,30 @@ TEST(HeadlessContext, unknown_device_is_a_usage_error_with_the_list) {
     for (const HeadlessDevice& device : list_headless_devices())
         names += ", " + device.name;
     for (const char* unknown : {"gpu", "device:99", "device:", "", "Auto"}) {
-        const auto context = HeadlessContext::create(unknown);
+        const auto context = HeadlessContext::create({unknown});
         ASSERT_FALSE(context) << unknown;
         EXPECT_EQ(context.error().code, ErrorCode::usage);
         EXPECT_EQ(context.error().message, fmt::format("unknown device '{}'; there are {}", unknown, names));
     }
 }
 
+TEST(HeadlessContext, a_software_driver_is_no_gpu) {
+    const auto any = HeadlessContext::create();
+    if (!any)
+        GTEST_SKIP() << any.error().message;
+    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    if (renderer.find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << renderer;
+    const auto context = HeadlessContext::create({any->device(), true});
+    ASSERT_FALSE(context);
+    EXPECT_EQ(context.error().code, ErrorCode::no_context);
+    EXPECT_THAT(context.error().message, testing::StartsWith("no graphics card draws: " + any->device() +
+                                                             ": draws on the CPU (" + renderer + ")"));
+}
+
 /// Writes the error of `create(device)` to standard error and ends with its exit code.
 [[noreturn]] void report_and_exit(const char* device) {
-    const auto context = HeadlessContext::create(device);
+    const auto context = HeadlessContext::create({device});
     if (context)
         std::_Exit(0);
     std::fputs(context.error().message.c_str(), stderr);

@@ -209,9 +209,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
             "--depth", options.depth,
             "Bits of a sample in the file [what the format stores by nature; a --pass in .exr: float]")
         ->type_name("8|16|half|float");
-    command.add_option("--device", options.device, "Where to draw: a name from `tidemark inspect --devices`")
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_device_options(command, options.device);
     command
         .add_option("--timeout", options.timeout,
                     "Give up where compiling takes longer, or getting ready to draw, or a frame")

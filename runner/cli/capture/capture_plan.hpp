@@ -9,6 +9,7 @@
 #include "cli/output_name.hpp"
 #include "cli/trial.hpp"
 #include "image/files/picture_file.hpp"
+#include "platform/device_choice.hpp"
 #include "render/exposure.hpp"
 #include "render/renderer.hpp"
 
@@ -32,7 +33,7 @@ struct CaptureOptions {
     std::optional<Likeness> likeness{};
     std::optional<std::string> output;
     std::string depth;
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     std::optional<double> timeout;
     double duration = 60;
     bool plain = false;
@@ -71,7 +72,7 @@ struct CapturePlan {
     render::Exposure exposure;
     std::optional<int> tile_side;
     std::optional<PlannedTrial> trial;
-    std::string device;
+    platform::DeviceChoice device;
     std::optional<double> timeout; ///< seconds for a frame
     SceneRequest request;          ///< that `scene` was loaded by
     std::string like;              ///< the picture that it should come to; empty: none
@@ -98,7 +99,7 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options);
 struct SoundPlan {
     scene::Scene scene;
     OutputPath output;
-    std::string device;
+    platform::DeviceChoice device;
     glsl::Precision precision = glsl::Precision::single;
     double duration = 60; ///< seconds
 };

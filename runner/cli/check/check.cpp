@@ -75,9 +75,7 @@ void add_check(CLI::App& app, Action& chosen) {
                      "Seconds for all of it: what has not answered by then is cut, and is exit 5")
         ->type_name("S")
         ->capture_default_str();
-    command->add_option("--device", probes.device, "Where to draw: a name from `tidemark inspect --devices`")
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_device_options(*command, probes.device);
     auto* list = command->add_flag("--list", options->list, "What each probe looks at, and nothing else");
     command->get_option("SCENE")->required(false);
     command

@@ -3,6 +3,7 @@
 
 #include "base/result.hpp"
 #include "cli/requests.hpp"
+#include "platform/device_choice.hpp"
 
 #include <string>
 
@@ -10,7 +11,7 @@ namespace tidemark::cli {
 
 struct FixOptions {
     SceneRequest scene;
-    std::string device;
+    platform::DeviceChoice device;
     double budget = 60; ///< seconds for all of it
     bool write = false; ///< into the files, each as soon as it is found better
     bool json = false;

@@ -25,7 +25,7 @@ Json json_of(const Diagnostic& diagnostic) {
 
 } // namespace
 
-Result<int> check_portable(const SceneRequest& request, const std::string& device, bool as_json) {
+Result<int> check_portable(const SceneRequest& request, const platform::DeviceChoice& device, bool as_json) {
     const auto scene = TRY(load(request));
     std::vector<Diagnostic> found = glsl::portability_lint(scene);
     const auto context = platform::HeadlessContext::create(device);

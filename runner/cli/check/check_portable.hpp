@@ -2,12 +2,13 @@
 #pragma once
 
 #include "cli/requests.hpp"
+#include "platform/device_choice.hpp"
 
 #include <string>
 
 namespace tidemark::cli {
 
 /// Prints one line for each place that the site's compiler will refuse; exit 1 when there is one.
-Result<int> check_portable(const SceneRequest& request, const std::string& device, bool as_json);
+Result<int> check_portable(const SceneRequest& request, const platform::DeviceChoice& device, bool as_json);
 
 } // namespace tidemark::cli

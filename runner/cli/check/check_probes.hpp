@@ -4,6 +4,7 @@
 #include "base/result.hpp"
 #include "cli/requests.hpp"
 #include "lab/check/promises.hpp"
+#include "platform/device_choice.hpp"
 
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ struct ProbesRequest {
     SceneRequest scene;
     std::vector<std::string> probes; ///< --probe; empty: all
     std::string output;              ///< folder for index.html and pictures of failures; empty: none
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     double budget = 60; ///< seconds after which no other probe is begun
     bool json = false;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/options.hpp"
+#include "platform/device_choice.hpp"
 
 #include <string>
 
@@ -11,7 +12,7 @@ struct TraceOptions {
     SceneRequest scene;
     FrameOptions frames;
     std::string pixel; ///< `x,y`; empty: the first bad one
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     double timeout = 60;
     bool hidden = false;
     bool json = false;

@@ -16,7 +16,7 @@
 namespace tidemark::cli {
 namespace {
 
-Result<image::Image> picture(const scene::Scene& scene, const std::string& device,
+Result<image::Image> picture(const scene::Scene& scene, const platform::DeviceChoice& device,
                              const render::FrameState& state) {
     const auto context = TRY(platform::HeadlessContext::create(device));
     return lab::ProbeBench(scene, {}).picture(state);
@@ -32,7 +32,7 @@ Json bits_of(const image::Image& picture) {
 
 } // namespace
 
-Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const std::string& device) {
+Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device) {
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
         ::setenv("LP_NUM_THREADS", "0", 1); // none beside the one that asks
         const auto drawn = picture(scene, device, frame_state_of(Json::parse(question)));

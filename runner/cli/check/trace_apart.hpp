@@ -4,6 +4,7 @@
 
 #include "cli/error_json.hpp"
 #include "lab/trace/nan_trace.hpp"
+#include "platform/device_choice.hpp"
 #include "scene/scene.hpp"
 
 #include <string>
@@ -12,7 +13,7 @@ namespace tidemark::cli {
 
 /// What to trace, and where to draw.
 struct TraceJob {
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     lab::TraceRequest request;
 };
 

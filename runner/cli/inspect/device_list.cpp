@@ -18,14 +18,20 @@ using platform::HeadlessDevice;
 constexpr double k_patience_seconds = 30;
 
 std::string told(const HeadlessDevice& device, bool tried) {
-    return Json{{"name", device.name},       {"kind", int(device.kind)}, {"renderer", device.renderer},
-                {"version", device.version}, {"reason", device.reason},  {"tried", tried}}
+    return Json{{"name", device.name},
+                {"kind", int(device.kind)},
+                {"renderer", device.renderer},
+                {"version", device.version},
+                {"reason", device.reason},
+                {"names", device.lasting_names},
+                {"tried", tried}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 HeadlessDevice device_of(const Json& json) {
-    return {json.at("name"), platform::DeviceKind(json.at("kind").get<int>()), json.at("renderer"),
-            json.at("version"), json.at("reason")};
+    return {json.at("name"),     platform::DeviceKind(json.at("kind").get<int>()),
+            json.at("renderer"), json.at("version"),
+            json.at("reason"),   json.at("names")};
 }
 
 } // namespace

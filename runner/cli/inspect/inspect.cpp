@@ -34,7 +34,7 @@ using Json = nlohmann::ordered_json;
 
 struct InspectOptions {
     SceneRequest scene;
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     std::string pass;
     std::string size = "640x360";
     std::vector<std::string> with;
@@ -62,14 +62,19 @@ Json json_of(const platform::HeadlessDevice& device) {
     } else {
         json["unusable"] = device.reason;
     }
+    if (!device.lasting_names.empty())
+        json["lasting_names"] = device.lasting_names;
     return json;
 }
 
 std::string to_line(const platform::HeadlessDevice& device) {
     if (!device.reason.empty())
         return fmt::format("{:<12} unusable: {}\n", device.name, device.reason);
-    return fmt::format("{:<12} {}, {}, OpenGL {}\n", device.name, name_of(device.kind), device.renderer,
-                       device.version);
+    std::string text = fmt::format("{:<12} {}, {}, OpenGL {}\n", device.name, name_of(device.kind),
+                                   device.renderer, device.version);
+    if (!device.lasting_names.empty())
+        text += fmt::format("{:<12} also called {}\n", "", fmt::join(device.lasting_names, ", "));
+    return text;
 }
 
 Result<int> inspect_devices(bool as_json) {
@@ -183,7 +188,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
         return put_source(scene, options.pass, precision_of(options.scene),
                           options.specialised ? glsl::Specialise::invariant_uniforms
                                               : glsl::Specialise::nothing);
-    if (options.device == "none")
+    if (options.device.name == "none")
         return put(options.json ? dump(what_files_say(scene), 2) + "\n" : lines_of_files(scene)).map([] {
             return 0;
         });
@@ -209,11 +214,9 @@ void add_inspect(CLI::App& app, Action& chosen) {
     add_scene_options(*command, options->scene);
     command->get_option("SCENE")->required(false);
     add_precision_options(*command, options->scene);
-    command
-        ->add_option("--device", options->device,
-                     "Where to draw: a name from --devices; none: without a driver, what the files say")
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_device_options(*command, options->device);
+    command->get_option("--device")
+        ->description("Where to draw: a name from --devices; none: without a driver, what the files say");
     command->add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
         ->type_name("NAME");
     command->add_flag("--devices", options->devices, "Lists where OpenGL contexts can be had, and no scene");

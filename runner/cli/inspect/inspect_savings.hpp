@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/requests.hpp"
+#include "platform/device_choice.hpp"
 
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ struct SavingsOptions {
     SceneRequest scene;
     std::string size = "640x360";
     std::string pass;
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     std::vector<std::string> things; ///< "all": every one by itself, then all together
     double budget = 20;              ///< seconds
     bool json = false;

@@ -42,8 +42,8 @@ std::string line_of(std::string_view kind, const Diagnostics& diagnostics) {
 /// In the child. Every pass is compiled, also behind one that fails, and one that no other reads; as capture
 /// compiles it, without the functions that nobody calls. What is wrong with those is a hint: the site
 /// compiles them.
-Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts, const std::string& device,
-                     const Tell& tell) {
+Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts,
+                     const platform::DeviceChoice& device, const Tell& tell) {
     const scene::Scene scene = TRY(scene::load_scene(path, {.media = {}, .unsaved = texts}));
     Diagnostics problems = scene.warnings;
     const auto context = platform::HeadlessContext::create(device);
@@ -76,7 +76,7 @@ Diagnostics left_by(const ForkedResult& result, const ForkedLimits& limits) {
 } // namespace
 
 Result<CompileCheck> CompileCheck::start(const fs::path& scene, const lsp::Documents& documents,
-                                         const std::string& device, const ForkedLimits& limits) {
+                                         const platform::DeviceChoice& device, const ForkedLimits& limits) {
     auto helper = TRY(ForkedHelper::start([&](const std::string&, const Tell& tell) {
         platform::do_without_full_driver_cache();
         if (const auto done = examine(scene, documents.texts(), device, tell); !done)

@@ -5,6 +5,7 @@
 #include "base/result.hpp"
 #include "cli/forked.hpp"
 #include "lsp/diagnostic_board.hpp"
+#include "platform/device_choice.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -17,7 +18,7 @@ public:
     /// Of the scene as the editor holds its files. To be called without threads or a context
     /// (cli/forked.hpp).
     static Result<CompileCheck> start(const std::filesystem::path& scene, const lsp::Documents& documents,
-                                      const std::string& device, const ForkedLimits& limits);
+                                      const platform::DeviceChoice& device, const ForkedLimits& limits);
 
     const std::filesystem::path& scene() const { return scene_; }
     int descriptor() const { return helper_.descriptor(); }

@@ -6,6 +6,7 @@
 #include "cli/console.hpp"
 #include "cli/limits.hpp"
 #include "cli/lsp/compile_check.hpp"
+#include "cli/options.hpp"
 #include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "lsp/session.hpp"
@@ -30,7 +31,7 @@ constexpr milliseconds k_quiet{100};
 constexpr milliseconds k_look{50};
 
 struct LspOptions {
-    std::string device = "auto";
+    platform::DeviceChoice device{};
     LimitOptions limits;
     double timeout = 30;
 };
@@ -133,11 +134,7 @@ void add_lsp(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<LspOptions>();
     CLI::App* command =
         app.add_subcommand("lsp", "A language server for editors, on standard input and output");
-    command
-        ->add_option("--device", options->device,
-                     "Where to compile: a name from `tidemark inspect --devices`")
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_device_options(*command, options->device);
     add_memory_option(*command, options->limits);
     command->add_option("--timeout", options->timeout, "Give up a scene that takes longer to compile")
         ->type_name("SECONDS")

@@ -16,6 +16,11 @@
 
 namespace tidemark::live {
 
+namespace {
+
+constexpr const char* k_sequencer = "/dev/snd/seq";
+constexpr unsigned k_queue = 1; ///< messages; unused, since a callback takes them
+
 /// The functions of librtmidi that we call.
 struct MidiLibrary {
     decltype(&rtmidi_in_create) create = nullptr;
@@ -25,11 +30,6 @@ struct MidiLibrary {
     decltype(&rtmidi_open_port) open_port = nullptr;
     decltype(&rtmidi_in_set_callback) set_callback = nullptr;
 };
-
-namespace {
-
-constexpr const char* k_sequencer = "/dev/snd/seq";
-constexpr unsigned k_queue = 1; ///< messages; unused, since a callback takes them
 
 Result<MidiLibrary> load() {
     MidiLibrary functions;
