@@ -40,7 +40,7 @@ ROOMS = {
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"],
              "cure": ["syntax", "flow", "analysis"]},
     "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "trace": [], "pixel": ["march"],
-            "check": ["", "march", "trace"], "fix": ["", "trace", "check"]},
+            "check": ["", "march", "trace"], "fix": ["", "trace", "check"], "device": ["", "check", "study"]},
     # What runs in a browser, and includes nothing.
     "web": {"": [], "host": []},
     "report": {"": [], "page": []},

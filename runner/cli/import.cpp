@@ -36,12 +36,12 @@ struct ImportOptions {
     bool json = false;
 };
 
-std::string hash_of(std::string_view bytes) {
+std::string content_hash(std::string_view bytes) {
     return sha256(std::as_bytes(std::span(bytes)));
 }
 
 Receipt read_receipt(const fs::path& folder) {
-    constexpr size_t k_digits = 64;
+    constexpr size_t k_hash_digits = 64;
     Receipt receipt;
     const auto text = read_file(folder / k_receipt);
     if (!text)
@@ -51,8 +51,8 @@ Receipt read_receipt(const fs::path& folder) {
         const std::string_view line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(rest.size(), line.size() + 1));
         // A name, for what it tells of is removed when it is no more: never a path that leads elsewhere.
-        if (line.size() > k_digits + 2 && line.find('/') == line.npos)
-            receipt[std::string(line.substr(k_digits + 2))] = std::string(line.substr(0, k_digits));
+        if (line.size() > k_hash_digits + 2 && line.find('/') == line.npos)
+            receipt[std::string(line.substr(k_hash_digits + 2))] = std::string(line.substr(0, k_hash_digits));
     }
     return receipt;
 }
@@ -62,7 +62,7 @@ bool is_as_written(const fs::path& file, const Receipt& receipt) {
     if (written == receipt.end())
         return false;
     const auto bytes = read_file(file);
-    return bytes && hash_of(*bytes) == written->second;
+    return bytes && content_hash(*bytes) == written->second;
 }
 
 /// The folder may be written into.
@@ -97,7 +97,7 @@ Result<int> import(const ImportOptions& options) {
     std::vector<std::string> names;
     for (const scene::ProjectFile& file : files) {
         TRY(write_file(output / file.name, file.bytes));
-        receipt += fmt::format("{}  {}\n", hash_of(file.bytes), file.name);
+        receipt += fmt::format("{}  {}\n", content_hash(file.bytes), file.name);
         names.push_back(file.name);
     }
     std::error_code ignored;

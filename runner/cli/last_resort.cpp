@@ -15,7 +15,6 @@ namespace tidemark::cli {
 namespace {
 
 constexpr int k_no_resources = 4;
-constexpr int k_internal_error = 70; // EX_SOFTWARE of sysexits.h
 
 /// Without memory of its own: there may be none.
 void say_at_once(std::string_view line) {

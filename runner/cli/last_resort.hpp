@@ -4,6 +4,9 @@
 
 namespace tidemark::cli {
 
+/// The exit code of a defect of ours: EX_SOFTWARE of sysexits.h.
+inline constexpr int k_internal_error = 70;
+
 /// For what escapes on any thread.
 void end_by_last_resort();
 

@@ -5,6 +5,7 @@
 #include "base/leftovers.hpp"
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/last_resort.hpp"
 #include "cli/memory_limit.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +28,6 @@ constexpr double k_look_seconds = 0.05;
 constexpr unsigned k_looks_at_one_family = 20;
 /// A driver that has not started until now never does.
 constexpr double k_longest_start = 60;
-/// A defect of ours, as sysexits.h has it.
-constexpr int k_internal_error = 70;
 
 constexpr int k_handed_on[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGCONT};
 

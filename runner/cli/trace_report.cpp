@@ -15,7 +15,6 @@ using lab::LineInCall;
 using lab::PixelTrace;
 using lab::TracedLine;
 using lab::TracedValue;
-using Kind = TracedValue::Kind;
 
 constexpr const char* k_components = "xyzw";
 /// Of a summary.
@@ -45,17 +44,18 @@ std::string special_text(double number) {
     return std::isinf(number) ? number > 0 ? "+Inf" : "-Inf" : "";
 }
 
-std::string number_text(double number, Kind kind, int digits) {
-    if (kind == Kind::condition)
+std::string number_text(double number, TracedValue::Kind kind, int digits) {
+    if (kind == TracedValue::Kind::condition)
         return number != 0 ? "true" : "false";
     if (!std::isfinite(number))
         return special_text(number);
-    return kind == Kind::whole ? fmt::format("{:.0f}", number) : fmt::format("{:.{}g}", number, digits);
+    return kind == TracedValue::Kind::whole ? fmt::format("{:.0f}", number)
+                                            : fmt::format("{:.{}g}", number, digits);
 }
-std::string float_text(double number, Kind kind) {
+std::string float_text(double number, TracedValue::Kind kind) {
     return number_text(number, kind, 9);
 }
-std::string double_text(double number, Kind kind) {
+std::string double_text(double number, TracedValue::Kind kind) {
     return number_text(number, kind, 12);
 }
 
@@ -84,9 +84,9 @@ std::string colour(const PixelTrace& trace) {
         fmt::format("  {:8}{:>16}{:>20}{:>8}{:>16}\n", "colour", "float", "double", "digits", "device");
     for (size_t i = 0; i < trace.in_float.size(); ++i)
         text += fmt::format("  {:8}{:>16}{:>20}{:>8.1f}{:>16}\n", "rgba"[i],
-                            float_text(trace.in_float[i], Kind::real),
-                            double_text(trace.in_double[i], Kind::real), trace.digits[i],
-                            float_text(trace.on_device[i], Kind::real));
+                            float_text(trace.in_float[i], TracedValue::Kind::real),
+                            double_text(trace.in_double[i], TracedValue::Kind::real), trace.digits[i],
+                            float_text(trace.on_device[i], TracedValue::Kind::real));
     if (trace.at_base_level)
         text += "  textures are read at their base level where the device chooses a mipmap\n";
     if (!lab::is_as_drawn(trace))
@@ -104,7 +104,7 @@ std::string mark(const TracedValue& value, double fewest) {
         return "  double has it otherwise";
     if (value.unstable)
         return "  rounding decides";
-    if (value.kind == Kind::real && value.digits == fewest)
+    if (value.kind == TracedValue::Kind::real && value.digits == fewest)
         return "  fewest digits";
     return value.carried ? "  into the turn" : "";
 }
@@ -116,7 +116,8 @@ std::string row(const TracedValue& value, size_t component, double fewest) {
                     component_name(value, component), float_text(value.in_float[component], value.kind),
                     double_text(value.in_double[component], value.kind));
     if (first)
-        text += fmt::format("{:>8}{}", value.kind == Kind::real ? fmt::format("{:.1f}", value.digits) : "",
+        text += fmt::format("{:>8}{}",
+                            value.kind == TracedValue::Kind::real ? fmt::format("{:.1f}", value.digits) : "",
                             mark(value, fewest));
     return text.erase(text.find_last_not_of(' ') + 1) + "\n";
 }
@@ -133,7 +134,7 @@ double fewest_of(const std::vector<LineInCall>& calls) {
     double fewest = ir::k_most_digits - k_least_loss;
     for (const LineInCall& call : calls)
         for (const TracedValue& value : call.values)
-            if (value.kind == Kind::real)
+            if (value.kind == TracedValue::Kind::real)
                 fewest = std::min(fewest, value.digits);
     return fewest;
 }
@@ -254,9 +255,9 @@ Json numbers_json(const auto& numbers) {
 }
 
 Json json_of(const TracedValue& value) {
-    static constexpr const char* k_kinds[] = {"real", "whole", "condition"};
+    static constexpr const char* k_kind_names[] = {"real", "whole", "condition"};
     return {{"name", value.name},
-            {"kind", k_kinds[size_t(value.kind)]},
+            {"kind", k_kind_names[size_t(value.kind)]},
             {"carried", value.carried},
             {"turns", value.turns},
             {"number", value.number},

@@ -33,20 +33,20 @@ constexpr double k_longest_timing_ms = 10'000;
 
 /// Where threads of this process draw, and it does nothing else, their CPU time is the measure: other
 /// processes do not stretch it.
-using Clock = double lab::Elapsed::*;
-Clock clock_of(const TrialPlan& plan) {
+using ElapsedClock = double lab::Elapsed::*;
+ElapsedClock clock_of(const TrialPlan& plan) {
     const bool in_software = gl::query_capabilities().renderer.starts_with("llvmpipe");
     return in_software && !plan.in_window ? &lab::Elapsed::cpu : &lab::Elapsed::wall;
 }
 
 /// Of all that was drawn.
-double milliseconds_on(const lab::Stopwatch& watch, Clock clock) {
+double milliseconds_on(const lab::Stopwatch& watch, ElapsedClock clock) {
     glFinish();
     return watch.elapsed().*clock;
 }
 
 /// From nothing drawn, or a frame that it has just drawn would be free.
-double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs, Clock clock) {
+double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs, ElapsedClock clock) {
     renderer.reset();
     glFinish();
     const lab::Stopwatch watch;
@@ -160,7 +160,7 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
                              const TrialPlan& plan) {
     render::RenderOptions certain = options;
     certain.specialise = glsl::Specialise::unreachable;
-    const Clock clock = clock_of(plan);
+    const ElapsedClock clock = clock_of(plan);
     const lab::Stopwatch start;
     auto plain = TRY(Renderer::create(scene, certain));
     if (!worth_trying(plain, options.specialise))

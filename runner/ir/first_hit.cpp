@@ -20,9 +20,9 @@ constexpr double k_shorter = 1 - 1e-12;
 /// Wider than a slope makes it.
 constexpr double k_jump = 1e3;
 
-class Search {
+class HitSearch {
 public:
-    Search(MarchSlice& slice, double last, uint64_t most, double relative_width)
+    HitSearch(MarchSlice& slice, double last, uint64_t most, double relative_width)
         : slice_(slice), last_(last), most_(most), relative_width_(relative_width),
           length_(last - slice.start()), near_(near()) {}
 
@@ -156,7 +156,7 @@ std::string_view to_string(FirstHit::Reason reason) {
 }
 
 FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations, double relative_width) {
-    return Search(slice, last, most_evaluations, relative_width).run();
+    return HitSearch(slice, last, most_evaluations, relative_width).run();
 }
 
 } // namespace tidemark::ir

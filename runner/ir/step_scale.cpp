@@ -11,7 +11,7 @@ constexpr size_t k_first_pieces = 8;
 /// What is safe and what is not are told apart to that.
 constexpr double k_close_enough = 1.05;
 /// Of the way to the hit: over longer pieces too many ways are open for a close look.
-constexpr double k_looked_at = 1.0 / 64;
+constexpr double k_looked_at_closely = 1.0 / 64;
 /// The last piece begins so much nearer to the hit each time that it is cut.
 constexpr double k_nearer = 1.0 / 8;
 
@@ -23,9 +23,9 @@ struct Piece {
     bool operator<(const Piece& other) const { return safe > other.safe; } // the least is on top
 };
 
-class Search {
+class StepSearch {
 public:
-    Search(MarchSlice& slice, const Interval& hit, uint64_t most)
+    StepSearch(MarchSlice& slice, const Interval& hit, uint64_t most)
         : slice_(slice), hit_(hit), last_(slice.evaluations() + most), way_(hit.low - slice.start()) {}
 
     StepScale run() {
@@ -59,7 +59,7 @@ private:
     void look_at(double low, double high) {
         sample(low);
         const Interval piece{low, high};
-        const Care care = high - low < way_ * k_looked_at ? Care::close : Care::quick;
+        const Care care = high - low < way_ * k_looked_at_closely ? Care::close : Care::quick;
         const auto found = slice_.distances(piece, care);
         if (!found)
             return;
@@ -102,7 +102,7 @@ private:
 } // namespace
 
 StepScale step_scale(MarchSlice& slice, const Interval& hit, uint64_t most_evaluations) {
-    return Search(slice, hit, most_evaluations).run();
+    return StepSearch(slice, hit, most_evaluations).run();
 }
 
 } // namespace tidemark::ir

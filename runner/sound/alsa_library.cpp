@@ -9,7 +9,7 @@ namespace {
 /// ALSA prints by itself otherwise.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
-Result<AlsaLibrary> load() {
+Result<AlsaLibrary> load_alsa() {
     AlsaLibrary alsa;
     SharedLibrary library("libasound.so.2");
     library.find("snd_pcm_open", alsa.open)
@@ -31,7 +31,7 @@ Result<AlsaLibrary> load() {
 } // namespace
 
 const Result<AlsaLibrary>& alsa_library() {
-    static const Result<AlsaLibrary> library = load();
+    static const Result<AlsaLibrary> library = load_alsa();
     return library;
 }
 

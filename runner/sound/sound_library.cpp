@@ -6,7 +6,7 @@
 namespace tidemark::sound {
 namespace {
 
-Result<SoundLibrary> load() {
+Result<SoundLibrary> load_sndfile() {
     SoundLibrary functions;
     SharedLibrary library("libsndfile.so.1");
     library.find("sf_open_virtual", functions.open_virtual)
@@ -20,7 +20,7 @@ Result<SoundLibrary> load() {
 } // namespace
 
 const Result<SoundLibrary>& sound_library() {
-    static const Result<SoundLibrary> library = load();
+    static const Result<SoundLibrary> library = load_sndfile();
     return library;
 }
 

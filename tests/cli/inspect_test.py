@@ -275,5 +275,28 @@ class Devices(ProgramTest):
                                                "display      unusable: no driver offers it (EGL_BAD_PARAMETER)\n")
 
 
+class SelfTest(ProgramTest):
+    def test_each_device_gets_its_verdicts(self):
+        done = self.succeed("inspect", "--devices", "--self-test", "--json")
+        devices = [device for device in json.loads(done.stdout)["devices"] if "unusable" not in device]
+        self.assertTrue(devices)
+        for device in devices:
+            verdicts = {check["check"]: check for check in device["checks"]}
+            for name in ("read-back", "bytes", "arithmetic", "repeatability", "tiles", "doubles"):
+                self.assertEqual(verdicts[name]["verdict"], "pass", verdicts[name])
+            if "llvmpipe" in device["renderer"]:
+                self.assertEqual(verdicts["loops"]["verdict"], "warn")
+                self.assertIn("65535 of 1000000 turns", verdicts["loops"]["says"])
+
+    def test_a_processor_is_no_gpu(self):
+        devices = json.loads(self.succeed("inspect", "--devices", "--json").stdout)["devices"]
+        if any(device["kind"] == "hardware" for device in devices):
+            self.skipTest("a graphics card is here")
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
+        done = self.run_program("capture", "a.glsl", "--require-gpu", "-o", "a.png")
+        self.assertEqual(done.returncode, 77)
+        self.assertIn("no graphics card draws: ", done.stderr)
+
+
 if __name__ == "__main__":
     main()

@@ -1,8 +1,8 @@
 #include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
-#include "cli/inspect/device_list.hpp"
 #include "cli/inspect/driver_code.hpp"
+#include "cli/inspect/inspect_devices.hpp"
 #include "cli/inspect/inspect_march.hpp"
 #include "cli/inspect/inspect_savings.hpp"
 #include "cli/json_dump.hpp"
@@ -40,53 +40,11 @@ struct InspectOptions {
     std::vector<std::string> with;
     double budget = 20;
     bool devices = false;
+    bool self_test = false;
     bool source = false;
     bool specialised = false;
     bool json = false;
 };
-
-std::string_view name_of(platform::DeviceKind kind) {
-    switch (kind) {
-    case platform::DeviceKind::hardware: return "hardware";
-    case platform::DeviceKind::software: return "software";
-    case platform::DeviceKind::unknown: return "unknown";
-    }
-    return "unknown";
-}
-
-Json json_of(const platform::HeadlessDevice& device) {
-    Json json = {{"name", device.name}, {"kind", name_of(device.kind)}};
-    if (device.reason.empty()) {
-        json["renderer"] = device.renderer;
-        json["version"] = device.version;
-    } else {
-        json["unusable"] = device.reason;
-    }
-    if (!device.lasting_names.empty())
-        json["lasting_names"] = device.lasting_names;
-    return json;
-}
-
-std::string to_line(const platform::HeadlessDevice& device) {
-    if (!device.reason.empty())
-        return fmt::format("{:<12} unusable: {}\n", device.name, device.reason);
-    std::string text = fmt::format("{:<12} {}, {}, OpenGL {}\n", device.name, name_of(device.kind),
-                                   device.renderer, device.version);
-    if (!device.lasting_names.empty())
-        text += fmt::format("{:<12} also called {}\n", "", fmt::join(device.lasting_names, ", "));
-    return text;
-}
-
-Result<int> inspect_devices(bool as_json) {
-    const auto devices = TRY(list_devices_apart());
-    std::string text;
-    Json json = {{"tidemark", k_version}, {"devices", Json::array()}};
-    for (const platform::HeadlessDevice& device : devices) {
-        text += to_line(device);
-        json["devices"].push_back(json_of(device));
-    }
-    return put(as_json ? dump(json, 2) + "\n" : text).map([] { return 0; });
-}
 
 Json json_of(const glsl::LeftOut& left_out) {
     Json json = {{"lines", left_out.lines},
@@ -219,7 +177,12 @@ void add_inspect(CLI::App& app, Action& chosen) {
         ->description("Where to draw: a name from --devices; none: without a driver, what the files say");
     command->add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
         ->type_name("NAME");
-    command->add_flag("--devices", options->devices, "Lists where OpenGL contexts can be had, and no scene");
+    auto* devices = command->add_flag("--devices", options->devices,
+                                      "Lists where OpenGL contexts can be had, and no scene");
+    command
+        ->add_flag("--self-test", options->self_test,
+                   "With --devices: what each of them can be trusted with, a verdict a line")
+        ->needs(devices);
     command->add_flag("--source", options->source,
                       "Prints the text that the driver compiles, and nothing else");
     const auto things = things_left_out();
@@ -247,7 +210,7 @@ void add_inspect(CLI::App& app, Action& chosen) {
     command->callback([options, &chosen] {
         chosen = [options]() -> Result<int> {
             if (options->devices)
-                return inspect_devices(options->json);
+                return inspect_devices(options->self_test, options->json);
             if (options->scene.path.empty())
                 return fail(ErrorCode::usage, "inspect: give a SCENE, or --devices");
             if (!options->with.empty())

@@ -23,7 +23,7 @@ constexpr int64_t k_unheard = k_rate / 10;
 /// How often the device is given more.
 constexpr std::chrono::milliseconds k_turn{20};
 /// Drawn at a time: 0.19 s.
-constexpr int k_rows = 16;
+constexpr int k_rows_at_once = 16;
 
 std::string text_to_play(const scene::Scene& scene, const scene::Pass& pass) {
     return scene.common.text() + pass.text.text();
@@ -65,9 +65,9 @@ public:
 private:
     /// From sample `first` to the end of what is drawn of it.
     std::span<const int16_t> samples_at(int64_t first) {
-        const int64_t begin = first - first % render::SoundRenderer::samples_in(k_rows);
+        const int64_t begin = first - first % render::SoundRenderer::samples_in(k_rows_at_once);
         if (begin != drawn_from_) {
-            drawn_ = renderer_.draw_rows(int(begin), k_rows);
+            drawn_ = renderer_.draw_rows(int(begin), k_rows_at_once);
             drawn_from_ = begin;
         }
         return std::span(drawn_).subspan(2 * size_t(first - begin));
@@ -133,7 +133,7 @@ Result<SoundPlayer::Voice> SoundPlayer::begin(Order order) {
     auto device = TRY(sound::Playback::open(int(k_rate)));
     TRY(order.context.make_current());
     auto renderer = TRY(render::SoundRenderer::create(order.scene, render::local_date(), order.precision));
-    (void)renderer.draw_rows(0, k_rows); // the driver finishes compiling with the first draw
+    (void)renderer.draw_rows(0, k_rows_at_once); // the driver finishes compiling with the first draw
     return Voice(std::move(order.context), std::move(renderer), std::move(device));
 }
 

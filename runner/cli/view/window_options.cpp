@@ -13,7 +13,7 @@ namespace tidemark::cli {
 namespace {
 
 /// Farther out no screen is.
-constexpr int k_farthest = 1 << 15;
+constexpr int k_farthest_place = 1 << 15;
 
 Result<platform::ScreenPoint> parse_position(const std::string& text) {
     platform::ScreenPoint point;
@@ -21,7 +21,7 @@ Result<platform::ScreenPoint> parse_position(const std::string& text) {
     const auto x = std::from_chars(text.data(), end, point.x);
     const bool has_two = x.ec == std::errc{} && x.ptr != end && *x.ptr == ',';
     const auto y = has_two ? std::from_chars(x.ptr + 1, end, point.y) : x;
-    const bool far = std::abs(point.x) > k_farthest || std::abs(point.y) > k_farthest;
+    const bool far = std::abs(point.x) > k_farthest_place || std::abs(point.y) > k_farthest_place;
     if (!has_two || y.ec != std::errc{} || y.ptr != end || far)
         return fail(
             ErrorCode::usage,

@@ -80,10 +80,11 @@ private:
 
     /// The binary operator here; longer ones first, for tokens are single characters.
     std::optional<Operator> next_operator() const {
-        constexpr Operator k_operators[] = {{"||", 1}, {"&&", 2}, {"==", 6}, {"!=", 6}, {"<=", 7}, {">=", 7},
-                                            {"<<", 8}, {">>", 8}, {"|", 3},  {"^", 4},  {"&", 5},  {"<", 7},
-                                            {">", 7},  {"+", 9},  {"-", 9},  {"*", 10}, {"/", 10}, {"%", 10}};
-        for (const Operator& op : k_operators) {
+        constexpr Operator k_binary_operators[] = {{"||", 1}, {"&&", 2}, {"==", 6}, {"!=", 6}, {"<=", 7},
+                                                   {">=", 7}, {"<<", 8}, {">>", 8}, {"|", 3},  {"^", 4},
+                                                   {"&", 5},  {"<", 7},  {">", 7},  {"+", 9},  {"-", 9},
+                                                   {"*", 10}, {"/", 10}, {"%", 10}};
+        for (const Operator& op : k_binary_operators) {
             if (at_ >= end_ || tokens_[at_].text[0] != op.text[0])
                 continue;
             if (op.text.size() == 1)

@@ -39,7 +39,7 @@ std::vector<std::string> camera_arguments(const std::filesystem::path& path) {
     return arguments;
 }
 
-tl::unexpected<Error> refuse(const std::filesystem::path& path, std::string_view why) {
+tl::unexpected<Error> cannot_see(const std::filesystem::path& path, std::string_view why) {
     return fail(ErrorCode::load, fmt::format("cannot see what '{}' shows: {}", path.string(), why));
 }
 
@@ -106,7 +106,7 @@ Result<Camera> Camera::open(const std::filesystem::path& path) {
     auto feed = std::make_unique<Feed>(
         TRY(ChildProcess::start(camera_arguments(path), ChildProcess::Input::none, k_get_ffmpeg)));
     if (!feed->take_picture())
-        return refuse(path, feed->complaint().empty() ? "ffmpeg gives no picture" : feed->complaint());
+        return cannot_see(path, feed->complaint().empty() ? "ffmpeg gives no picture" : feed->complaint());
     feed->start();
     return Camera(std::move(feed));
 }

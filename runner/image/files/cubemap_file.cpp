@@ -20,7 +20,7 @@ namespace {
 
 constexpr int k_largest_resampled_side = 2048;
 
-tl::unexpected<Error> refuse(const std::string& name, std::string_view why) {
+tl::unexpected<Error> cannot_use(const std::string& name, std::string_view why) {
     return fail(ErrorCode::load, fmt::format("cannot use '{}' as a cubemap: {}", name, why));
 }
 
@@ -203,12 +203,12 @@ Result<CubeFaces> cube_of_faces(CubeFaces pictures, const std::array<std::string
     for (size_t i = 0; i < pictures.size(); ++i) {
         const Extent size = pictures[i].extent, first = pictures[0].extent;
         if (size.width != size.height || size.width < 1)
-            return refuse(names[i],
-                          fmt::format("it is {}x{} pixels; a face is square", size.width, size.height));
+            return cannot_use(names[i],
+                              fmt::format("it is {}x{} pixels; a face is square", size.width, size.height));
         if (size != first)
-            return refuse(names[i],
-                          fmt::format("it is {}x{} pixels and '{}' is {}x{}; faces are of one size",
-                                      size.width, size.height, names[0], first.width, first.height));
+            return cannot_use(names[i],
+                              fmt::format("it is {}x{} pixels and '{}' is {}x{}; faces are of one size",
+                                          size.width, size.height, names[0], first.width, first.height));
     }
     make_alike(pictures);
     for (Image& picture : pictures)
@@ -222,10 +222,10 @@ Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name)
         return cube_of_panorama(picture);
     const Layout* layout = size.pixels() > 0 ? layout_of(size) : nullptr;
     if (!layout)
-        return refuse(name,
-                      fmt::format("it is {}x{} pixels; one file is a cross (4:3 or 3:4), a row of faces "
-                                  "(6:1 or 1:6) or a panorama (2:1)",
-                                  size.width, size.height));
+        return cannot_use(name,
+                          fmt::format("it is {}x{} pixels; one file is a cross (4:3 or 3:4), a row of faces "
+                                      "(6:1 or 1:6) or a panorama (2:1)",
+                                      size.width, size.height));
     CubeFaces faces;
     for (size_t face = 0; face < faces.size(); ++face)
         faces[face] = cut(picture, layout->cells[face], size.width / layout->columns);

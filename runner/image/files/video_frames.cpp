@@ -20,7 +20,7 @@ namespace {
 constexpr size_t k_farthest_ahead = 64;
 constexpr size_t k_most_text = size_t{256} << 20;
 
-tl::unexpected<Error> refuse(const std::filesystem::path& path, std::string_view why) {
+tl::unexpected<Error> cannot_read(const std::filesystem::path& path, std::string_view why) {
     return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", path.string(), why));
 }
 
@@ -162,7 +162,7 @@ struct VideoFrames::State {
 Result<void> VideoFrames::State::read_ahead() {
     Result<std::optional<TimedFrame>> frame = decoder->next();
     if (!frame)
-        return refuse(path, frame.error().message);
+        return cannot_read(path, frame.error().message);
     ahead = std::move(*frame);
     ended = !ahead.has_value();
     return {};
@@ -175,7 +175,7 @@ Result<void> VideoFrames::State::start(size_t index) {
         decoder.reset();
         Result<Decoder> fresh = Decoder::start(path, times, from);
         if (!fresh)
-            return refuse(path, fresh.error().message);
+            return cannot_read(path, fresh.error().message);
         decoder.emplace(std::move(*fresh));
         if (Result<void> read = read_ahead(); !read)
             return read;
@@ -187,7 +187,7 @@ Result<void> VideoFrames::State::start(size_t index) {
     if (current)
         return {};
     const std::string why = decoder->complaint();
-    return refuse(path, why.empty() ? "ffmpeg finds no frame in it" : "ffmpeg says: " + why);
+    return cannot_read(path, why.empty() ? "ffmpeg finds no frame in it" : "ffmpeg says: " + why);
 }
 
 Result<void> VideoFrames::State::advance_to(size_t index) {
@@ -211,23 +211,23 @@ Result<void> VideoFrames::State::advance_to(size_t index) {
 
 Result<VideoFrames> VideoFrames::open(const std::filesystem::path& path) {
     if (const std::string why = why_unreadable(path); !why.empty())
-        return refuse(path, why);
+        return cannot_read(path, why);
     const Result<std::string> text = output_of(video_times_arguments(path), {k_most_text}, k_get_ffmpeg);
     if (!text) {
         std::string why = text.error().message;
         const std::string prefix = "file:" + path.string() + ": ";
         if (why.starts_with(prefix))
             why = "it is no video that ffmpeg reads (" + why.substr(prefix.size()) + ")";
-        return refuse(path, why);
+        return cannot_read(path, why);
     }
     auto times = parse_video_times(*text);
     if (!times)
-        return refuse(path, times.error());
+        return cannot_read(path, times.error());
     if (!is_whole_video(path))
-        return refuse(path, "the file is damaged or cut short");
+        return cannot_read(path, "the file is damaged or cut short");
     if (times->guessed)
         if (Result<void> replaced = replace_guessed_times(path, *times); !replaced)
-            return refuse(path, replaced.error().message);
+            return cannot_read(path, replaced.error().message);
     return VideoFrames(std::make_unique<State>(State{path, std::move(*times)}));
 }
 

@@ -88,9 +88,9 @@ public:
 
     /// Every window is half as wide as the one before, and lies around the best place so far.
     Steep climbed(Steep best) {
-        constexpr int k_rounds = 8;
+        constexpr int k_halvings = 8;
         double part = 1.0 / 32;
-        for (int round = 0; round < k_rounds; ++round, part /= 2)
+        for (int round = 0; round < k_halvings; ++round, part /= 2)
             best = std::min(best, steepest_in(around(best, whole_, part), best.view), steeper);
         return best;
     }

@@ -16,7 +16,7 @@ namespace tidemark::lab {
 namespace {
 
 /// Narrow and high: small steps of the mouse in few pixels.
-constexpr Extent k_narrow{16, 180};
+constexpr Extent k_strip{16, 180};
 /// A step that changes the picture so much more than the steps before and after it is a turn.
 constexpr double k_turn = 4; // dB
 /// Pictures that are closer do not jump, however alike their neighbours are.
@@ -135,9 +135,9 @@ Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const
 
 Result<Answer> ask_camera(ProbeBench& bench) {
     const Sweep sweeps[] = {
-        {"y", k_narrow, k_narrow.height, [](int y) { return glm::ivec2(k_narrow.width / 2, y); }},
-        {"x", {k_narrow.height, k_narrow.width}, k_narrow.height, [](int x) {
-             return glm::ivec2(x, k_narrow.width / 2);
+        {"y", k_strip, k_strip.height, [](int y) { return glm::ivec2(k_strip.width / 2, y); }},
+        {"x", {k_strip.height, k_strip.width}, k_strip.height, [](int x) {
+             return glm::ivec2(x, k_strip.width / 2);
          }}};
     bool changes = false;
     double most = 0;

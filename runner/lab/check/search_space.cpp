@@ -10,7 +10,7 @@ namespace tidemark::lab {
 namespace {
 
 constexpr size_t k_text_numbers = 40; ///< moments that stand in the text
-constexpr int k_moments = 128;        ///< in the first k_early seconds
+constexpr int k_early_moments = 128;  ///< in the first k_early seconds
 constexpr double k_early = 128;
 constexpr int k_late_moments = 32; ///< up to k_latest seconds
 constexpr double k_latest = 1e5;
@@ -102,9 +102,9 @@ SearchPoint SearchSpace::plain() const {
 
 std::vector<double> SearchSpace::moments() const {
     std::vector<double> moments;
-    for (int i = 0; i < k_moments; ++i) {
+    for (int i = 0; i < k_early_moments; ++i) {
         moments.push_back(rounded(k_early * spread(i, k_golden), 1.0 / 64));
-        if (constexpr int k_each = k_moments / k_late_moments; i % k_each == k_each - 1)
+        if (constexpr int k_each = k_early_moments / k_late_moments; i % k_each == k_each - 1)
             moments.push_back(
                 std::round(k_early * std::pow(k_latest / k_early, spread(i / k_each, k_golden))));
     }

@@ -16,14 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
+Json json_number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 // ---- One list of the numbers of an outcome, for JSON and CSV alike
 // ------------------------------------------
 
-struct Column {
+struct DataColumn {
     const char* group; ///< in JSON
     const char* name;
     std::function<double(const Outcome&)> of; ///< NaN: not measured
@@ -33,25 +33,25 @@ double missing() {
     return std::nan("");
 }
 
-Column hit(const char* name, double HitErrors::*field) {
+DataColumn hit(const char* name, double HitErrors::*field) {
     return {"hits", name, [field](const Outcome& o) { return o.hits ? (*o.hits).*field : missing(); }};
 }
 
-Column picture(const char* name, std::function<double(const image::PictureMetrics&)> of) {
+DataColumn picture(const char* name, std::function<double(const image::PictureMetrics&)> of) {
     return {"picture", name, [of = std::move(of)](const Outcome& o) { return of(o.picture); }};
 }
 
-Column time(const char* group, const char* name, TimeSummary Outcome::*clock,
-            std::function<double(const TimeSummary&)> of) {
+DataColumn time(const char* group, const char* name, TimeSummary Outcome::*clock,
+                std::function<double(const TimeSummary&)> of) {
     return {group, name, [clock, of = std::move(of)](const Outcome& o) {
                 return (o.*clock).runs > 0 ? of(o.*clock) : missing();
             }};
 }
 
-const std::vector<Column>& columns() {
+const std::vector<DataColumn>& columns() {
     using Metrics = image::PictureMetrics;
-    static const std::vector<Column> k_columns = [] {
-        std::vector<Column> list{
+    static const std::vector<DataColumn> k_columns = [] {
+        std::vector<DataColumn> list{
             hit("rms_t", &HitErrors::rms),
             hit("rms_right_t", &HitErrors::rms_right),
             hit("median_t", &HitErrors::median),
@@ -118,9 +118,9 @@ bool measured(const WorkPrecisionSet& set, const Outcome& outcome, std::string_v
 
 Json outcome_json(const WorkPrecisionSet& set, const Outcome& outcome) {
     Json json;
-    for (const Column& column : columns())
+    for (const DataColumn& column : columns())
         if (measured(set, outcome, column.group))
-            json[column.group][column.name] = number(column.of(outcome));
+            json[column.group][column.name] = json_number(column.of(outcome));
     if (outcome.wall.runs > 0)
         json["wall_ms"]["drifted"] = outcome.wall.drifted;
     if (outcome.hits)
@@ -131,7 +131,7 @@ Json outcome_json(const WorkPrecisionSet& set, const Outcome& outcome) {
 
 Json standard_json(const Standard& standard) {
     Json json = {{"method", standard.method},
-                 {"uncertainty", standard.uncertainty ? number(*standard.uncertainty) : Json(nullptr)},
+                 {"uncertainty", standard.uncertainty ? json_number(*standard.uncertainty) : Json(nullptr)},
                  {"self_check", standard.check},
                  {"no_truth_pixels", standard.blind}};
     if (!standard.none.empty())
@@ -152,10 +152,10 @@ Json orders_json(const std::vector<ObservedOrder>& orders) {
         json.push_back({{"series", order.series},
                         {"knob", order.knob},
                         {"fixed", settings_json(order.fixed)},
-                        {"order", order.order ? number(*order.order) : Json(nullptr)},
+                        {"order", order.order ? json_number(*order.order) : Json(nullptr)},
                         {"fit", order.how}});
         if (order.order)
-            json.back()["uncertainty"] = number(order.uncertainty);
+            json.back()["uncertainty"] = json_number(order.uncertainty);
     }
     return json;
 }
@@ -176,8 +176,8 @@ Json point_json(const WorkPrecisionSet& set, const WorkPrecision& point) {
     json["hollow"] = point.hollow;
     json["idle"] = point.idle;
     json["on_front"] = point.on_front;
-    json["compile_ms"] = number(point.compile_milliseconds);
-    json["first_draw_ms"] = number(point.first_draw_milliseconds);
+    json["compile_ms"] = json_number(point.compile_milliseconds);
+    json["first_draw_ms"] = json_number(point.first_draw_milliseconds);
     json["all"] = outcome_json(set, point.all);
     json["views"] = Json::object();
     for (size_t i = 0; i < point.views.size(); ++i)
@@ -185,7 +185,7 @@ Json point_json(const WorkPrecisionSet& set, const WorkPrecision& point) {
     json["shares"] = Json::array();
     for (const Share& share : point.shares)
         json["shares"].push_back(
-            {{"source", share.source}, {"rms_t", number(share.rms)}, {"rmse", number(share.rmse)}});
+            {{"source", share.source}, {"rms_t", json_number(share.rms)}, {"rmse", json_number(share.rmse)}});
     return json;
 }
 
@@ -226,7 +226,7 @@ std::vector<std::string> csv_heads(const std::vector<std::string>& knobs) {
     std::vector<std::string> first{"series", "trust",    "label",      "view",         "hollow",
                                    "idle",   "on_front", "compile_ms", "first_draw_ms"};
     std::vector<std::string> last;
-    for (const Column& column : columns()) {
+    for (const DataColumn& column : columns()) {
         const std::string name = std::string(column.group) + "_" + column.name;
         const bool timed = std::string_view(column.group).ends_with("_ms");
         const bool known = std::ranges::find(last, column.name) != last.end();
@@ -307,7 +307,7 @@ std::string to_csv(const WorkPrecisionSet& set) {
                 to_string(trust_of(set, point.point)), csv_text(point.point.label),
                 csv_text(all ? "all" : set.study.views[view].name), int(point.hollow), int(point.idle),
                 int(point.on_front), point.compile_milliseconds, point.first_draw_milliseconds, values);
-            for (const Column& column : columns()) {
+            for (const DataColumn& column : columns()) {
                 const Outcome& outcome = all ? point.all : point.views[view];
                 const double value = measured(set, outcome, column.group) ? column.of(outcome) : missing();
                 text += std::isnan(value) ? "," : fmt::format(",{:.9g}", value);

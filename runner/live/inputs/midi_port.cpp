@@ -31,7 +31,7 @@ struct MidiLibrary {
     decltype(&rtmidi_in_set_callback) set_callback = nullptr;
 };
 
-Result<MidiLibrary> load() {
+Result<MidiLibrary> load_rtmidi() {
     MidiLibrary functions;
     SharedLibrary library("librtmidi.so.6");
     library.find("rtmidi_in_create", functions.create)
@@ -87,7 +87,7 @@ Result<std::unique_ptr<MidiPort>> MidiPort::open(std::string_view name, Inbox& i
     if (::access(k_sequencer, R_OK | W_OK) != 0)
         return cannot_listen("ALSA's sequencer, {}: {}; give a device's file, as in --midi /dev/snd/midiC1D0",
                              k_sequencer, std::strerror(errno));
-    auto device = std::make_unique<Device>(TRY(load()));
+    auto device = std::make_unique<Device>(TRY(load_rtmidi()));
     if (!device->in->ok)
         return cannot_listen("ALSA's sequencer cannot be opened");
     const auto ports = device->ports();

@@ -26,7 +26,7 @@ struct OscLibrary {
     decltype(&lo_message_free) free = nullptr;
 };
 
-Result<OscLibrary> load() {
+Result<OscLibrary> load_liblo() {
     OscLibrary functions;
     SharedLibrary library("liblo.so.7");
     library.find("lo_message_deserialise", functions.deserialise)
@@ -39,7 +39,7 @@ Result<OscLibrary> load() {
 }
 
 const Result<OscLibrary>& osc_library() {
-    static const Result<OscLibrary> library = load();
+    static const Result<OscLibrary> library = load_liblo();
     return library;
 }
 

@@ -1,0 +1,144 @@
+#include "base/try.hpp"
+#include "lab/device/device_checks.hpp"
+#include "lab/device/sample_drawing.hpp"
+#include "render/bands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <set>
+
+namespace tidemark::lab {
+namespace {
+
+/// Every pixel another way through functions, derivatives and branches, and one that keeps the last bit.
+constexpr std::string_view k_busy = R"(void mainImage(out vec4 c, in vec2 p) {
+    vec2 z = p / iResolution.y + iTime;
+    for (int i = 0; i < 40; ++i) {
+        z = vec2(sin(3.1 * z.y) + 0.3 * z.x, cos(2.7 * z.x) * exp(-0.1 * z.y));
+        if (z.x > 0.9) z = z.yx * 1.01;
+    }
+    c.rgb = vec3(z.x, dFdx(z.x), dFdy(z.y));
+}
+)";
+constexpr Extent k_extent{250, 141};
+
+bool same_bytes(const image::Image& a, const image::Image& b) {
+    return std::ranges::equal(a.f32(), b.f32(), {}, std::bit_cast<uint32_t, float>,
+                              std::bit_cast<uint32_t, float>);
+}
+
+render::RenderOptions options_of(Extent extent) {
+    return {.extent = extent, .samples = image::SampleType::f32};
+}
+
+Result<image::Image> drawn(std::string_view text, const render::RenderOptions& options) {
+    auto renderer = TRY(renderer_of(text, options));
+    renderer.draw({});
+    return renderer.read_back();
+}
+
+/// PCG's hash, as sample_drawing.cpp has it for the device.
+uint32_t bits(uint32_t n) {
+    n = n * 747796405U + 2891336453U;
+    n = ((n >> ((n >> 28U) + 4U)) ^ n) * 277803737U;
+    return (n >> 22U) ^ n;
+}
+
+/// A pattern of bits that is a normal number.
+uint32_t normal(uint32_t pattern) {
+    const uint32_t exponent = pattern & 0x7F800000U;
+    return exponent == 0 || exponent == 0x7F800000U ? pattern ^ 0x40000000U : pattern;
+}
+
+} // namespace
+
+Result<DeviceAnswer> ask_read_back() {
+    const auto samples =
+        TRY(samples_of("for (int k = 0; k < 3; ++k) {"
+                       "  uint u = bits(3u * i + uint(k)), e = u & 0x7F800000u;"
+                       "  c[k] = uintBitsToFloat(e == 0u || e == 0x7F800000u ? u ^ 0x40000000u : u);"
+                       "}",
+                       1 << 16));
+    size_t wrong = 0;
+    for (uint32_t i = 0; i < samples.size(); ++i)
+        for (uint32_t k = 0; k < 3; ++k)
+            wrong += std::bit_cast<uint32_t>(samples[i][k]) != normal(bits(3 * i + k));
+    const size_t floats = 3 * samples.size();
+    if (wrong > 0)
+        return DeviceAnswer{Verdict::fail,
+                            fmt::format("{} of {} floats are not read as they were written", wrong, floats)};
+    return DeviceAnswer{Verdict::pass,
+                        fmt::format("{} floats are read bit by bit as they were written", floats)};
+}
+
+Result<DeviceAnswer> ask_bytes() {
+    auto renderer =
+        TRY(renderer_of("void mainImage(out vec4 c, in vec2 p) {"
+                        "  float k = floor(p.x); c = vec4(k, k - 0.45, k + 0.45, k * 2.0) / 255.0;"
+                        "}",
+                        {.extent = {256, 1}}));
+    renderer.draw({});
+    const image::Image picture = renderer.read_back();
+    for (int k = 0; k < 256; ++k)
+        for (size_t channel = 0; channel < 3; ++channel)
+            if (const int got = picture.u8()[size_t(4 * k) + channel]; got != k)
+                return DeviceAnswer{Verdict::fail, fmt::format("{}/255 is kept as {}/255", k, got)};
+    return DeviceAnswer{Verdict::pass,
+                        "colours are rounded to the nearest of 256, and nothing is done to them"};
+}
+
+Result<DeviceAnswer> ask_repeatability() {
+    std::vector<image::Image> pictures;
+    for (int program = 0; program < 2; ++program) {
+        auto renderer = TRY(renderer_of(k_busy, options_of(k_extent)));
+        for (const double time : {0.0, 1.0, 0.0, 1.0, 0.0}) { // what has not changed would not be drawn again
+            renderer.draw({.time = time});
+            if (time == 0.0)
+                pictures.push_back(renderer.read_back());
+        }
+    }
+    const auto differs = [&](const image::Image& picture) { return !same_bytes(picture, pictures[0]); };
+    if (const auto others = std::ranges::count_if(pictures, differs))
+        return DeviceAnswer{Verdict::fail, fmt::format("{} of {} drawings of one frame have other bytes",
+                                                       others, pictures.size())};
+    return DeviceAnswer{
+        Verdict::pass,
+        fmt::format("{} drawings of one frame by two programs have the same bytes", pictures.size())};
+}
+
+Result<DeviceAnswer> ask_tiles() {
+    const image::Image whole = TRY(drawn(k_busy, options_of(k_extent)));
+    render::RenderOptions in_tiles = options_of(k_extent);
+    in_tiles.tile = Extent{64, 64};
+    auto renderer = TRY(renderer_of(k_busy, in_tiles));
+    renderer.draw({});
+    if (!same_bytes(whole, draw_in_tiles(renderer, {})))
+        return DeviceAnswer{Verdict::fail,
+                            "a frame drawn in tiles has other bytes than the same frame drawn whole"};
+    return DeviceAnswer{Verdict::pass, "a frame drawn in tiles has the bytes of one drawn whole"};
+}
+
+Result<DeviceAnswer> ask_loops() {
+    constexpr int k_turns = 1'000'000;
+    const Sample counted =
+        TRY(samples_of(fmt::format("uint s = i; int n = 0;"
+                                   "for (; n < {} + int(iTime); ++n) s = s * 1664525u + 1013904223u;"
+                                   "c.rg = vec2(float(n), float(s & 0xFFFFu));",
+                                   k_turns),
+                       1))[0];
+    uint32_t state = 0;
+    for (int n = 0; n < k_turns; ++n)
+        state = state * 1664525U + 1013904223U;
+    if (counted[0] < k_turns)
+        return DeviceAnswer{Verdict::warn, fmt::format("loops are cut off: {:.0f} of {} turns were made",
+                                                       counted[0], k_turns)};
+    if (counted[0] != k_turns || counted[1] != float(state & 0xFFFFU))
+        return DeviceAnswer{Verdict::fail,
+                            fmt::format("a loop of {} turns counts {:.0f}", k_turns, counted[0])};
+    return DeviceAnswer{Verdict::pass, fmt::format("a loop of {} turns is made whole", k_turns)};
+}
+
+} // namespace tidemark::lab
