@@ -6,6 +6,13 @@
 
 namespace tidemark::image {
 
+/// What the samples of a file stand for. Colours are those of BT.709's primaries and white.
+enum class Transfer {
+    data,  ///< numbers, such as the state that a buffer keeps: no colours
+    srgb,  ///< as a display takes them, which is what ShaderToy's Image writes
+    linear ///< light
+};
+
 /// Error: that of two roundings and of pow.
 inline double light_of_srgb(double sample) {
     const double size = std::abs(sample);

@@ -209,6 +209,11 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
             "--depth", options.depth,
             "Bits of a sample in the file [what the format stores by nature; a --pass in .exr: float]")
         ->type_name("8|16|half|float");
+    command
+        .add_option("--transfer", options.transfer,
+                    "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
+                    "which takes 16 bits or floats [srgb; of another --pass: numbers]")
+        ->type_name("srgb|linear");
     add_device_options(command, options.device);
     command
         .add_option("--timeout", options.timeout,

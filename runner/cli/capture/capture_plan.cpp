@@ -20,12 +20,13 @@ namespace {
 
 using image::SampleDepth;
 using image::SampleType;
+using image::Transfer;
 
 /// A buffer is state: a half would make infinity of 1e6. So a pass that was asked for keeps its floats.
 SampleDepth default_depth(const OutputName& output, const std::string& pass) {
     const SampleDepth natural = image::natural_depth(output.pattern());
-    const bool shown = pass.empty() || pass == "Image";
-    return natural == SampleDepth::half && !shown ? SampleDepth::f32 : natural;
+    const bool state = drawn_transfer(pass) == Transfer::data;
+    return natural == SampleDepth::half && state ? SampleDepth::f32 : natural;
 }
 
 Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& pass) {
@@ -42,6 +43,23 @@ Result<SampleDepth> parse_depth(const std::string& text, const OutputName& outpu
         if (name == text)
             return depth;
     return fail(ErrorCode::usage, fmt::format("--depth {}: give 8, 16, half or float", text));
+}
+
+Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--transfer {}", why));
+    };
+    if (text.empty())
+        return drawn_transfer(plan.frames.state.pass);
+    if (text == "srgb")
+        return Transfer::srgb;
+    if (text != "linear")
+        return refuse(fmt::format("{}: give srgb or linear", text));
+    if (!plan.to_picture_files())
+        return refuse("linear: videos and raw frames on standard output are always sRGB");
+    if (plan.depth == SampleDepth::u8)
+        return refuse("linear: 8 bits of light show steps where it is dark: give --depth 16, or an .exr");
+    return Transfer::linear;
 }
 
 /// A frame that is named twice (`0-9,5-14`) is one file.
@@ -147,6 +165,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
         drop_repeats(numbers);
     const auto depth = TRY(parse_depth(options.depth, plan.output, plan.frames.state.pass));
     plan.depth = depth;
+    plan.transfer = TRY(parse_transfer(options.transfer, plan));
     plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.exposure = exposure_of(options, plan.depth);
     const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several();
@@ -253,6 +272,10 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     else
         plan->trial = TRY(plan_trial(options, *plan));
     return plan;
+}
+
+Transfer drawn_transfer(const std::string& pass) {
+    return pass.empty() || pass == "Image" ? Transfer::srgb : Transfer::data;
 }
 
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames) {

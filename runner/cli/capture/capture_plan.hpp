@@ -33,6 +33,7 @@ struct CaptureOptions {
     std::optional<Likeness> likeness{};
     std::optional<std::string> output;
     std::string depth;
+    std::string transfer;
     platform::DeviceChoice device{};
     std::optional<double> timeout;
     double duration = 60;
@@ -66,9 +67,10 @@ struct CapturePlan {
     FrameSequence frames;
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
-    VideoPace pace;                       ///< of a video
-    std::vector<VideoSegment> segments{}; ///< of a video: all its frames
-    render::RenderOptions drawing;        ///< frames drawn whole
+    image::Transfer transfer = image::Transfer::srgb; ///< of the files
+    VideoPace pace;                                   ///< of a video
+    std::vector<VideoSegment> segments{};             ///< of a video: all its frames
+    render::RenderOptions drawing;                    ///< frames drawn whole
     render::Exposure exposure;
     std::optional<int> tile_side;
     std::optional<PlannedTrial> trial;
@@ -88,6 +90,9 @@ struct CapturePlan {
 
     bool to_picture_files() const { return !output.standard_output() && !output.video(); }
 };
+
+/// What the samples of a pass stand for as they are drawn. Of a buffer they are state, not colours.
+image::Transfer drawn_transfer(const std::string& pass);
 
 /// How to go on where a capture is cut short after so many whole frames; empty: it begins anew.
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);

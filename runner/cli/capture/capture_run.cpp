@@ -297,7 +297,8 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     const render::FrameState state = states_(record.frame);
     // First: a JPEG that has no room for all of it keeps what stands in front.
-    image::PictureFormat format{plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}};
+    image::PictureFormat format{
+        plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}, plan_.transfer};
     for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.request, plan_.frames, state)))
         format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();

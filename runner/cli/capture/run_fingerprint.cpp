@@ -20,6 +20,8 @@ Json drawing_facts(const CapturePlan& plan) {
                               differs ? Json(*plan.trial->frames.allowed) : Json()});
     if (plan.exposure.several())
         facts.push_back(Json::array({plan.exposure.samples, plan.exposure.shutter}));
+    if (plan.transfer != drawn_transfer(pass))
+        facts.push_back(Json::array({"transfer", int(plan.transfer)}));
     return facts;
 }
 

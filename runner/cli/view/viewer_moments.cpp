@@ -29,7 +29,7 @@ image::PictureFormat Viewer::format_of_picture() const {
     const scene::Scene& scene = stage_->renderer().scene();
     const auto fingerprint =
         Fingerprint::of_scene(scene, scene_.request().defines, settings_.frames, gl::query_capabilities());
-    image::PictureFormat format{image::SampleDepth::u8, metadata_of(scene, moment())};
+    image::PictureFormat format{image::SampleDepth::u8, metadata_of(scene, moment()), image::Transfer::srgb};
     format.metadata.emplace_back(k_fingerprint, fingerprint.text());
     return format;
 }

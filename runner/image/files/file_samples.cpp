@@ -1,5 +1,7 @@
 #include "image/files/file_samples.hpp"
 
+#include "image/transfer.hpp"
+
 #include <cstring>
 
 namespace tidemark::image {
@@ -61,6 +63,28 @@ Image in_bytes(Image image) {
     bytes.channels = image.channels;
     bytes.bytes = file_samples(image, SampleDepth::u8);
     return bytes;
+}
+
+Image in_floats(Image image) {
+    if (image.type == SampleType::f32)
+        return image;
+    Image floats;
+    floats.extent = image.extent;
+    floats.channels = image.channels;
+    floats.type = SampleType::f32;
+    floats.bytes = file_samples(image, SampleDepth::f32);
+    return floats;
+}
+
+Image in_light(const Image& image) {
+    Image light = in_floats(image);
+    const auto channels = size_t(light.channels);
+    const size_t colours = channels - (light.has_alpha() ? 1 : 0);
+    const std::span<float> samples = light.f32();
+    for (size_t pixel = 0; pixel < samples.size(); pixel += channels)
+        for (float& sample : samples.subspan(pixel, colours))
+            sample = float(light_of_srgb(sample));
+    return light;
 }
 
 Image radiance_samples(const Image& image) {

@@ -17,6 +17,12 @@ std::vector<std::byte> file_samples(const Image& image, SampleDepth depth);
 /// The same picture in bytes, as `file_samples` makes them.
 Image in_bytes(Image image);
 
+/// The same picture in floats: bytes as v/255.
+Image in_floats(Image image);
+
+/// The light that the samples of an sRGB picture stand for, in floats; alpha is none and stays.
+Image in_light(const Image& image);
+
 /// What Radiance HDR can hold: three channels of f32, grey repeated, alpha left out, negatives and NaN as 0,
 /// nothing above the format's largest number.
 Image radiance_samples(const Image& image);

@@ -5,6 +5,7 @@
 #include "image/files/codec_loader.hpp"
 #include "image/files/file_check.hpp"
 #include "image/files/file_samples.hpp"
+#include "image/files/icc_profile.hpp"
 #include "image/files/png_codec.hpp"
 #include "image/plugin/picture_codec.hpp"
 
@@ -86,6 +87,16 @@ std::string names_of(const std::vector<SampleDepth>& depths) {
            std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < '\x7f'; });
 }
 
+/// The names that the Color Interop Forum gives them.
+const char* interop_id(Transfer transfer) {
+    switch (transfer) {
+    case Transfer::data: return "data";
+    case Transfer::srgb: return "srgb_rec709_display";
+    case Transfer::linear: return "lin_rec709_scene";
+    }
+    return "";
+}
+
 /// Names that no format gives a meaning of its own, which would change the file or be dropped.
 std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, const PictureFormat& wanted) {
     std::vector<std::pair<std::string, std::string>> all;
@@ -97,6 +108,8 @@ std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, c
         all.emplace_back("tidemark:" + name, text);
         lines += fmt::format("{}={}\n", all.back().first, text);
     }
+    if (format == FileFormat::exr && wanted.transfer)
+        all.emplace_back("colorInteropID", interop_id(*wanted.transfer));
     if (format == FileFormat::png || format == FileFormat::exr)
         return all;
     if (format == FileFormat::jpeg)
@@ -108,20 +121,29 @@ std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, c
 
 EncodeJob job_without_samples(const WrittenFormat& written, Extent extent, int channels,
                               const PictureFormat& wanted) {
-    return {written.format, wanted.depth, extent, channels, {}, attributes(written.format, wanted)};
+    const bool profiled = written.format == FileFormat::jpeg || written.format == FileFormat::tiff;
+    EncodeJob job{written.format, wanted.depth, extent, channels, {}, attributes(written.format, wanted)};
+    job.transfer = wanted.transfer;
+    if (profiled && wanted.transfer && channels >= 3)
+        job.icc_profile = icc_profile(*wanted.transfer);
+    return job;
 }
 
 /// The samples of a picture, or of a band of one, as its file holds them; their channels.
-std::pair<std::vector<std::byte>, int> stored(const WrittenFormat& written, const Image& image, bool alpha,
-                                              SampleDepth depth) {
-    const auto take = [&](const Image& kept) { return std::pair(file_samples(kept, depth), kept.channels); };
+std::pair<std::vector<std::byte>, int> stored(const WrittenFormat& written, const Image& drawn, bool alpha,
+                                              const PictureFormat& wanted) {
+    const auto take = [&](const Image& kept) {
+        return std::pair(file_samples(kept, wanted.depth), kept.channels);
+    };
+    const auto light = wanted.transfer == Transfer::linear ? std::optional(in_light(drawn)) : std::nullopt;
+    const Image& image = light ? *light : drawn;
     if (written.format == FileFormat::hdr)
         return take(radiance_samples(image));
     return image.has_alpha() && !(alpha && written.has_alpha) ? take(without_alpha(image)) : take(image);
 }
 
 EncodeJob encode_job(const WrittenFormat& written, const Image& image, const PictureFormat& wanted) {
-    auto [samples, channels] = stored(written, image, !has_opaque_alpha(image), wanted.depth);
+    auto [samples, channels] = stored(written, image, !has_opaque_alpha(image), wanted);
     EncodeJob job = job_without_samples(written, image.extent, channels, wanted);
     job.samples = std::move(samples);
     return job;
@@ -328,7 +350,7 @@ Result<PictureStream> PictureStream::create(const OutputPath& output, Extent ext
 }
 
 Result<void> PictureStream::add(const Image& band) {
-    const auto [samples, channels] = stored(*written_format(path_), band, alpha_, format_.depth);
+    const auto [samples, channels] = stored(*written_format(path_), band, alpha_, format_);
     const auto added = encoder_->add(samples, band.extent.height);
     return checked(added ? std::string() : added.error());
 }

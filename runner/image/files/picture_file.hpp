@@ -1,16 +1,19 @@
 // Pictures in files. PNG is read and written by libpng (png_codec.hpp), all other formats by OpenImageIO,
 // which sits in a plug-in that is loaded when such a picture is first read or written, or ahead of that on a
 // thread of its own by `preload_picture_codec`. Samples go in and out as they are: no gamma, no colour space,
-// no multiplication by alpha, no turning by a camera's orientation. Only the rows are turned over: files run
-// from the top, an Image from the bottom. Every function may be called from any thread.
+// no multiplication by alpha, no turning by a camera's orientation, but for what PictureFormat asks for. Only
+// the rows are turned over: files run from the top, an Image from the bottom. Every function may be called
+// from any thread.
 #pragma once
 
 #include "base/file.hpp"
 #include "base/result.hpp"
 #include "image/image.hpp"
+#include "image/transfer.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -33,6 +36,10 @@ struct PictureFormat {
     /// description or comment; HDR: nothing. A name is 1 to 60 printable ASCII characters without spaces; a
     /// value is cut at a NUL, and all of a JPEG's together at 32,000 bytes.
     std::vector<std::pair<std::string, std::string>> metadata{};
+    /// What the file says of its samples, where the format has words for it: PNG in chunks, TIFF and JPEG in
+    /// a profile, EXR in attributes. An Image that goes into a file of `linear` has its sRGB decoded on the
+    /// way. None: the file says nothing.
+    std::optional<Transfer> transfer{};
 };
 
 /// Whether `path` ends in a format we write (.png .jpg .jpeg .tif .tiff .exr .hdr, in either case); the

@@ -105,10 +105,22 @@ private:
         png_set_IHDR(png_, info_, png_uint_32(job.extent.width), png_uint_32(job.extent.height), depth,
                      k_kinds[job.channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                      PNG_FILTER_TYPE_DEFAULT);
+        if (job.transfer)
+            write_transfer(*job.transfer);
         png_set_text(png_, info_, texts.data(), int(texts.size()));
         png_write_info(png_, info_);
         if (depth == 16 && std::endian::native == std::endian::little)
             png_set_swap(png_);
+    }
+
+    /// Numbers that are no colours have no chunk.
+    void write_transfer(Transfer transfer) {
+        if (transfer == Transfer::srgb)
+            png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+        if (transfer == Transfer::linear) {
+            png_set_gAMA_fixed(png_, info_, PNG_FP_1);
+            png_set_cHRM_fixed(png_, info_, 31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000);
+        }
     }
 
     size_t row_bytes_;

@@ -28,6 +28,8 @@ struct EncodeJob {
     int channels = 3;
     std::vector<std::byte> samples;
     std::vector<std::pair<std::string, std::string>> attributes; ///< text, under its final name
+    std::optional<Transfer> transfer{};                          ///< of these samples
+    std::vector<std::byte> icc_profile{};                        ///< that says the same; empty: none
 };
 
 /// The error is the reason alone, in one line.
@@ -58,7 +60,7 @@ struct PictureCodec {
     RowEncoderResult (*encode_rows)(const EncodeJob&, std::FILE*) noexcept;
 };
 
-inline constexpr unsigned k_picture_codec_version = 3;
+inline constexpr unsigned k_picture_codec_version = 4;
 inline constexpr const char* k_picture_codec_entry = "tidemark_picture_codec";
 
 } // namespace tidemark::image

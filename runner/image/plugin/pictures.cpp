@@ -105,6 +105,9 @@ OIIO::TypeDesc file_type(SampleDepth depth) {
     return OIIO::TypeDesc::UINT8;
 }
 
+/// x and y of red, green, blue and white.
+constexpr float k_bt709[] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+
 OIIO::ImageSpec spec_of(const EncodeJob& job) {
     OIIO::ImageSpec spec(job.extent.width, job.extent.height, job.channels, file_type(job.depth));
     if (job.channels == 2) { // grey and alpha; OpenImageIO would take them for red and green
@@ -122,6 +125,11 @@ OIIO::ImageSpec spec_of(const EncodeJob& job) {
         spec.attribute("compression", "zip:1");
     if (job.format == FileFormat::exr)
         spec.attribute("compression", "zip");
+    if (job.format == FileFormat::exr && job.transfer && *job.transfer != Transfer::data)
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), k_bt709);
+    if (!job.icc_profile.empty())
+        spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, int(job.icc_profile.size())),
+                       job.icc_profile.data());
     for (const auto& [name, value] : job.attributes)
         spec.attribute(name, value);
     return spec;
