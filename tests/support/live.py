@@ -62,6 +62,10 @@ class Screen:
         self.server.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
 
+    def variables(self) -> dict[str, str]:
+        """Of a program whose windows are to be here."""
+        return {"DISPLAY": self.display}
+
     def xdotool(self, *arguments: str) -> str:
         """What xdotool says; nothing where it fails (a window that is not there yet)."""
         done = subprocess.run(["xdotool", *arguments], env=environment(DISPLAY=self.display), timeout=PATIENCE,
@@ -129,7 +133,7 @@ class View:
         self.state = tempfile.TemporaryDirectory(prefix="tidemark-state-")  # each window starts anew
         variables.setdefault("XDG_STATE_HOME", self.state.name)
         self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
-                                        env=environment(DISPLAY=screen.display, **variables), stderr=self.words)
+                                        env=environment(**screen.variables(), **variables), stderr=self.words)
         if first_title is not None:
             self.wait_for_window(first_title)
 
