@@ -16,9 +16,9 @@ namespace {
 
 using namespace std::string_view_literals;
 
-class Bytes {
+class FileBytes {
 public:
-    explicit Bytes(const std::filesystem::path& path)
+    explicit FileBytes(const std::filesystem::path& path)
         : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
         struct stat facts {};
         if (file_.get() >= 0 && ::fstat(file_.get(), &facts) == 0)
@@ -39,7 +39,7 @@ private:
 };
 
 /// MP4, MOV: box after box, each with its size.
-bool has_all_boxes(const Bytes& file) {
+bool has_all_boxes(const FileBytes& file) {
     constexpr size_t heading = 8;
     for (uint64_t at = 0; at < file.size();) {
         const std::string box = file.at(at, 2 * heading);
@@ -73,7 +73,7 @@ uint64_t ebml_size(std::string_view bytes, size_t& place) {
 }
 
 /// WebM, Matroska: a header and one segment.
-bool has_whole_segment(const Bytes& file) {
+bool has_whole_segment(const FileBytes& file) {
     const std::string head = file.at(0, 256);
     size_t place = 4;
     const uint64_t header = ebml_size(head, place);
@@ -88,7 +88,7 @@ bool has_whole_segment(const Bytes& file) {
 }
 
 /// The last page ends with the file, and says that it is the last one.
-bool has_last_page(const Bytes& file) {
+bool has_last_page(const FileBytes& file) {
     constexpr uint64_t longest = 27 + 255 + 255 * 255;
     constexpr size_t heading = 27;
     const std::string tail = file.at(file.size() - std::min(file.size(), longest), longest);
@@ -108,7 +108,7 @@ bool has_last_page(const Bytes& file) {
 /// GIF: block after block, to the one that ends it.
 class GifWalk {
 public:
-    explicit GifWalk(const Bytes& file) : file_(file) {}
+    explicit GifWalk(const FileBytes& file) : file_(file) {}
 
     bool reaches_end() {
         at_ = 10;
@@ -148,11 +148,11 @@ private:
             at_ += size;
     }
 
-    const Bytes& file_;
+    const FileBytes& file_;
     uint64_t at_ = 0;
 };
 
-bool has_whole_riff(const Bytes& file) {
+bool has_whole_riff(const FileBytes& file) {
     const uint64_t size = little_endian(file.at(0, 8), 4, 4);
     return size == 0 || size == UINT32_MAX || size <= file.size() - 8;
 }
@@ -160,7 +160,7 @@ bool has_whole_riff(const Bytes& file) {
 } // namespace
 
 bool is_whole_video(const std::filesystem::path& path) {
-    const Bytes file(path);
+    const FileBytes file(path);
     const std::string head = file.at(0, 12);
     const auto has = [&](size_t at, std::string_view what) {
         return at <= head.size() && std::string_view(head).substr(at).starts_with(what);
