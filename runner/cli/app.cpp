@@ -25,8 +25,9 @@ constexpr AddCommand k_commands[] = {
 #ifdef TIDEMARK_WINDOW
     add_view,
 #endif
-    add_new,   add_serve, add_capture, add_gather, add_inspect, add_check, add_trace,      add_compare,
-    add_study, add_tune,  add_import,  add_export, add_bake,    add_lsp,   add_completion, add_help,
+    add_new,    add_serve,   add_capture, add_gather,     add_inspect,  add_check,
+    add_trace,  add_compare, add_study,   add_tune,       add_simplify, add_import,
+    add_export, add_bake,    add_lsp,     add_completion, add_help,
 };
 
 constexpr const char* k_footer =

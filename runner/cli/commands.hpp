@@ -34,6 +34,7 @@ void add_study(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);
 void add_help(CLI::App& app, Action& chosen);
 void add_tune(CLI::App& app, Action& chosen);
+void add_simplify(CLI::App& app, Action& chosen);
 void add_trace(CLI::App& app, Action& chosen);
 void add_view(CLI::App& app, Action& chosen);
 void add_serve(CLI::App& app, Action& chosen);

@@ -8,6 +8,19 @@
 namespace tidemark::glsl {
 namespace {
 
+/// A wrap at one of the places where its words stand.
+struct Placed {
+    size_t begin = 0, end = 0;
+    const Wrap* wrap = nullptr;
+    size_t cure = 0;
+
+    bool encloses(const Placed& other) const {
+        const bool same = begin == other.begin && end == other.end;
+        return begin <= other.begin && other.end <= end && (!same || cure > other.cure);
+    }
+    bool overlaps(const Placed& other) const { return begin < other.end && other.begin < end; }
+};
+
 /// One insertion, in the order in which those at one place have to stand: what ends an inner wrap, what ends
 /// an outer one, what begins an outer one, what begins an inner one. Of two around the same words the later
 /// cure is the outer one.
@@ -17,6 +30,7 @@ struct Insertion {
     size_t other = 0; ///< where its wrap's other half stands
     std::string_view text{};
     size_t cure = 0;
+    size_t until = 0; ///< the words to there go
 
     bool stands_before(const Insertion& next) const {
         if (at != next.at)
@@ -27,12 +41,33 @@ struct Insertion {
     }
 };
 
-std::vector<text::Edit> edits_of(std::vector<Insertion> insertions) {
+std::vector<text::Edit> edits_of(const std::vector<Placed>& wraps) {
+    std::vector<Insertion> insertions;
+    for (const Placed& each : wraps) {
+        const size_t until = each.wrap->replaces ? each.end : each.begin;
+        insertions.push_back({each.begin, true, each.end, each.wrap->front, each.cure, until});
+        insertions.push_back({each.end, false, each.begin, each.wrap->behind, each.cure, each.end});
+    }
     std::ranges::stable_sort(insertions, [](const auto& a, const auto& b) { return a.stands_before(b); });
     std::vector<text::Edit> edits;
     for (const Insertion& each : insertions)
-        edits.push_back({each.at, each.at, std::string(each.text)});
+        edits.push_back({each.at, each.until, std::string(each.text)});
     return edits;
+}
+
+/// Without those whose words go. False: two overlap, and neither is inside of the other.
+bool leave_out_replaced(std::vector<Placed>& wraps) {
+    const std::vector<Placed> all = wraps;
+    std::erase_if(wraps, [&](const Placed& each) {
+        return std::ranges::any_of(all, [&](const Placed& other) {
+            return other.wrap->replaces && other.wrap != each.wrap && other.encloses(each);
+        });
+    });
+    return std::ranges::none_of(wraps, [&](const Placed& each) {
+        return each.wrap->replaces && std::ranges::any_of(wraps, [&](const Placed& other) {
+                   return other.wrap != each.wrap && each.overlaps(other) && !other.encloses(each);
+               });
+    });
 }
 
 /// Where the lines of a text begin, by the lines that their authors know.
@@ -72,18 +107,15 @@ private:
 };
 
 /// Nothing where the ends of a wrap are not as many as its beginnings.
-std::optional<std::vector<Insertion>> insertions_of(const Lines& lines, std::span<const Cure> cures) {
-    std::vector<Insertion> all;
+std::optional<std::vector<Placed>> placed(const Lines& lines, std::span<const Cure> cures) {
+    std::vector<Placed> all;
     for (size_t number = 0; number < cures.size(); ++number)
         for (const Wrap& wrap : cures[number].wraps) {
             const auto begins = lines.find(wrap.first), ends = lines.find(wrap.last);
             if (begins.size() != ends.size())
                 return std::nullopt;
-            for (size_t i = 0; i < begins.size(); ++i) {
-                const size_t end = ends[i] + wrap.last.word.size();
-                all.push_back({begins[i], true, end, wrap.front, number});
-                all.push_back({end, false, begins[i], wrap.behind, number});
-            }
+            for (size_t i = 0; i < begins.size(); ++i)
+                all.push_back({begins[i], ends[i] + wrap.last.word.size(), &wrap, number});
         }
     return all;
 }
@@ -103,10 +135,10 @@ std::optional<std::string> cured(std::string_view text, std::string_view file, s
 }
 
 bool apply(text::MappedText& text, std::span<const Cure> cures) {
-    auto insertions = insertions_of(Lines(text), cures);
-    if (!insertions)
+    auto wraps = placed(Lines(text), cures);
+    if (!wraps || !leave_out_replaced(*wraps))
         return false;
-    text.apply(edits_of(*std::move(insertions)));
+    text.apply(edits_of(*wraps));
     return true;
 }
 

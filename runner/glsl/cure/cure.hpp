@@ -1,5 +1,5 @@
-// A cure of a fault in a text, as a plain value: what is to be written in front of and behind words of its
-// author's, who loses none of them; and how that is put into a text.
+// A change of a text, as a plain value: what is to be written in front of and behind words of its author's,
+// or in their place; and how that is put into a text. A cure of a fault takes no word away, a cut does.
 #pragma once
 
 #include "base/error.hpp"
@@ -23,6 +23,7 @@ struct WrittenWord {
 struct Wrap {
     WrittenWord first, last;
     std::string front, behind;
+    bool replaces = false; ///< the words between go
 };
 
 struct Cure {
@@ -31,7 +32,8 @@ struct Cure {
 };
 
 /// The text with all cures in it, each at the places of the text as it is now. Inner wraps come to stand
-/// inside of outer ones, whatever the order. Nothing where a word is not where it should be.
+/// inside of outer ones, whatever the order; what is changed inside of words that go goes with them. Nothing
+/// where a word is not where it should be, or where two overlap and neither is inside.
 std::optional<std::string> cured(std::string_view text, std::string_view file, std::span<const Cure> cures);
 
 /// The same of a text that was put together from files: wherever it holds the words. False, and unchanged,

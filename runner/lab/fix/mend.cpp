@@ -1,6 +1,7 @@
 #include "lab/fix/mend.hpp"
 
 #include "base/try.hpp"
+#include "lab/changed_scene.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,16 +11,6 @@ namespace tidemark::lab {
 namespace {
 
 constexpr int k_most_rounds = 8;
-
-/// The scene with all cures in it; nothing where a text has not the words.
-std::optional<scene::Scene> cured(scene::Scene scene, std::span<const glsl::Cure> cures) {
-    if (!glsl::apply(scene.common, cures))
-        return std::nullopt;
-    for (scene::Pass& pass : scene.passes)
-        if (!glsl::apply(pass.text, cures))
-            return std::nullopt;
-    return scene;
-}
 
 class Mender {
 public:
@@ -63,7 +54,7 @@ private:
         why = finding.cures.empty() ? "no cure is known for it, or its words cannot be changed" : "";
         for (const glsl::Cure& cure : finding.cures) {
             cures_.push_back(cure);
-            auto scene = cured(scene_, cures_);
+            auto scene = changed(scene_, cures_);
             if (!scene || !mending_.can_be_written(cures_)) {
                 why = "its words are not found in a file of the scene";
             } else {

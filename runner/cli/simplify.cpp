@@ -1,0 +1,183 @@
+#include "lab/simplify/simplify.hpp"
+
+#include "base/try.hpp"
+#include "cli/changed_files.hpp"
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/json_dump.hpp"
+#include "cli/options.hpp"
+#include "cli/output_name.hpp"
+#include "cli/study_support.hpp"
+#include "lab/study/report.hpp"
+#include "lab/study/report_data.hpp"
+#include "lab/study/verdict.hpp"
+#include "platform/headless_context.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+struct SimplifyOptions {
+    SceneRequest scene;
+    std::string most_error = "flip=0.01";
+    bool exact = false;
+    std::string views;
+    std::string size;
+    double seconds = 60;
+    std::string output;
+    bool write = false;
+    bool json = false;
+    platform::DeviceChoice device{};
+};
+
+Result<lab::Goal> goal_of(const SimplifyOptions& options) {
+    if (options.exact)
+        return lab::Goal{lab::Measure::rmse, 0, {}};
+    const lab::Goal goal = TRY(lab::parse_goal(options.most_error));
+    if (goal.measure == lab::Measure::wrong)
+        return fail(ErrorCode::usage, "--max-error: a cut is held against the picture: give rmse=0.01, "
+                                      "psnr=40dB or flip=0.02");
+    return goal;
+}
+
+Result<lab::SimplifyRequest> request_of(const SimplifyOptions& options) {
+    lab::SimplifyRequest request;
+    request.goal = TRY(goal_of(options));
+    request.views = options.views.empty() ? lab::default_views() : TRY(lab::parse_views(options.views));
+    if (!options.size.empty())
+        request.extent = TRY(parse_size(options.size));
+    if (!(options.seconds > 0))
+        return fail(ErrorCode::usage, "--for: give a number of seconds above 0");
+    request.seconds = options.seconds;
+    return request;
+}
+
+/// A chosen cut and what the files would get by it.
+struct OfferedCut {
+    lab::ChosenCut cut;
+    std::string difference;
+};
+
+struct Offer {
+    std::vector<OfferedCut> cuts{};
+    std::vector<ChangedFile> files{}; ///< with all of them
+};
+
+/// `before` of the first and `after` of the last change of each file.
+void add(std::vector<ChangedFile>& files, const ChangedFile& change) {
+    const auto known = std::ranges::find(files, change.file, &ChangedFile::file);
+    if (known == files.end())
+        files.push_back(change);
+    else
+        known->after = change.after;
+}
+
+Result<Offer> offer_of(const std::vector<lab::ChosenCut>& chosen) {
+    Offer offer;
+    CuredFiles files;
+    std::vector<glsl::Cure> changes;
+    for (const lab::ChosenCut& cut : chosen) {
+        changes.push_back(cut.change);
+        OfferedCut& offered = offer.cuts.emplace_back(OfferedCut{cut, {}});
+        for (const ChangedFile& file : TRY(files.with_last(changes))) {
+            offered.difference += difference(file);
+            add(offer.files, file);
+        }
+    }
+    return offer;
+}
+
+std::string to_text(const OfferedCut& offered) {
+    return fmt::format("{}\n  alone: {:.3g} of the time, error {}\n{}", offered.cut.change.reason,
+                       offered.cut.time, lab::figure(offered.cut.error), offered.difference);
+}
+
+Result<void> put_json(const lab::Simplified& found, const Offer& offer, bool written) {
+    Json cuts = Json::array();
+    for (const OfferedCut& each : offer.cuts)
+        cuts.push_back({{"cut", each.cut.change.reason},
+                        {"error_alone", each.cut.error},
+                        {"time_alone", each.cut.time},
+                        {"difference", each.difference}});
+    return put(dump(Json{{"schema", "tidemark simplify 1"},
+                         {"cuts", std::move(cuts)},
+                         {"sentences", found.sentences},
+                         {"written", written},
+                         {"study", Json::parse(lab::to_json(found.findings.set))}}));
+}
+
+Result<void> show(const SimplifyOptions& options, const lab::Simplified& found) {
+    for (const std::string& sentence : found.sentences)
+        say(sentence);
+    const Offer offer = TRY(offer_of(found.chosen));
+    if (!options.json)
+        for (const OfferedCut& each : offer.cuts)
+            TRY(put(to_text(each)));
+    if (options.write)
+        TRY(write_files(offer.files));
+    return options.json ? put_json(found, offer, options.write && !offer.files.empty()) : Result<void>();
+}
+
+Result<int> simplify(const SimplifyOptions& options) {
+    Interrupt interrupt;
+    lab::SimplifyRequest request = TRY(request_of(options));
+    const scene::Scene scene = TRY(load(options.scene));
+    TRY(can_be_changed(scene));
+    request.can_be_written = [files = CuredFiles()](const glsl::Cure& cure) mutable {
+        return files.with_last(std::span(&cure, 1)).has_value();
+    };
+    const OutputPath folder =
+        OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-simplify"))
+            .sparing(files_read(scene));
+    const auto context = TRY(platform::HeadlessContext::create(options.device));
+    TRY(prepare_report(folder));
+    StudyWatcher watcher(interrupt);
+    auto simplified = lab::simplify(scene, request, watcher.watch(), circumstances_now());
+    watcher.finish();
+    if (!simplified && interrupt.requested())
+        return Interrupt::k_exit_code;
+    lab::Simplified found = TRY(std::move(simplified));
+    const OutputPath place = report_folder(folder, found.findings.set.circumstances.complete);
+    TRY(make_folder(place));
+    TRY(lab::write_report(place, found.findings));
+    TRY(show(options, found));
+    say(fmt::format("wrote {}", (place.path() / "report.html").string()));
+    return interrupt.requested() ? Interrupt::k_exit_code : 0;
+}
+
+} // namespace
+
+void add_simplify(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<SimplifyOptions>();
+    CLI::App* command = app.add_subcommand(
+        "simplify", "Finds what a scene can do without, within a stated error of its picture");
+    add_scene_options(*command, options->scene);
+    command
+        ->add_option("--max-error", options->most_error,
+                     "How far from the scene as it is, in every view: flip=0.02, rmse=0.01 or psnr=40dB")
+        ->type_name("MEASURE=V")
+        ->capture_default_str();
+    command->add_flag("--exact", options->exact, "Only what leaves every pixel as it is")
+        ->excludes("--max-error");
+    command
+        ->add_option("--views", options->views,
+                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4 [1;10]")
+        ->type_name("LIST");
+    command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
+    command->add_option("--for", options->seconds, "Seconds for the search and the timing")
+        ->type_name("S")
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "Folder for the report [SCENE-simplify]")
+        ->type_name("FOLDER");
+    command->add_flag("--write", options->write, "Writes the cuts into the scene's files");
+    add_device_options(*command, options->device);
+    command->add_flag("--json", options->json, "The cuts and their study on standard output");
+    command->callback([options, &chosen] { chosen = [options] { return simplify(*options); }; });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,255 @@
+#include "glsl/cut/cuts.hpp"
+
+#include "glsl/cut/loop_bound.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace tidemark::glsl {
+namespace {
+
+/// Less than that is not worth a look: a driver needs no operation for most of it.
+constexpr double k_least_work = 4;
+/// Of the turns that a loop has.
+constexpr std::array k_parts{0.75, 0.5, 0.25};
+constexpr double k_fewest_turns = 2;
+
+/// What is written from one word to another, where no macro is in the way.
+std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_t last) {
+    const auto& words = text.words();
+    for (size_t i = first; i <= last; ++i)
+        if (words[i].from_macro())
+            return std::nullopt;
+    if (text.spelled(first).file.empty() || text.spelled(first).file != text.spelled(last).file)
+        return std::nullopt;
+    return WrittenTokens{words[first].used, words[last].used};
+}
+
+/// So that it is read as a float, with no more digits than are worth it.
+std::string number_text(double value) {
+    std::string text = fmt::format("{:.4g}", value);
+    if (text.find_first_of(".e") == text.npos)
+        text += ".0";
+    return text;
+}
+
+bool has_jump(const ParsedText& text, NodeId id) {
+    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
+        for (const std::string_view word : {"return", "discard"})
+            if (text.word(i) == word)
+                return true;
+    return false;
+}
+
+bool declares(const SyntaxTree& tree, NodeId id) {
+    return tree[id].kind == NodeKind::declaration;
+}
+
+/// A call of the author's function with an `out` parameter: what it gives is needed.
+bool gives_out(const ParsedText& text, const TreeFacts& facts, NodeId call) {
+    const FunctionFacts* const function = facts.function(called_name(text, call));
+    if (!function)
+        return true;
+    for (const NodeId definition : function->definitions)
+        for (const NodeId part : text.tree().children(definition))
+            if (text.tree()[part].kind == NodeKind::parameter &&
+                has_qualifier(text, text.tree().child(part, 0), "out"))
+                return true;
+    return false;
+}
+
+/// Something that is there anyway and goes on as it was: `x += y`, `f(x)`.
+bool may_be_left_out(const ParsedText& text, const TreeFacts& facts, NodeId expression) {
+    const NodeKind kind = text.tree()[expression].kind;
+    if (kind == NodeKind::assign)
+        return text.word_of(expression) != "=";
+    return kind == NodeKind::call && !gives_out(text, facts, expression);
+}
+
+std::string in_short(std::string words) {
+    constexpr size_t k_most = 60;
+    if (words.size() > k_most)
+        words = words.substr(0, k_most - 3) + "...";
+    return words;
+}
+
+} // namespace
+
+Cutter::Cutter(const ParsedText& text, const TreeFacts& facts)
+    : text_(text), tree_(text.tree()), facts_(facts), work_(text, facts), kept_(tree_.nodes.size()) {
+    find_kept();
+}
+
+/// Until no function more is found that such a loop calls: prototypes let one stand anywhere.
+void Cutter::find_kept() {
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+        if (is_loop(tree_[id].kind) && !loop_bound(text_, id))
+            endless_.push_back(id);
+    std::set<std::string_view> called;
+    for (size_t before = 1; before != called.size() + 1;) {
+        before = called.size() + 1;
+        mark_kept(called);
+    }
+}
+
+/// Parents stand behind their children.
+void Cutter::mark_kept(std::set<std::string_view>& called) {
+    for (NodeId id = NodeId(tree_.nodes.size()) - 1; id > 0; --id) {
+        const NodeKind kind = tree_[id].kind;
+        const NodeId parent = tree_[id].parent;
+        // What a loop counts to is another matter: it is turned as that.
+        const bool in_head =
+            parent != k_no_node && is_loop(tree_[parent].kind) && loop_condition(text_, parent) == id;
+        kept_[id] = kept_[id] || in_head || (parent != k_no_node && kept_[parent]) ||
+                    (kind == NodeKind::function && called.contains(text_.word_of(id))) ||
+                    std::ranges::binary_search(endless_, id);
+        if (kept_[id] && kind == NodeKind::call)
+            called.insert(called_name(text_, id));
+    }
+}
+
+bool Cutter::is_kept(NodeId id) const {
+    return kept_[id] || tree_.around(id, NodeKind::function) == k_no_node || must_stay_constant(text_, id);
+}
+
+bool Cutter::is_cheap(NodeId id) const {
+    return work_.once(id) < k_least_work;
+}
+
+std::string Cutter::place_of(NodeId id) const {
+    const SourceLocation where = text_.spelled(tree_[id].begin);
+    return fmt::format("{}:{}", where.file, where.line);
+}
+
+void Cutter::add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
+                 std::vector<Cut>& cuts) const {
+    if (!tokens)
+        return;
+    Wrap wrap = wrapped(text_, *tokens, std::move(instead), "");
+    wrap.replaces = true;
+    cuts.push_back({{{std::move(wrap)}, std::move(reason)}, work});
+}
+
+/// `a + b` without b, without a; the same of `-` and `*`. Of a chain each operand once.
+void Cutter::add_operands(NodeId id, std::vector<Cut>& cuts) const {
+    const std::string_view op = text_.word_of(id);
+    const bool product = op == "*";
+    if (op != "+" && op != "-" && !product)
+        return;
+    const NodeId left = tree_.child(id, 0), right = tree_.child(id, 1);
+    const char* const what = product ? "factor" : "term";
+    if (!is_cheap(right))
+        add(between(text_, tree_[id].word, tree_[right].end - 1), "",
+            fmt::format("{}: leaves out the {} `{}`", place_of(right), what, in_short(text_.excerpt(right))),
+            work_.of(right), cuts);
+    const bool chain = tree_[left].kind == NodeKind::binary && text_.word_of(left) == op;
+    if (!is_cheap(left) && !chain)
+        add(between(text_, tree_[left].begin, tree_[id].word), op == "-" ? "-" : "",
+            fmt::format("{}: leaves out the {} `{}`", place_of(left), what, in_short(text_.excerpt(left))),
+            work_.of(left), cuts);
+}
+
+void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
+    const NodeKind kind = tree_[id].kind;
+    if (is_cheap(id) || has_jump(text_, id))
+        return;
+    const bool whole = (kind == NodeKind::if_else && tree_.child_count(id) == 2) || is_loop(kind);
+    if (!whole && (kind != NodeKind::expression || !may_be_left_out(text_, facts_, tree_.child(id, 0))))
+        return;
+    const Node& node = tree_[id];
+    const bool in_block = tree_[node.parent].kind == NodeKind::block;
+    add(between(text_, node.begin, node.end - 1), in_block ? "" : ";",
+        fmt::format("{}: leaves out `{}`", place_of(id), in_short(text_.excerpt(id))), work_.of(id), cuts);
+}
+
+void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
+    const auto bound = loop_bound(text_, loop);
+    if (!bound || !bound->turns || kept_[loop])
+        return;
+    std::string_view digits = text_.word_of(bound->number);
+    const bool whole = digits.find_first_of(".eE") == digits.npos;
+    double before = *bound->turns;
+    for (const double part : k_parts) {
+        const double turns = std::max(k_fewest_turns, std::floor(part * *bound->turns));
+        if (!(turns < before))
+            continue;
+        before = turns;
+        add(written_for(text_, bound->number, bound->number),
+            whole ? fmt::format("{}{}", turns, digits.ends_with('u') ? "u" : "") : number_text(turns),
+            fmt::format("{}: {:g} turns of the loop instead of {:g}", place_of(loop), turns, *bound->turns),
+            work_.of(loop) * (1 - turns / *bound->turns), cuts);
+    }
+}
+
+std::vector<Cut> Cutter::cuts() const {
+    std::vector<Cut> cuts;
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        const NodeKind kind = tree_[id].kind;
+        if (is_loop(kind))
+            add_turns(id, cuts);
+        if (is_kept(id) || work_.of(id) == 0)
+            continue;
+        if (kind == NodeKind::binary)
+            add_operands(id, cuts);
+        else if (!is_expression(kind) && !declares(tree_, id))
+            add_statement(id, cuts);
+    }
+    std::ranges::stable_sort(cuts, std::greater<>(), &Cut::work);
+    return cuts;
+}
+
+/// Of what says its type: a call of one of the author's functions, a look-up in a texture, the value that a
+/// variable is declared with.
+std::optional<ValueType> Cutter::type_of(NodeId id) const {
+    std::string_view name;
+    if (tree_[tree_[id].parent].kind == NodeKind::declarator)
+        name = tree_.child_count(tree_[id].parent) == 1
+                   ? type_name(text_, tree_.child(tree_[tree_[id].parent].parent, 0))
+                   : "";
+    else if (tree_[id].kind == NodeKind::call) {
+        const FunctionFacts* const function = facts_.function(called_name(text_, id));
+        for (const NodeId definition : function ? function->definitions : std::vector<NodeId>{}) {
+            const std::string_view type = type_name(text_, tree_.child(definition, 0));
+            if (!name.empty() && type != name)
+                return std::nullopt;
+            name = type;
+        }
+        if (!function && called_name(text_, id).starts_with("texture"))
+            name = called_name(text_, id).starts_with("textureSize") ? "" : "vec4";
+    }
+    const auto type = value_type(name);
+    return type && type->base == 'f' && !type->matrix() ? type : std::nullopt;
+}
+
+std::vector<Replaceable> Cutter::replaceables() const {
+    std::vector<Replaceable> found;
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        if (!is_expression(tree_[id].kind) || is_cheap(id) || is_kept(id) || work_.of(id) == 0)
+            continue;
+        const auto type = type_of(id);
+        if (type && written_for(text_, id, id) && text_.excerpt(id).find("++") == std::string::npos)
+            found.push_back({id, *type, work_.of(id)});
+    }
+    std::ranges::stable_sort(found, std::greater<>(), &Replaceable::work);
+    return found;
+}
+
+Cut Cutter::replaced(const Replaceable& expression, std::span<const double> numbers) const {
+    std::string words;
+    for (const double number : numbers)
+        words += (words.empty() ? "" : ", ") + number_text(number);
+    if (!expression.type.scalar())
+        words = fmt::format("{}({})", to_string(expression.type), words);
+    std::vector<Cut> cuts;
+    add(written_for(text_, expression.node, expression.node), words,
+        fmt::format("{}: {} stands for `{}`", place_of(expression.node), words,
+                    in_short(text_.excerpt(expression.node))),
+        expression.work, cuts);
+    return cuts.front();
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,161 @@
+#include "lab/simplify/cut_places.hpp"
+
+#include "base/try.hpp"
+#include "glsl/instrument/seen_values.hpp"
+#include "lab/trace/stand_in.hpp"
+#include "lab/trace/watched_run.hpp"
+#include "render/frame_stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace tidemark::lab {
+namespace {
+
+/// Of one pass: each costs a picture of every view.
+constexpr size_t k_most_replaced = 32;
+
+/// The mean of an expression's last values, number by number.
+struct Mean {
+    std::array<double, 4> sums{};
+    double count = 0;
+
+    void add(const image::Image& picture) {
+        const auto samples = picture.f32();
+        for (size_t i = 0; i + 3 < samples.size(); i += 4) {
+            if (!std::isfinite(samples[i] + samples[i + 1] + samples[i + 2] + samples[i + 3]))
+                continue;
+            for (size_t k = 0; k < 4; ++k)
+                sums[k] += samples[i + k];
+            ++count;
+        }
+    }
+    std::vector<double> values(int number) const {
+        std::vector<double> values;
+        for (int k = 0; k < number; ++k)
+            values.push_back(sums[size_t(k)] / count);
+        return values;
+    }
+};
+
+class Finder {
+public:
+    Finder(const scene::Scene& scene, const std::vector<View>& views, const KeepGoing& keep_going)
+        : scene_(scene), views_(views), keep_going_(keep_going) {}
+
+    Result<CutPlaces> run(Extent extent) {
+        auto renderer =
+            TRY(render::Renderer::create(scene_, {.extent = extent, .samples = image::SampleType::f32}));
+        for (const render::PlannedPass& planned : renderer.plan().passes)
+            add_pass(renderer, planned.pass);
+        std::ranges::stable_sort(found_.cuts, std::greater<>(), &glsl::Cut::work);
+        return std::move(found_);
+    }
+
+private:
+    void add_pass(render::Renderer& renderer, size_t pass) {
+        const std::string& name = scene_.passes[pass].name;
+        const auto text = read_text(renderer, pass, true);
+        if (!text) {
+            found_.left.push_back(
+                fmt::format("{}: the text cannot be followed: {}", name, to_string(text.error())));
+            return;
+        }
+        const glsl::TreeFacts facts = glsl::find_facts(**text);
+        const glsl::Cutter cutter(**text, facts);
+        for (const glsl::NodeId loop : cutter.endless()) {
+            const SourceLocation where = (*text)->spelled((*text)->tree()[loop].begin);
+            found_.left.push_back(
+                fmt::format("{}:{}: nothing in the head of this loop ends it for certain: what is "
+                            "in it, and what it calls, is left alone",
+                            where.file, where.line));
+        }
+        for (glsl::Cut& cut : cutter.cuts())
+            add(std::move(cut));
+        if (scene_.passes[pass].kind != scene::PassKind::cubemap)
+            add_replaced(renderer, pass, **text, cutter);
+    }
+
+    /// Common stands in several passes.
+    void add(glsl::Cut cut) {
+        const glsl::Wrap& wrap = cut.change.wraps.front();
+        const auto place = [](const glsl::WrittenWord& word) {
+            return std::tuple(word.where.file, word.where.line, word.where.column);
+        };
+        if (known_.insert({place(wrap.first), place(wrap.last), wrap.front}).second)
+            found_.cuts.push_back(std::move(cut));
+    }
+
+    void add_replaced(render::Renderer& renderer, size_t pass, const glsl::ParsedText& text,
+                      const glsl::Cutter& cutter) {
+        std::vector<glsl::Replaceable> all = cutter.replaceables();
+        all.resize(std::min(all.size(), k_most_replaced));
+        const auto means = means_of(renderer, pass, text, all);
+        if (!means) {
+            found_.left.push_back(fmt::format("{}: no number was tried in the place of an expression: {}",
+                                              scene_.passes[pass].name, to_string(means.error())));
+            return;
+        }
+        for (size_t i = 0; i < means->size(); ++i)
+            if ((*means)[i].count > 0)
+                add(cutter.replaced(all[i], (*means)[i].values(all[i].type.rows)));
+    }
+
+    /// Over all views; of what the text has no place for, none.
+    Result<std::vector<Mean>> means_of(render::Renderer& renderer, size_t pass, const glsl::ParsedText& text,
+                                       const std::vector<glsl::Replaceable>& all) {
+        std::vector<glsl::NodeId> nodes;
+        for (const glsl::Replaceable& each : all)
+            nodes.push_back(each.node);
+        const glsl::SeenValues seen = glsl::see_values(text, nodes);
+        std::vector<Mean> means(seen.text.empty() ? 0 : all.size());
+        std::optional<StandIn> stand_in;
+        for (const View& view : views_) {
+            if (means.empty() || !keep_going_())
+                break;
+            const render::FrameState state = state_of(view, renderer.extent());
+            const PassPreview preview = render::FrameStepper(renderer, state).preview(state.frame, pass);
+            if (!stand_in)
+                stand_in = TRY(StandIn::link(preview, seen.text, "the text that shows its values"));
+            for (size_t i = 0; i < means.size(); ++i) {
+                stand_in->set(seen.which_uniform, double(i));
+                stand_in->draw(preview);
+                means[i].add(stand_in->picture());
+            }
+        }
+        return means;
+    }
+
+    const scene::Scene& scene_;
+    const std::vector<View>& views_;
+    const KeepGoing& keep_going_;
+    CutPlaces found_{};
+    std::set<std::tuple<std::tuple<std::string, int, int>, std::tuple<std::string, int, int>, std::string>>
+        known_{};
+};
+
+std::pair<int, int> begin_of(const glsl::Wrap& wrap) {
+    return {wrap.first.where.line, wrap.first.where.column};
+}
+std::pair<int, int> end_of(const glsl::Wrap& wrap) {
+    return {wrap.last.where.line, wrap.last.where.column};
+}
+
+} // namespace
+
+Result<CutPlaces> find_cuts(const scene::Scene& scene, const std::vector<View>& views, Extent extent,
+                            const KeepGoing& keep_going) {
+    return Finder(scene, views, keep_going).run(extent);
+}
+
+bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer) {
+    const glsl::Wrap &in = inner.wraps.front(), &out = outer.wraps.front();
+    return in.first.where.file == out.first.where.file && begin_of(out) <= begin_of(in) &&
+           end_of(in) <= end_of(out);
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,54 @@
+// A scene with cuts against the same scene as it is: how far its pictures are off, and what part of the time
+// it takes. A context must be current.
+#pragma once
+
+#include "glsl/cure/cure.hpp"
+#include "lab/study/conduct.hpp"
+#include "lab/study/outcome.hpp"
+#include "lab/study/specimen.hpp"
+#include "lab/tune/goal.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tidemark::lab {
+
+struct CutTrial {
+    Specimen specimen;
+    double error = 0; ///< in the worst view; 0: every byte of the floats is the same
+    double time = 1;  ///< of a frame, as a part of the other scene's
+};
+
+class CutBench {
+public:
+    /// Draws the scene as it is. Fails (ErrorCode::check_failed) where its picture is no numbers.
+    static Result<CutBench> create(const scene::Scene& scene, Extent extent, std::vector<View> views);
+
+    Specimen& own() { return own_; }
+    /// Timed against `other`. Nothing where the cuts cannot be made, or where the driver refuses the text.
+    std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, Measure measure);
+
+private:
+    CutBench(const scene::Scene& scene, Extent extent, std::vector<View> views, Specimen own)
+        : scene_(&scene), extent_(extent), views_(std::move(views)), own_(std::move(own)) {}
+
+    double relative_time(Specimen& one, Specimen& other) const;
+
+    const scene::Scene* scene_;
+    Extent extent_;
+    std::vector<View> views_;
+    Specimen own_;
+    Truth truth_;
+};
+
+/// A study whose points are scenes, and whose truth is the first of them: `scene`, as it is. What it shows is
+/// what it shows, so that the truth has no error of its own.
+Result<Findings> compare_scenes(const scene::Scene& scene,
+                                const std::vector<std::pair<std::string, scene::Scene>>& others,
+                                const Study& study, const Timing& timing, const Watch& watch,
+                                const Circumstances& circumstances);
+
+} // namespace tidemark::lab

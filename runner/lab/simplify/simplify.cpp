@@ -1,0 +1,217 @@
+#include "lab/simplify/simplify.hpp"
+
+#include "base/try.hpp"
+#include "lab/changed_scene.hpp"
+#include "lab/simplify/cut_places.hpp"
+#include "lab/simplify/cut_trial.hpp"
+#include "lab/study/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+/// Of the longer side of the pictures that are searched.
+constexpr int k_small = 128;
+/// Until when, as parts of the seconds there are, cuts are tried alone and together; the rest is the
+/// verdict's.
+constexpr double k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
+/// A cut is looked at where a frame takes at most this part of what it took.
+constexpr double k_pays = 0.985;
+/// Steps of the way that are judged at full size.
+constexpr size_t k_most_steps = 6;
+/// Moments that no search has seen, seconds behind those that it saw.
+constexpr double k_later[] = {2.7, 13.1, 47.3};
+
+Extent small_of(Extent extent) {
+    const int longer = std::max(extent.width, extent.height);
+    const auto side = [&](int length) { return std::max(1, length * k_small / longer); };
+    return longer <= k_small ? extent : Extent{side(extent.width), side(extent.height)};
+}
+
+std::vector<View> unseen(const std::vector<View>& views) {
+    std::vector<View> unseen;
+    for (const double later : k_later) {
+        View& view = unseen.emplace_back(views.back());
+        const double seconds = view.state.seconds() + later;
+        view.state = render::at_time(seconds);
+        view.name = fmt::format("t={:g}, not searched", seconds);
+    }
+    return unseen;
+}
+
+std::vector<glsl::Cure> changes_of(const std::vector<ChosenCut>& cuts) {
+    std::vector<glsl::Cure> changes;
+    for (const ChosenCut& cut : cuts)
+        changes.push_back(cut.change);
+    return changes;
+}
+
+class Simplifier {
+public:
+    Simplifier(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
+               const Circumstances& facts)
+        : scene_(scene), request_(request), watch_(watch), facts_(facts) {}
+
+    Result<Simplified> run() {
+        const Extent small = small_of(request_.extent);
+        CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] { return goes_on(k_alone); }));
+        std::erase_if(places.cuts,
+                      [&](const glsl::Cut& cut) { return !request_.can_be_written(cut.change); });
+        auto bench = TRY(CutBench::create(scene_, small, request_.views));
+        try_alone(bench, places.cuts);
+        combine(bench);
+        Simplified found{.findings = TRY(judge())};
+        choose(found, std::move(places.left));
+        return found;
+    }
+
+private:
+    bool goes_on(double part) const {
+        return watch_.keep_going() && clock_.elapsed().wall * 1e-3 < part * request_.seconds;
+    }
+
+    bool keeps(double error) const { return error <= *request_.goal.most_error; }
+
+    void try_alone(CutBench& bench, const std::vector<glsl::Cut>& cuts) {
+        watch_.begin("cuts tried", cuts.size());
+        for (const glsl::Cut& cut : cuts) {
+            if (!goes_on(k_alone))
+                break;
+            ++tried_;
+            watch_.advance();
+            const auto trial = bench.try_cuts(std::span(&cut.change, 1), bench.own(), request_.goal.measure);
+            if (trial && keeps(trial->error) && trial->time <= k_pays)
+                good_.push_back({cut.change, trial->error, trial->time});
+        }
+        known_ = cuts.size();
+        // What shows nowhere comes first; then what saves the most for what it shows.
+        std::ranges::stable_sort(good_, std::greater<>(), [](const ChosenCut& cut) {
+            return cut.error == 0 ? 1e30 * (2 - cut.time) : (1 - cut.time) / cut.error;
+        });
+    }
+
+    /// One after the other on top of those before, as long as the error holds.
+    void combine(CutBench& bench) {
+        watch_.begin("cuts combined", good_.size());
+        std::optional<CutTrial> last;
+        for (const ChosenCut& cut : good_) {
+            watch_.advance();
+            if (!goes_on(k_together))
+                break;
+            std::vector<ChosenCut> next = way_.empty() ? std::vector<ChosenCut>{} : way_.back();
+            const bool gone = std::ranges::any_of(next, [&](const ChosenCut& other) {
+                return !is_inside(other.change, cut.change) && is_inside(cut.change, other.change);
+            });
+            if (gone)
+                continue;
+            std::erase_if(next, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
+            next.push_back(cut);
+            auto trial =
+                bench.try_cuts(changes_of(next), last ? last->specimen : bench.own(), request_.goal.measure);
+            if (!trial || !keeps(trial->error) || trial->time > k_pays)
+                continue;
+            last = std::move(trial);
+            way_.push_back(std::move(next));
+        }
+    }
+
+    /// The last of them, and others evenly along the way.
+    std::vector<size_t> judged_steps() const {
+        std::vector<size_t> steps;
+        const size_t count = std::min(way_.size(), k_most_steps);
+        for (size_t i = 1; i <= count; ++i)
+            steps.push_back(way_.size() * i / count - 1);
+        return steps;
+    }
+
+    Result<Findings> judge() {
+        steps_ = judged_steps();
+        std::vector<std::pair<std::string, scene::Scene>> scenes;
+        for (const size_t step : steps_)
+            if (auto scene = changed(scene_, changes_of(way_[step])))
+                scenes.emplace_back(fmt::format("step {}: {} cut{}", step + 1, way_[step].size(),
+                                                way_[step].size() == 1 ? "" : "s"),
+                                    *std::move(scene));
+        Study study;
+        study.about = "What can be left out of the scene, held against the scene as it is.";
+        study.extent = request_.extent;
+        study.views = request_.views;
+        for (View& view : unseen(request_.views))
+            study.views.push_back(std::move(view));
+        const Timing timing{2, 30, k_timing * request_.seconds};
+        return compare_scenes(scene_, scenes, study, timing, watch_, facts_);
+    }
+
+    /// Of every view by itself: none is paid for by another.
+    double worst(const WorkPrecision& point) const {
+        double worst = 0;
+        for (const Outcome& view : point.views) {
+            const double error = error_by(request_.goal.measure, view);
+            worst = std::isnan(error) ? error : std::max(worst, error);
+            if (std::isnan(worst))
+                break;
+        }
+        return worst;
+    }
+
+    std::string cost_and_error(const WorkPrecision& point) const {
+        const TimeSummary& time = point.all.time();
+        return fmt::format("{} ms [{}, {}], {} {}", figure(time.median), figure(time.confidence.low),
+                           figure(time.confidence.high), to_string(Goal{request_.goal.measure}),
+                           figure(worst(point)));
+    }
+
+    void choose(Simplified& found, std::vector<std::string> left) const {
+        const auto& points = found.findings.set.points;
+        auto& say = found.sentences;
+        say = std::move(left);
+        say.push_back(fmt::format("{} of {} cuts were tried alone: {} pay and keep {}", tried_, known_,
+                                  good_.size(), to_string(request_.goal)));
+        say.push_back("as it is: " + cost_and_error(points.front()));
+        const WorkPrecision* best = nullptr;
+        for (size_t i = 1; i < points.size(); ++i) {
+            const WorkPrecision& point = points[i];
+            say.push_back(fmt::format("{}: {}", point.point.label,
+                                      point.measured() ? cost_and_error(point) : point.failure));
+            const auto gain = speedup(points.front(), point);
+            const bool may = point.timed() && keeps(worst(point)) && gain && gain->confidence.low > 1;
+            if (!may || (best && best->all.time().median <= point.all.time().median))
+                continue;
+            best = &point;
+            found.chosen = way_[steps_[i - 1]];
+        }
+        if (!best) {
+            say.push_back("nothing that was found is faster beyond noise and keeps " +
+                          to_string(request_.goal) + " in every view");
+            return;
+        }
+        const auto gain = speedup(points.front(), *best);
+        say.push_back(
+            fmt::format("chosen: {}: {:.2f} x [{:.2f}, {:.2f}] as fast as it is, {} {} in the worst view",
+                        best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high,
+                        to_string(Goal{request_.goal.measure}), figure(worst(*best))));
+    }
+
+    const scene::Scene& scene_;
+    const SimplifyRequest& request_;
+    const Watch& watch_;
+    const Circumstances& facts_;
+    Stopwatch clock_{};
+    size_t tried_ = 0, known_ = 0;
+    std::vector<ChosenCut> good_{};             ///< alone
+    std::vector<std::vector<ChosenCut>> way_{}; ///< each step keeps the error
+    std::vector<size_t> steps_{};               ///< of the way, that are judged
+};
+
+} // namespace
+
+Result<Simplified> simplify(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
+                            const Circumstances& circumstances) {
+    return Simplifier(scene, request, watch, circumstances).run();
+}
+
+} // namespace tidemark::lab
