@@ -38,8 +38,8 @@ ROOMS = {
     "live": {"": ["plugin"], "plugin": [""], "inputs": [""]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"],
-             "cure": ["syntax", "flow", "analysis"]},
-    "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "trace": [], "pixel": ["march"],
+             "cure": ["syntax", "flow", "analysis"], "cut": ["syntax", "cure"]},
+    "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "simplify": ["", "march", "study", "tune", "trace"], "trace": [], "pixel": ["march"],
             "check": ["", "march", "trace"], "fix": ["", "trace", "check"], "device": ["", "check", "study"]},
     # What runs in a browser, and includes nothing.
     "web": {"": [], "host": []},

@@ -31,12 +31,13 @@ NOT_RUN = (
     r"ssh ",  # another machine
 )
 # Commands whose words are times, which differ from run to run.
-NOT_COMPARED = (r"tidemark (study|tune) ",)
+NOT_COMPARED = (r"tidemark (study|tune|simplify) ",)
 # Options that make a command of a page small, where it has none of its own.
 SMALL = {
     "capture": ("--size", "64x36"),
     "study": ("--size", "32x18", "--budget", "1"),
     "tune": ("--size", "32x18", "--for", "20"),
+    "simplify": ("--size", "32x18", "--for", "20"),
 }
 PATIENT = ("--budget", "900")  # a busy machine cuts no probe
 SHORTER = ((r"\b0-299\b", "0-2"), (r"\b30000x20000\b", "300x200"))

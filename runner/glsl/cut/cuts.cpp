@@ -15,7 +15,7 @@ namespace {
 /// Less than that is not worth a look: a driver needs no operation for most of it.
 constexpr double k_least_work = 4;
 /// Of the turns that a loop has.
-constexpr std::array k_parts{0.75, 0.5, 0.25};
+constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
 constexpr double k_fewest_turns = 2;
 
 /// What is written from one word to another, where no macro is in the way.
@@ -90,10 +90,11 @@ void Cutter::find_kept() {
         if (is_loop(tree_[id].kind) && !loop_bound(text_, id))
             endless_.push_back(id);
     std::set<std::string_view> called;
-    for (size_t before = 1; before != called.size() + 1;) {
-        before = called.size() + 1;
+    size_t before = 0;
+    do {
+        before = called.size();
         mark_kept(called);
-    }
+    } while (called.size() > before);
 }
 
 /// Parents stand behind their children.
@@ -121,7 +122,8 @@ bool Cutter::is_cheap(NodeId id) const {
 }
 
 std::string Cutter::place_of(NodeId id) const {
-    const SourceLocation where = text_.spelled(tree_[id].begin);
+    const SourceLocation written = text_.spelled(tree_[id].begin);
+    const SourceLocation where = written.file.empty() ? text_.used(tree_[id].begin) : written;
     return fmt::format("{}:{}", where.file, where.line);
 }
 
@@ -168,20 +170,21 @@ void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
 
 void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
     const auto bound = loop_bound(text_, loop);
-    if (!bound || !bound->turns || kept_[loop])
+    if (!bound || bound->number == k_no_node || kept_[loop])
         return;
-    std::string_view digits = text_.word_of(bound->number);
+    const std::string_view digits = text_.word_of(bound->number);
     const bool whole = digits.find_first_of(".eE") == digits.npos;
-    double before = *bound->turns;
+    double before = bound->turns;
     for (const double part : k_parts) {
-        const double turns = std::max(k_fewest_turns, std::floor(part * *bound->turns));
+        const double turns = std::max(k_fewest_turns, std::floor(part * bound->turns));
         if (!(turns < before))
             continue;
         before = turns;
+        const double last = bound->first + turns;
         add(written_for(text_, bound->number, bound->number),
-            whole ? fmt::format("{}{}", turns, digits.ends_with('u') ? "u" : "") : number_text(turns),
-            fmt::format("{}: {:g} turns of the loop instead of {:g}", place_of(loop), turns, *bound->turns),
-            work_.of(loop) * (1 - turns / *bound->turns), cuts);
+            whole ? fmt::format("{}{}", last, digits.ends_with('u') ? "u" : "") : number_text(last),
+            fmt::format("{}: {:g} turns of the loop instead of {:g}", place_of(loop), turns, bound->turns),
+            work_.of(loop) * (1 - turns / bound->turns), cuts);
     }
 }
 

@@ -2,26 +2,63 @@
 
 #include "glsl/syntax/tree_facts.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <tuple>
 
 namespace tidemark::glsl {
 namespace {
 
-NodeId without_brackets(const SyntaxTree& tree, NodeId id) {
+/// The literal that an expression is, in brackets or by the name of a constant of one declaration.
+NodeId literal_node(const ParsedText& text, NodeId id) {
+    const SyntaxTree& tree = text.tree();
     while (tree[id].kind == NodeKind::parenthesis)
         id = tree.child(id, 0);
-    return id;
+    if (tree[id].kind != NodeKind::name)
+        return tree[id].kind == NodeKind::literal ? id : k_no_node;
+    NodeId found = k_no_node;
+    for (NodeId each = 1; each < tree.nodes.size(); ++each) {
+        if (tree[each].kind != NodeKind::declarator || text.word_of(each) != text.word_of(id))
+            continue;
+        const NodeId value = tree.child(each, 0);
+        const bool constant = has_qualifier(text, tree.child(tree[each].parent, 0), "const");
+        if (found != k_no_node || !constant || value == k_no_node || tree[value].kind != NodeKind::literal)
+            return k_no_node;
+        found = value;
+    }
+    return found;
 }
 
-std::optional<double> literal(const ParsedText& text, NodeId id) {
-    const SyntaxTree& tree = text.tree();
-    id = without_brackets(tree, id);
-    if (tree[id].kind != NodeKind::literal)
+std::optional<double> number_of(const ParsedText& text, NodeId literal) {
+    if (literal == k_no_node)
         return std::nullopt;
-    const std::string_view digits = text.word_of(id);
+    const std::string_view digits = text.word_of(literal);
     double value = 0;
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     return read.ec == std::errc{} ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> literal(const ParsedText& text, NodeId id) {
+    return id == k_no_node ? std::nullopt : number_of(text, literal_node(text, id));
+}
+
+/// What the head of a `for` gives its counter; 0 where it gives none.
+std::optional<double> first_of(const ParsedText& text, NodeId loop, std::string_view counter) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[loop].kind != NodeKind::loop_for)
+        return 0;
+    const NodeId head = tree.child(loop, 0);
+    for (NodeId id = head; id > k_no_node && tree[id].begin >= tree[head].begin; --id) {
+        const bool declared = tree[id].kind == NodeKind::declarator && text.word_of(id) == counter;
+        const bool assigned = tree[id].kind == NodeKind::assign && text.word_of(id) == "=" &&
+                              text.word_of(tree.child(id, 0)) == counter;
+        if (declared && tree.child_count(id) == 0)
+            return 0;
+        if (declared || assigned)
+            return literal(text, tree.child(id, declared ? 0 : 1));
+    }
+    return 0;
 }
 
 /// The variable that `++i`, `i++`, `i += 2` change; empty for any other expression.
@@ -47,41 +84,47 @@ std::optional<double> change_of(const ParsedText& text, NodeId id, std::string_v
     return by && op == "+=" ? by : by && op == "-=" ? std::optional(-*by) : std::nullopt;
 }
 
+/// The head of a loop: its last part is k_no_node where it has none.
+struct Head {
+    NodeId loop, step;
+};
+
 /// Of one comparison in the head of a loop.
-std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId step) {
+std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, const Head& head) {
     const SyntaxTree& tree = text.tree();
     const NodeId left = tree.child(test, 0), right = tree.child(test, 1);
-    std::string_view op = text.word_of(test);
+    const std::string_view op = text.word_of(test);
     const bool less = op == "<" || op == "<=" || op == "!=";
     if (!less && op != ">" && op != ">=")
         return std::nullopt;
     // `64 > i` is `i < 64`.
-    for (const auto& [counter, number, up] :
-         {std::tuple(left, right, less), std::tuple(right, left, !less)}) {
+    for (const auto& [counter, bound, up] : {std::tuple(left, right, less), std::tuple(right, left, !less)}) {
         const bool named = tree[counter].kind == NodeKind::name;
         const std::string_view name = named ? text.word_of(counter) : changed_name(text, counter);
-        const auto change = name.empty() ? std::nullopt : change_of(text, named ? step : counter, name);
+        const auto change = name.empty() ? std::nullopt : change_of(text, named ? head.step : counter, name);
         if (!change || *change == 0 || (*change > 0) != (up || op == "!="))
             continue;
-        if (*change < 0)
+        const NodeId number = literal_node(text, bound);
+        const auto first = first_of(text, head.loop, name), last = number_of(text, number);
+        if (*change != 1 || !first || !last)
             return LoopBound{};
-        const auto most = *change == 1 ? literal(text, number) : std::nullopt;
-        return LoopBound{*change == 1 ? without_brackets(tree, number) : k_no_node, most};
+        return LoopBound{number, *first,
+                         std::max(0.0, std::ceil(*last - *first) + (op == "<=" || op == ">="))};
     }
     return std::nullopt;
 }
 
 /// Any side of `&&` is enough to end a loop.
-std::optional<LoopBound> bound_in(const ParsedText& text, NodeId condition, NodeId step) {
+std::optional<LoopBound> bound_in(const ParsedText& text, NodeId condition, const Head& head) {
     const SyntaxTree& tree = text.tree();
     if (tree[condition].kind == NodeKind::parenthesis)
-        return bound_in(text, tree.child(condition, 0), step);
+        return bound_in(text, tree.child(condition, 0), head);
     if (tree[condition].kind != NodeKind::binary)
         return std::nullopt;
     if (text.word_of(condition) != "&&")
-        return bound_by(text, condition, step);
-    const auto left = bound_in(text, tree.child(condition, 0), step);
-    return left ? left : bound_in(text, tree.child(condition, 1), step);
+        return bound_by(text, condition, head);
+    const auto left = bound_in(text, tree.child(condition, 0), head);
+    return left ? left : bound_in(text, tree.child(condition, 1), head);
 }
 
 } // namespace
@@ -98,7 +141,8 @@ std::optional<LoopBound> loop_bound(const ParsedText& text, NodeId loop) {
     const NodeId condition = loop_condition(text, loop);
     if (condition == k_no_node)
         return std::nullopt;
-    return bound_in(text, condition, tree[loop].kind == NodeKind::loop_for ? tree.child(loop, 2) : k_no_node);
+    return bound_in(text, condition,
+                    {loop, tree[loop].kind == NodeKind::loop_for ? tree.child(loop, 2) : k_no_node});
 }
 
 } // namespace tidemark::glsl

@@ -8,11 +8,13 @@
 namespace tidemark::glsl {
 
 struct LoopBound {
-    NodeId number = k_no_node;     ///< the expression that is counted to; k_no_node: it counts down
-    std::optional<double> turns{}; ///< where that is a literal, and each turn counts one
+    NodeId number = k_no_node; ///< the literal that is counted to, by ones; k_no_node: there is none
+    double first = 0;          ///< what it counts from
+    double turns = 0;          ///< where there is a number
 };
 
 /// Nothing for a loop that nothing in its head ends for certain, as far as its body leaves the counter alone.
+/// A counter that has no value in the head counts from 0.
 std::optional<LoopBound> loop_bound(const ParsedText& text, NodeId loop);
 
 /// Of a loop of any kind; k_no_node: it has none.

@@ -15,7 +15,7 @@ constexpr double k_most = 1e12;
 
 double turns_of(const ParsedText& text, NodeId loop) {
     const auto bound = loop_bound(text, loop);
-    return bound && bound->turns ? std::max(1.0, *bound->turns) : k_unknown_turns;
+    return bound && bound->number != k_no_node ? std::max(1.0, bound->turns) : k_unknown_turns;
 }
 
 bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {

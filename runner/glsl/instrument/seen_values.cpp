@@ -1,7 +1,6 @@
 #include "glsl/instrument/seen_values.hpp"
 
 #include "glsl/instrument/source_rewriter.hpp"
-#include "glsl/rewrite.hpp"
 
 #include <fmt/format.h>
 
@@ -38,9 +37,9 @@ NodeId body_of_main(const ParsedText& text) {
 
 } // namespace
 
-SeenValues see_values(const ParsedText& text, std::span<const NodeId> expressions) {
+SeenValues see_values(const ParsedText& text, std::span<const NodeId> expressions, std::string_view output) {
     const bool ours =
-        std::ranges::any_of(text.words(), [](const Word& word) { return word.text == k_output; });
+        std::ranges::any_of(text.words(), [&](const Word& word) { return word.text == output; });
     const NodeId body = body_of_main(text);
     if (!ours || body == k_no_node || expressions.empty())
         return {};
@@ -54,8 +53,9 @@ SeenValues see_values(const ParsedText& text, std::span<const NodeId> expression
         edits.wrap(expressions[i], fmt::format("{}see({},", prefix, i), ")");
     const Node& main = text.tree()[body];
     edits.replace(main.begin, "{" + spell(k_begin, prefix, count));
-    edits.replace(main.end - 1, spell(k_show, prefix, k_output));
-    return {headers_with_buffers(text) + spell(k_seen_prelude, prefix, count) + edits.text(), prefix + "which"};
+    edits.replace(main.end - 1, spell(k_show, prefix, output));
+    return {headers_with_buffers(text) + spell(k_seen_prelude, prefix, count) + edits.text(),
+            prefix + "which"};
 }
 
 } // namespace tidemark::glsl

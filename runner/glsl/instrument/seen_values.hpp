@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace tidemark::glsl {
 
@@ -14,7 +15,7 @@ struct SeenValues {
     std::string which_uniform; ///< int, an index of the expressions
 };
 
-/// `expressions` are of floats and vectors of floats, and called where a value may be computed.
-SeenValues see_values(const ParsedText& text, std::span<const NodeId> expressions);
+/// `expressions` are of floats and vectors of floats; `output` is what our `main` writes.
+SeenValues see_values(const ParsedText& text, std::span<const NodeId> expressions, std::string_view output);
 
 } // namespace tidemark::glsl

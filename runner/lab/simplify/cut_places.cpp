@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "glsl/instrument/seen_values.hpp"
+#include "glsl/rewrite.hpp"
 #include "lab/trace/stand_in.hpp"
 #include "lab/trace/watched_run.hpp"
 #include "render/frame_stepper.hpp"
@@ -111,7 +112,7 @@ private:
         std::vector<glsl::NodeId> nodes;
         for (const glsl::Replaceable& each : all)
             nodes.push_back(each.node);
-        const glsl::SeenValues seen = glsl::see_values(text, nodes);
+        const glsl::SeenValues seen = glsl::see_values(text, nodes, glsl::k_output);
         std::vector<Mean> means(seen.text.empty() ? 0 : all.size());
         std::optional<StandIn> stand_in;
         for (const View& view : views_) {

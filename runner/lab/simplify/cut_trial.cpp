@@ -122,7 +122,7 @@ Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std:
 }
 
 std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Specimen& other,
-                                           Measure measure) {
+                                           const Goal& goal) {
     const auto scene = changed(*scene_, cuts);
     auto specimen = scene ? Specimen::create(*scene, {}, extent_) : fail(ErrorCode::load, "");
     if (!specimen)
@@ -130,9 +130,10 @@ std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Spe
     CutTrial trial{*std::move(specimen)};
     const Sight sight{pictures_of(trial.specimen, views_), {}};
     for (size_t view = 0; view < views_.size(); ++view) {
-        const double error = error_of(measure, outcome_of(sight, truth_, view));
-        if (!(error <= trial.error))
-            trial.error = error;
+        const double error = error_of(goal.measure, outcome_of(sight, truth_, view));
+        if (!(error <= *goal.most_error))
+            return std::nullopt;
+        trial.error = std::max(trial.error, error);
     }
     trial.time = relative_time(trial.specimen, other);
     return trial;

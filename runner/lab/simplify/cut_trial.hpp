@@ -28,8 +28,9 @@ public:
     static Result<CutBench> create(const scene::Scene& scene, Extent extent, std::vector<View> views);
 
     Specimen& own() { return own_; }
-    /// Timed against `other`. Nothing where the cuts cannot be made, or where the driver refuses the text.
-    std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, Measure measure);
+    /// Timed against `other`. Nothing where the cuts cannot be made, where the driver refuses the text, and
+    /// where the error is more than the goal's.
+    std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal);
 
 private:
     CutBench(const scene::Scene& scene, Extent extent, std::vector<View> views, Specimen own)

@@ -2,9 +2,11 @@
 
 #include "base/try.hpp"
 #include "lab/changed_scene.hpp"
+#include "lab/march/pixel_work.hpp"
 #include "lab/simplify/cut_places.hpp"
 #include "lab/simplify/cut_trial.hpp"
 #include "lab/study/verdict.hpp"
+#include "render/frame_stepper.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +20,7 @@ namespace {
 constexpr int k_small = 128;
 /// Until when, as parts of the seconds there are, cuts are tried alone and together; the rest is the
 /// verdict's.
-constexpr double k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
+constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
 /// A cut is looked at where a frame takes at most this part of what it took.
 constexpr double k_pays = 0.985;
 /// Steps of the way that are judged at full size.
@@ -58,7 +60,7 @@ public:
 
     Result<Simplified> run() {
         const Extent small = small_of(request_.extent);
-        CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] { return goes_on(k_alone); }));
+        CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] { return goes_on(k_looking); }));
         std::erase_if(places.cuts,
                       [&](const glsl::Cut& cut) { return !request_.can_be_written(cut.change); });
         auto bench = TRY(CutBench::create(scene_, small, request_.views));
@@ -83,8 +85,8 @@ private:
                 break;
             ++tried_;
             watch_.advance();
-            const auto trial = bench.try_cuts(std::span(&cut.change, 1), bench.own(), request_.goal.measure);
-            if (trial && keeps(trial->error) && trial->time <= k_pays)
+            const auto trial = bench.try_cuts(std::span(&cut.change, 1), bench.own(), request_.goal);
+            if (trial && trial->time <= k_pays)
                 good_.push_back({cut.change, trial->error, trial->time});
         }
         known_ = cuts.size();
@@ -110,9 +112,8 @@ private:
                 continue;
             std::erase_if(next, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
             next.push_back(cut);
-            auto trial =
-                bench.try_cuts(changes_of(next), last ? last->specimen : bench.own(), request_.goal.measure);
-            if (!trial || !keeps(trial->error) || trial->time > k_pays)
+            auto trial = bench.try_cuts(changes_of(next), last ? last->specimen : bench.own(), request_.goal);
+            if (!trial || trial->time > k_pays)
                 continue;
             last = std::move(trial);
             way_.push_back(std::move(next));
@@ -194,6 +195,28 @@ private:
             fmt::format("chosen: {}: {:.2f} x [{:.2f}, {:.2f}] as fast as it is, {} {} in the worst view",
                         best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high,
                         to_string(Goal{request_.goal.measure}), figure(worst(*best))));
+        say.push_back(work_sentence(found.chosen));
+    }
+
+    /// Beside the time: what no machine changes.
+    std::string work_sentence(const std::vector<ChosenCut>& chosen) const {
+        const auto before = work_of(scene_);
+        const auto scene = changed(scene_, changes_of(chosen));
+        const auto after = scene ? work_of(*scene) : fail(ErrorCode::load, "");
+        if (!before || !after)
+            return "its operations are not counted: " + to_string((before ? after : before).error());
+        return fmt::format("{:.0f} operations a pixel instead of {:.0f} (of Image, counted in the text on "
+                           "{} and {} pixels of {})",
+                           after->operations, before->operations, after->pixels, before->pixels,
+                           request_.views.front().name);
+    }
+
+    Result<PixelWork> work_of(const scene::Scene& scene) const {
+        auto renderer = TRY(
+            render::Renderer::create(scene, {.extent = request_.extent, .samples = image::SampleType::f32}));
+        const render::FrameState state = state_of(request_.views.front(), request_.extent);
+        render::FrameStepper(renderer, state).draw(state.frame);
+        return count_work(renderer, inputs_of(state));
     }
 
     const scene::Scene& scene_;

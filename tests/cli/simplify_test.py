@@ -1,0 +1,106 @@
+"""`simplify`: scenes in which something dear shows little or nothing; what is offered, written, refused."""
+import json
+
+from support.program import ProgramTest, main
+
+# Of 500 turns of a loop nobody sees anything; of 200 others a little.
+SCENE = """float dear(float x, int n) {
+    float sum = x;
+    for (int i = 0; i < 5000; ++i) {
+        if (i >= n) break;
+        sum = sin(sum * 1.37 + x) + cos(sum * 0.73 - x);
+    }
+    return sum;
+}
+void mainImage(out vec4 c, in vec2 p) {
+    vec2 uv = p / iResolution.xy;
+    vec3 colour = vec3(uv, 0.5 + 0.4 * sin(iTime));
+    colour += max(0.0, dear(uv.x, 500) - 50.0);
+    colour += 0.002 * dear(uv.y, 200);
+    c = vec4(colour, 1.0);
+}
+"""
+QUICK = ("--size", "96x54", "--for", "20")
+
+
+class Simplify(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("dear.glsl", SCENE)
+
+    def simplify(self, *arguments: str) -> tuple[dict, str]:
+        done = self.succeed("simplify", "dear.glsl", "--json", *QUICK, *arguments)
+        return json.loads(done.stdout), done.stderr
+
+    def compare(self, *limit: str) -> None:
+        """What is there now with what was, at a size and a moment that nobody searched."""
+        self.write("before.glsl", SCENE)
+        for name in "before", "dear":
+            self.succeed("capture", f"{name}.glsl", "--size", "200x120", "--time", "33", "-o", f"{name}.png")
+        self.succeed("compare", "before.png", "dear.png", *limit)
+
+    def test_what_nobody_sees_is_left_out_and_no_byte_changes(self):
+        found, said = self.simplify("--exact", "--write")
+        self.assertTrue(found["written"], said)
+        text = (self.folder / "dear.glsl").read_text()
+        self.assertEqual(text.count("\n"), SCENE.count("\n"))
+        self.assertNotIn("dear(uv.x, 500) - 50.0);", text, said)
+        self.assertIn("0.002 * dear(uv.y, 200)", text)
+        self.compare("--max-rmse", "0")
+        for cut in found["cuts"]:
+            self.assertEqual(cut["error_alone"], 0)
+
+    def test_what_shows_little_goes_within_the_error(self):
+        found, said = self.simplify("--max-error", "psnr=40dB")
+        self.assertEqual((self.folder / "dear.glsl").read_text(), SCENE)
+        unseen, *others = found["cuts"]
+        self.assertEqual(unseen["error_alone"], 0, said)
+        self.assertTrue(any(cut["error_alone"] > 0 for cut in others), said)
+        self.assertRegex(said, r"chosen: step \d+: \d+ cuts?: [\d.]+ x \[[\d.]+, [\d.]+\] as fast as it is")
+        self.assertRegex(said, r"\d+ operations a pixel instead of \d+ \(of Image, counted in the text on \d+ and")
+        self.assertTrue((self.folder / "dear-simplify" / "report.html").exists())
+        views = list(found["study"]["points"][0]["views"])
+        self.assertEqual(len([view for view in views if "not searched" in view]), 3)
+
+    def test_the_picture_stays_within_the_error_at_another_size(self):
+        self.simplify("--max-error", "psnr=40dB", "--write")
+        self.compare("--min-psnr", "40")
+
+    def test_a_loop_without_an_end_is_named_and_left(self):
+        self.write("dear.glsl", SCENE.replace("for (int i = 0; i < 5000; ++i) {", "int i = -1; for (;;) { ++i;"))
+        found, said = self.simplify("--exact")
+        self.assertIn("dear.glsl:3: nothing in the head of this loop ends it for certain", said)
+        for cut in found["cuts"]:
+            self.assertNotRegex(cut["cut"], r"dear\.glsl:[3-6]:")
+
+    def test_nothing_to_leave_out_is_said(self):
+        self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.0, 1.0); }\n")
+        found, said = self.simplify("--exact")
+        self.assertEqual(found["cuts"], [])
+        self.assertIn("nothing that was found is faster beyond noise", said)
+
+    def test_bad_requests_are_refused(self):
+        for arguments, words in ((("--max-error", "wrong=1%"), "held against the picture"),
+                                 (("--max-error", "flip"), "give rmse=0.01"),
+                                 (("--for", "0"), "above 0"),
+                                 (("--exact", "--max-error", "flip=0.1"), "--exact")):
+            with self.subTest(arguments=arguments):
+                done = self.run_program("simplify", "dear.glsl", *arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(words, done.stderr)
+
+    def test_a_project_is_to_be_imported_first(self):
+        self.succeed("export", "dear.glsl", "-o", "dear.json")
+        done = self.run_program("simplify", "dear.json", *QUICK)
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("tidemark import", done.stderr)
+
+    def test_a_picture_that_is_no_numbers_cannot_be_held_against(self):
+        self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(-p.x)); }\n")
+        done = self.run_program("simplify", "dear.glsl", *QUICK)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("cannot say: 100 % of the picture's pixels are NaN", done.stderr)
+
+
+if __name__ == "__main__":
+    main()
