@@ -137,7 +137,7 @@ Result<int> simplify(const SimplifyOptions& options) {
     const auto context = TRY(platform::HeadlessContext::create(options.device));
     TRY(prepare_report(folder));
     StudyWatcher watcher(interrupt);
-    auto simplified = lab::simplify(scene, request, watcher.watch(), circumstances_now());
+    auto simplified = lab::simplify(scene, request, watcher.watch(), circumstances_of(scene));
     watcher.finish();
     if (!simplified && interrupt.requested())
         return Interrupt::k_exit_code;

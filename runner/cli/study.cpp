@@ -1,5 +1,4 @@
 #include "base/file.hpp"
-#include "base/hash.hpp"
 #include "base/try.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
@@ -9,7 +8,6 @@
 #include "cli/output_name.hpp"
 #include "cli/study_support.hpp"
 #include "cli/value_check.hpp"
-#include "gl/capabilities.hpp"
 #include "lab/study/baseline.hpp"
 #include "lab/study/conduct.hpp"
 #include "lab/study/report.hpp"
@@ -124,17 +122,6 @@ std::vector<fs::path> files_of_study(const StudyOptions& options, const scene::S
     return files;
 }
 
-void note_scene_and_driver(lab::Circumstances& facts, const scene::Scene& scene) {
-    const gl::Capabilities driver = gl::query_capabilities();
-    facts.scene = scene.file.string();
-    std::string text = scene.common.text();
-    for (const scene::Pass& pass : scene.passes)
-        text += pass.text.text();
-    facts.scene_sha256 = sha256(std::as_bytes(std::span(text)));
-    facts.renderer = driver.renderer;
-    facts.driver = driver.version;
-}
-
 /// Prints what became worse; the number of such findings.
 Result<size_t> hold_against_baseline(const std::string& file, const std::string& text,
                                      const lab::WorkPrecisionSet& set) {
@@ -161,7 +148,7 @@ Result<int> study(const StudyOptions& options) {
     TRY(prepare_report(folder));
     const auto context = TRY(platform::HeadlessContext::create(options.device));
     StudyWatcher watcher(interrupt);
-    auto findings = lab::conduct(scene, plan, options.timing, watcher.watch(), circumstances_now());
+    auto findings = lab::conduct(scene, plan, options.timing, watcher.watch(), circumstances_of(scene));
     watcher.finish();
     if (!findings && interrupt.requested()) {
         say(findings.error());
@@ -169,7 +156,6 @@ Result<int> study(const StudyOptions& options) {
     }
     if (!findings)
         return fail(std::move(findings.error()));
-    note_scene_and_driver(findings->set.circumstances, scene);
     const OutputPath place = report_folder(folder, findings->set.circumstances.complete);
     TRY(make_folder(place));
     TRY(lab::write_report(place, *findings));

@@ -1,8 +1,10 @@
 #include "cli/study_support.hpp"
 
 #include "base/file.hpp"
+#include "base/hash.hpp"
 #include "cli/console.hpp"
 #include "cli/version.hpp"
+#include "gl/capabilities.hpp"
 #include "lab/study/curves.hpp"
 #include "lab/study/verdict.hpp"
 #include "scene/json_text.hpp"
@@ -11,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <ctime>
+#include <span>
 #include <thread>
 
 namespace tidemark::cli {
@@ -27,6 +30,19 @@ lab::Circumstances circumstances_now() {
     facts.tidemark = k_version;
     facts.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
     facts.cores = int(std::thread::hardware_concurrency());
+    return facts;
+}
+
+lab::Circumstances circumstances_of(const scene::Scene& scene) {
+    const gl::Capabilities driver = gl::query_capabilities();
+    lab::Circumstances facts = circumstances_now();
+    facts.scene = scene.file.string();
+    std::string text = scene.common.text();
+    for (const scene::Pass& pass : scene.passes)
+        text += pass.text.text();
+    facts.scene_sha256 = sha256(std::as_bytes(std::span(text)));
+    facts.renderer = driver.renderer;
+    facts.driver = driver.version;
     return facts;
 }
 

@@ -7,6 +7,7 @@
 #include "cli/progress.hpp"
 #include "lab/study/work_precision.hpp"
 #include "lab/watch.hpp"
+#include "scene/scene.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -28,6 +29,9 @@ private:
 
 /// The program, the moment and the machine's cores.
 lab::Circumstances circumstances_now();
+
+/// These, the scene and the driver; a context must be current.
+lab::Circumstances circumstances_of(const scene::Scene& scene);
 
 /// The folder is made before anything is measured, so that an hour's work has a place to go. What is in it
 /// stays until the new report is whole.

@@ -129,7 +129,7 @@ Result<int> tune(const TuneOptions& options) {
     const lab::TuneRequest request = TRY(request_of(options, scene));
     TRY(prepare_report(folder));
     StudyWatcher watcher(interrupt);
-    auto tuned = lab::tune(scene, request, watcher.watch(), circumstances_now());
+    auto tuned = lab::tune(scene, request, watcher.watch(), circumstances_of(scene));
     watcher.finish();
     if (!tuned && interrupt.requested())
         return Interrupt::k_exit_code;

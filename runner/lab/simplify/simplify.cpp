@@ -23,6 +23,8 @@ constexpr int k_small = 128;
 constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
 /// A cut is looked at where a frame takes at most this part of what it took.
 constexpr double k_pays = 0.985;
+/// Times alone that are nearer to each other are not told apart.
+constexpr double k_alike = 0.05;
 /// Steps of the way that are judged at full size.
 constexpr size_t k_most_steps = 6;
 /// Moments that no search has seen, seconds behind those that it saw.
@@ -90,9 +92,12 @@ private:
                 good_.push_back({cut.change, trial->error, trial->time});
         }
         known_ = cuts.size();
-        // What shows nowhere comes first; then what saves the most for what it shows.
+        // What shows nowhere comes first, of those that save as much the one of the most words; then what
+        // saves the most for what it shows.
         std::ranges::stable_sort(good_, std::greater<>(), [](const ChosenCut& cut) {
-            return cut.error == 0 ? 1e30 * (2 - cut.time) : (1 - cut.time) / cut.error;
+            const double saved = 1 - cut.time;
+            return cut.error == 0 ? std::pair(true, std::round(saved / k_alike))
+                                  : std::pair(false, saved / cut.error);
         });
     }
 
