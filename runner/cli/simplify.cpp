@@ -26,7 +26,7 @@ struct SimplifyOptions {
     SceneRequest scene;
     std::string most_error = "flip=0.01";
     bool exact = false;
-    std::string views;
+    std::string views = "1;4.3;10;31";
     std::string size;
     double seconds = 60;
     std::string output;
@@ -48,7 +48,7 @@ Result<lab::Goal> goal_of(const SimplifyOptions& options) {
 Result<lab::SimplifyRequest> request_of(const SimplifyOptions& options) {
     lab::SimplifyRequest request;
     request.goal = TRY(goal_of(options));
-    request.views = options.views.empty() ? lab::default_views() : TRY(lab::parse_views(options.views));
+    request.views = TRY(lab::parse_views(options.views));
     if (!options.size.empty())
         request.extent = TRY(parse_size(options.size));
     if (!(options.seconds > 0))
@@ -166,8 +166,9 @@ void add_simplify(CLI::App& app, Action& chosen) {
         ->excludes("--max-error");
     command
         ->add_option("--views", options->views,
-                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4 [1;10]")
-        ->type_name("LIST");
+                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4")
+        ->type_name("LIST")
+        ->capture_default_str();
     command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
     command->add_option("--for", options->seconds, "Seconds for the search and the timing")
         ->type_name("S")

@@ -11,7 +11,7 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr size_t k_fewest_rounds = 3, k_most_rounds = 25;
+constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
 constexpr double k_enough_milliseconds = 120; ///< of rounds
 
 std::vector<image::Image> pictures_of(Specimen& specimen, const std::vector<View>& views) {
@@ -49,7 +49,7 @@ double error_of(Measure measure, const Outcome& outcome) {
 }
 
 /// By the clock that counts the work: the CPU's where the CPU draws.
-double milliseconds(const Elapsed& elapsed, bool by_cpu) {
+double clocked(const Elapsed& elapsed, bool by_cpu) {
     return by_cpu ? elapsed.cpu : elapsed.wall;
 }
 
@@ -139,12 +139,23 @@ std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Spe
     return trial;
 }
 
+double CutBench::milliseconds() {
+    std::vector<double> rounds;
+    for (size_t round = 0; round < k_fewest_trials; ++round) {
+        double sum = 0;
+        for (const View& view : views_)
+            sum += own_.time(view, false).elapsed.wall;
+        rounds.push_back(sum / double(views_.size()));
+    }
+    return median(rounds);
+}
+
 /// The median of what it takes, of rounds in which both are drawn in turns.
 double CutBench::relative_time(Specimen& one, Specimen& other) const {
     std::vector<Elapsed> ones, others;
     const Stopwatch clock;
-    for (size_t round = 0; round < k_most_rounds; ++round) {
-        if (round >= k_fewest_rounds && clock.elapsed().wall > k_enough_milliseconds)
+    for (size_t round = 0; round < k_most_trials; ++round) {
+        if (round >= k_fewest_trials && clock.elapsed().wall > k_enough_milliseconds)
             break;
         Elapsed sums[2]{};
         for (const View& view : views_)
@@ -164,7 +175,7 @@ double CutBench::relative_time(Specimen& one, Specimen& other) const {
     const bool by_cpu = cpu > 0.5 * wall;
     std::vector<double> ratios;
     for (size_t i = 0; i < ones.size(); ++i)
-        ratios.push_back(milliseconds(ones[i], by_cpu) / milliseconds(others[i], by_cpu));
+        ratios.push_back(clocked(ones[i], by_cpu) / clocked(others[i], by_cpu));
     return median(ratios);
 }
 

@@ -28,6 +28,8 @@ public:
     static Result<CutBench> create(const scene::Scene& scene, Extent extent, std::vector<View> views);
 
     Specimen& own() { return own_; }
+    /// Of a view of the scene as it is, in the mean.
+    double milliseconds();
     /// Timed against `other`. Nothing where the cuts cannot be made, where the driver refuses the text, and
     /// where the error is more than the goal's.
     std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal);

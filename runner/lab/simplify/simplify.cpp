@@ -25,8 +25,10 @@ constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 
 constexpr double k_pays = 0.985;
 /// Times alone that are nearer to each other are not told apart.
 constexpr double k_alike = 0.05;
-/// Steps of the way that are judged at full size.
-constexpr size_t k_most_steps = 6;
+/// Of what is allowed: moments that no search saw are rarely as near as those that it did.
+constexpr double k_margin = 0.8;
+/// Steps of the way that are judged at full size, each in so many rounds at least.
+constexpr size_t k_most_steps = 6, k_fewest_rounds = 9;
 /// Moments that no search has seen, seconds behind those that it saw.
 constexpr double k_later[] = {2.7, 13.1, 47.3};
 
@@ -58,7 +60,9 @@ class Simplifier {
 public:
     Simplifier(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
                const Circumstances& facts)
-        : scene_(scene), request_(request), watch_(watch), facts_(facts) {}
+        : scene_(scene), request_(request), watch_(watch), facts_(facts), searched_(request.goal) {
+        *searched_.most_error *= k_margin;
+    }
 
     Result<Simplified> run() {
         const Extent small = small_of(request_.extent);
@@ -68,7 +72,7 @@ public:
         auto bench = TRY(CutBench::create(scene_, small, request_.views));
         try_alone(bench, places.cuts);
         combine(bench);
-        Simplified found{.findings = TRY(judge())};
+        Simplified found{.findings = TRY(judge(bench))};
         choose(found, std::move(places.left));
         return found;
     }
@@ -87,7 +91,7 @@ private:
                 break;
             ++tried_;
             watch_.advance();
-            const auto trial = bench.try_cuts(std::span(&cut.change, 1), bench.own(), request_.goal);
+            const auto trial = bench.try_cuts(std::span(&cut.change, 1), bench.own(), searched_);
             if (trial && trial->time <= k_pays)
                 good_.push_back({cut.change, trial->error, trial->time});
         }
@@ -117,7 +121,7 @@ private:
                 continue;
             std::erase_if(next, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
             next.push_back(cut);
-            auto trial = bench.try_cuts(changes_of(next), last ? last->specimen : bench.own(), request_.goal);
+            auto trial = bench.try_cuts(changes_of(next), last ? last->specimen : bench.own(), searched_);
             if (!trial || trial->time > k_pays)
                 continue;
             last = std::move(trial);
@@ -125,17 +129,26 @@ private:
         }
     }
 
-    /// The last of them, and others evenly along the way.
-    std::vector<size_t> judged_steps() const {
+    /// Of one round of one point at full size, guessed from a small picture.
+    double seconds_a_round(CutBench& bench) const {
+        const double area = double(request_.extent.pixels()) / double(small_of(request_.extent).pixels());
+        return bench.milliseconds() * 1e-3 * area * double(request_.views.size() + std::size(k_later));
+    }
+
+    /// The last of them, and others evenly along the way, as many as there is time for.
+    std::vector<size_t> judged_steps(double seconds_a_round) const {
         std::vector<size_t> steps;
-        const size_t count = std::min(way_.size(), k_most_steps);
+        const double points = k_timing * request_.seconds / (double(k_fewest_rounds) * seconds_a_round);
+        const auto affordable = size_t(std::clamp(points - 1, 1.0, double(k_most_steps)));
+        const size_t count = std::min(way_.size(), affordable);
         for (size_t i = 1; i <= count; ++i)
             steps.push_back(way_.size() * i / count - 1);
         return steps;
     }
 
-    Result<Findings> judge() {
-        steps_ = judged_steps();
+    Result<Findings> judge(CutBench& bench) {
+        const double round = seconds_a_round(bench);
+        steps_ = judged_steps(round);
         std::vector<std::pair<std::string, scene::Scene>> scenes;
         for (const size_t step : steps_)
             if (auto scene = changed(scene_, changes_of(way_[step])))
@@ -148,7 +161,8 @@ private:
         study.views = request_.views;
         for (View& view : unseen(request_.views))
             study.views.push_back(std::move(view));
-        const Timing timing{2, 30, k_timing * request_.seconds};
+        const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
+        const Timing timing{2, 30, std::max(needed, k_timing * request_.seconds)};
         return compare_scenes(scene_, scenes, study, timing, watch_, facts_);
     }
 
@@ -228,6 +242,7 @@ private:
     const SimplifyRequest& request_;
     const Watch& watch_;
     const Circumstances& facts_;
+    Goal searched_; ///< what the small pictures have to keep
     Stopwatch clock_{};
     size_t tried_ = 0, known_ = 0;
     std::vector<ChosenCut> good_{};             ///< alone
