@@ -38,9 +38,9 @@ ROOMS = {
     "live": {"": ["plugin"], "plugin": [""], "inputs": [""]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"],
-             "cure": ["syntax", "flow", "analysis"], "cut": ["syntax", "cure"]},
+             "cure": ["syntax", "flow", "analysis"], "cut": ["syntax", "flow", "cure"]},
     "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "simplify": ["", "march", "study", "tune", "trace"], "trace": [], "pixel": ["march"],
-            "check": ["", "march", "trace"], "fix": ["", "trace", "check"], "device": ["", "check", "study"]},
+            "check": ["", "march", "trace"], "fix": ["", "march", "trace", "check"], "device": ["", "check", "study"]},
     # What runs in a browser, and includes nothing.
     "web": {"": [], "host": []},
     "report": {"": [], "page": []},
@@ -85,6 +85,17 @@ class Layers(unittest.TestCase):
                     del arrows[name]
             with self.subTest(module=module):
                 self.assertEqual(sorted(arrows), [])
+
+    def test_a_name_in_a_namespace_is_one_type(self):
+        """Two of one name link without a word, and one has the other's destructor."""
+        places = {}
+        for header in RUNNER.rglob("*.hpp"):
+            text = header.read_text()
+            space = re.search(r"^namespace ([\w:]+) \{", text, re.MULTILINE)
+            for name in re.findall(r"^(?:struct|class|enum class|enum) (\w+)[^;{]*\{", text, re.MULTILINE):
+                places.setdefault((space and space[1], name), set()).add(str(header.relative_to(RUNNER)))
+        self.assertGreater(len(places), 200)
+        self.assertEqual({name: files for name, files in places.items() if len(files) > 1}, {})
 
     def test_kinds_of_input_are_asked_for_by_traits_or_visited(self):
         """A kind that is asked for by its name is a place that a new kind is forgotten at."""

@@ -18,6 +18,20 @@ PLANTED = {
         "c = vec4(0.5 + atan(d.y, (d.x + (1.0 - abs(sign(d.x))) * 1e-30)) / 6.3);",
     "float s; s += uv.x; c = vec4(s);": "float s = 0.0; s += uv.x; c = vec4(s);",
 }
+# A ball in a round room: every ray ends somewhere.
+MARCH = """float map(vec3 p) { return min(length(p) - 1.0, %s); }
+void mainImage(out vec4 c, in vec2 f) {
+    vec3 ro = vec3(0.0, 0.5, 4.0), rd = normalize(vec3((2.0 * f - iResolution.xy) / iResolution.y, -1.5));
+    float t = 0.0, d = 0.0;
+    for (int i = 0; i < %d; i++) {
+        d = map(ro + rd * t);
+        if (d < 0.001) break;
+        t += d;
+    }
+    c = vec4(vec3(exp(-0.1 * t)), 1.0);
+}
+"""
+ROOM, BUMPY_ROOM = "7.0 - length(p)", "7.0 + 0.4 * sin(5.0 * p.x) * sin(5.0 * p.z) - length(p)"
 MENDED_BY = ["--probe", "times", "--probe", "unassigned", "--probe", "undefined"]
 
 
@@ -38,6 +52,24 @@ class CheckFix(ProgramTest):
                 self.assertIn(f"\n+    {mended}\n", cure["difference"])
                 probes = json.loads(self.succeed("check", name, "--json", *BUDGET, *MENDED_BY).stdout)["probes"]
                 self.assertEqual({each["verdict"] for each in probes}, {"pass"})
+
+    def test_rays_that_run_out_of_steps_get_more(self):
+        scene = self.write("march.glsl", MARCH % (ROOM, 9))
+        cure, = self.fix("march.glsl", "--write")["cures"]
+        self.assertIn(scene.read_text(), [MARCH % (ROOM, turns) for turns in (18, 36, 72)])
+        self.assertEqual(cure["fault"]["of"], "percent of the rays that run out of steps")
+        self.assertLess(cure["fault"]["after"], 0.1)
+        self.assertGreater(cure["fault"]["before"], 1)
+
+    def test_steps_that_are_too_long_by_proof_become_shorter(self):
+        scene = self.write("march.glsl", MARCH % (BUMPY_ROOM, 200))
+        cure, = self.fix("march.glsl", "--write")["cures"]
+        self.assertRegex(cure["cure"], r"^steps of 0\.\d+ of the distance, and \d+ turns instead of 200$")
+        self.assertRegex(scene.read_text(), r"t \+= 0\.\d+ \* \(d\);")
+        self.assertGreater(cure["fault"]["before"], 1)
+        self.assertLessEqual(cure["fault"]["after"], 0.5)
+        probe, = json.loads(self.succeed("check", "march.glsl", "--json", *BUDGET, "--probe", "first_hit").stdout)["probes"]
+        self.assertEqual(probe["verdict"], "pass")
 
     def test_without_write_the_file_stays(self):
         scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")

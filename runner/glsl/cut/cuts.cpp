@@ -1,6 +1,6 @@
 #include "glsl/cut/cuts.hpp"
 
-#include "glsl/cut/loop_bound.hpp"
+#include "glsl/flow/loop_bound.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "glsl/cut/work_estimate.hpp"
 
-#include "glsl/cut/loop_bound.hpp"
+#include "glsl/flow/loop_bound.hpp"
 #include "glsl/syntax/builtin_functions.hpp"
 
 #include <algorithm>

@@ -1,26 +1,14 @@
 #include "glsl/flow/loop_facts.hpp"
 
+#include "glsl/syntax/number.hpp"
 #include "glsl/syntax/tree_facts.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace tidemark::glsl {
 namespace {
 
 constexpr int k_deepest_value = 20;
-
-std::optional<double> literal(std::string_view word) {
-    if (word.starts_with("0x") || word.starts_with("0X"))
-        return std::nullopt;
-    while (!word.empty() && std::string_view("uUfF").find(word.back()) != std::string_view::npos)
-        word.remove_suffix(1);
-    double value = 0;
-    const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (read.ec != std::errc{} || read.ptr != word.data() + word.size())
-        return std::nullopt;
-    return value;
-}
 
 std::optional<double> combined(std::string_view op, double a, double b) {
     if (op == "+")
@@ -39,7 +27,7 @@ std::optional<double> value_of(const ParsedText& text, const Shapes& shapes, Nod
         return std::nullopt;
     const auto of = [&](size_t child) { return value_of(text, shapes, tree.child(id, child), depth + 1); };
     switch (tree[id].kind) {
-    case NodeKind::literal: return literal(text.word_of(id));
+    case NodeKind::literal: return number(text.word_of(id));
     case NodeKind::name: {
         const auto number = shapes.number(tree[id].begin, tree[id].end);
         return number ? std::optional(double(*number)) : std::nullopt;

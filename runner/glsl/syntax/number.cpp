@@ -18,4 +18,16 @@ std::optional<long> whole_number(std::string_view digits) {
     return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
+std::optional<double> number(std::string_view word) {
+    if (word.starts_with("0x") || word.starts_with("0X"))
+        return std::nullopt;
+    while (!word.empty() && std::string_view("uUfF").find(word.back()) != std::string_view::npos)
+        word.remove_suffix(1);
+    double value = 0;
+    const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (read.ec != std::errc{} || read.ptr != word.data() + word.size())
+        return std::nullopt;
+    return value;
+}
+
 } // namespace tidemark::glsl

@@ -17,25 +17,15 @@ namespace {
 Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promised, const char* what) {
     if (!bench.has_hits())
         return without_hits(bench);
-    double most = -1;
-    FrameState where;
-    image::Image map;
-    for (const FrameState& view : usual_views()) {
-        const auto hits = TRY(bench.hits(view));
-        if (const double share = flagged(hits, flag); share > most) {
-            most = share;
-            where = view;
-            map = ray_map(hits, view.extent, [&](size_t i) { return (hits.flags[i] & flag) != 0; });
-        }
-    }
-    Answer answer{most > promised ? fault(bench) : Verdict::pass,
-                  fmt::format("{:.3g} % of the rays {} in the worst of four views", most, what),
+    FlaggedRays most = TRY(most_flagged(bench, flag));
+    Answer answer{most.percent > promised ? fault(bench) : Verdict::pass,
+                  fmt::format("{:.3g} % of the rays {} in the worst of four views", most.percent, what),
                   {},
                   {}};
     if (answer.verdict != Verdict::pass) {
         answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)", promised);
-        answer.where = where;
-        answer.picture = std::move(map);
+        answer.where = most.where;
+        answer.picture = std::move(most.map);
     }
     return answer;
 }

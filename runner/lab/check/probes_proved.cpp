@@ -1,11 +1,9 @@
 // What is proved of a scene's rays from its text alone, without a mainHit.
 #include "base/try.hpp"
 #include "ir/step_scale.hpp"
+#include "lab/check/marching_pass.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/march/march_rays.hpp"
-#include "lab/march/pass_textures.hpp"
-#include "lab/march/proved_hits.hpp"
-#include "lab/spread.hpp"
 #include "lab/statistics.hpp"
 
 #include <fmt/format.h>
@@ -16,74 +14,12 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr Extent k_rays{16, 9};
-constexpr double k_moments[] = {1.0 / 3, 10};
-constexpr uint64_t k_most_evaluations = 20'000; ///< of a ray
-/// Of all rays of a moment: some seconds of a field of seven octaves. What is left of them is not looked at.
-constexpr uint64_t k_most_of_all = 50'000;
-/// Of the decided rays; below that is a matter of silhouettes.
-constexpr double k_most_wrong_percent = 0.5;
-
 double percent(size_t part, size_t all) {
     return all == 0 ? 0 : 100.0 * double(part) / double(all);
 }
 
 Answer none(std::string why) {
     return {Verdict::not_applicable, std::move(why)};
-}
-
-/// The i-th of the rays, evenly spread over the picture however many are taken.
-glm::ivec2 pixel_of(size_t i, Extent whole) {
-    const auto at = int(spread(i, k_rays.pixels()));
-    const int x = at % k_rays.width, y = at / k_rays.width;
-    return {(2 * x + 1) * whole.width / (2 * k_rays.width), (2 * y + 1) * whole.height / (2 * k_rays.height)};
-}
-
-/// `look` says how many evaluations the ray of a pixel took.
-template <class Look>
-void look_at_rays(Extent whole, Look look) {
-    uint64_t left = k_most_of_all;
-    for (size_t i = 0; i < k_rays.pixels() && left > 0; ++i)
-        left -= std::min<uint64_t>(left, look(pixel_of(i, whole)));
-}
-
-/// The pass that marches along rays.
-struct MarchingPass {
-    size_t index;
-    const PassFunction* function;
-};
-
-/// Image, if it does; else the first of those that lead to it.
-Result<std::optional<MarchingPass>> marching_pass(ProbeBench& bench) {
-    std::vector<size_t> passes{bench.scene().image_index()};
-    for (const render::PlannedPass& planned : TRY(bench.compiled())->plan().passes)
-        passes.push_back(planned.pass);
-    for (const size_t pass : passes) {
-        const auto& function = bench.function_of(pass);
-        if (function && !function->loops().empty())
-            return MarchingPass{pass, &*function};
-    }
-    return std::nullopt;
-}
-
-Result<RayCounts> count(ProbeBench& bench, const MarchingPass& pass) {
-    const PassFunction& function = *pass.function;
-    RayCounts counts;
-    for (const double moment : k_moments) {
-        const FrameState state = state_at(moment);
-        const render::Renderer& renderer = *TRY(bench.drawn(state));
-        const ir::TextureSet textures = textures_of(renderer, pass.index);
-        ir::FloatEvaluator pixel = function.frame(renderer, pass.index, render::inputs_of(state));
-        look_at_rays(renderer.extent(), [&](glm::ivec2 at) -> uint64_t {
-            function.move_to(pixel, at);
-            const auto ray = prove_ray(function, pixel, textures, at, k_most_evaluations);
-            if (!ray)
-                return 0;
-            counts.add(*ray);
-            return ray->evaluations;
-        });
-    }
-    return counts;
 }
 
 std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
@@ -117,7 +53,7 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
     const auto pass = TRY(marching_pass(bench));
     if (!pass)
         return without_march(bench);
-    const RayCounts counts = TRY(count(bench, *pass));
+    const RayCounts counts = TRY(count_proved(bench, *pass));
     if (counts.rays == 0)
         return none("no ray comes to the loop that marches");
     if (counts.unknown_texture == counts.rays)
@@ -130,7 +66,7 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
     if (counts.contradicted > 0)
         return none(
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted));
-    const bool wrong = percent(counts.step_over + counts.miss, counts.decided()) > k_most_wrong_percent;
+    const bool wrong = wrong_percent(counts) > k_most_wrong_percent;
     return Answer{wrong ? Verdict::warn : Verdict::pass, sentence_of(*pass->function, counts)};
 }
 
@@ -169,7 +105,7 @@ uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& s
     const double last = slice.end(ray.march);
     if (last < slice.start() || !std::isfinite(last))
         return 0;
-    const ir::FirstHit hit = ir::first_hit(slice, last, k_most_evaluations);
+    const ir::FirstHit hit = ir::first_hit(slice, last, k_most_of_a_ray);
     if (hit.verdict != ir::FirstHit::Verdict::hit)
         return slice.evaluations();
     ++scales.hits;
@@ -188,7 +124,7 @@ uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& s
 
 Result<Scales> scales_of(ProbeBench& bench, const MarchingPass& pass) {
     Scales scales;
-    for (const double moment : k_moments) {
+    for (const double moment : k_ray_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
         const MarchRays rays({*pass.function, renderer, pass.index, render::inputs_of(state)});

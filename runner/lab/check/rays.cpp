@@ -97,4 +97,15 @@ Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state)
     return both;
 }
 
+Result<FlaggedRays> most_flagged(ProbeBench& bench, glsl::HitFlag flag) {
+    FlaggedRays most{.percent = -1};
+    for (const FrameState& view : usual_views()) {
+        const auto hits = TRY(bench.hits(view));
+        if (const double share = flagged(hits, flag); share > most.percent)
+            most = {share, view,
+                    ray_map(hits, view.extent, [&](size_t i) { return (hits.flags[i] & flag) != 0; })};
+    }
+    return most;
+}
+
 } // namespace tidemark::lab

@@ -28,6 +28,15 @@ double mean_evaluations(const Hits& hits);
 /// magenta.
 image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(size_t)>& marks);
 
+/// Of the usual views that with the most rays of that flag.
+struct FlaggedRays {
+    double percent = 0;
+    FrameState where{};
+    image::Image map{}; ///< of them
+};
+/// Of a scene whose hits are known.
+Result<FlaggedRays> most_flagged(ProbeBench& bench, glsl::HitFlag flag);
+
 /// `warns`: of a mainHit that does not compile, too.
 Answer without_hits(const ProbeBench& bench, bool warns = false);
 

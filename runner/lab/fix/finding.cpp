@@ -4,8 +4,12 @@
 #include "glsl/analysis/unassigned.hpp"
 #include "glsl/cure/domain_guards.hpp"
 #include "glsl/cure/initial_values.hpp"
+#include "glsl/cure/march_cures.hpp"
+#include "lab/check/marching_pass.hpp"
 #include "lab/check/probes.hpp"
+#include "lab/check/rays.hpp"
 #include "lab/check/text_words.hpp"
+#include "lab/march/recorded_hits.hpp"
 #include "lab/trace/nan_origin.hpp"
 #include "lab/trace/nan_trace.hpp"
 
@@ -24,7 +28,7 @@ class Finder {
 public:
     Finder(ProbeBench& bench, const std::vector<PassText>& texts) : bench_(bench), texts_(texts) {}
 
-    Result<Findings> run() {
+    Result<CurableFindings> run() {
         for (const auto ask : k_finite_probes) {
             const Answer answer = TRY(ask(bench_));
             if (answer.non_finite && answer.where)
@@ -104,10 +108,10 @@ private:
 
     ProbeBench& bench_;
     const std::vector<PassText>& texts_;
-    Findings found_{};
+    CurableFindings found_{};
 };
 
-void add_without_value(Findings& found, const std::vector<PassText>& texts) {
+void add_without_value(CurableFindings& found, const std::vector<PassText>& texts) {
     for (const PassText& pass : texts)
         for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
             Finding finding{Finding::Kind::no_value, sentence_for(*pass.text, each), {}, {}};
@@ -121,15 +125,79 @@ void add_without_value(Findings& found, const std::vector<PassText>& texts) {
         }
 }
 
+/// What is wrong with the rays of a scene that marches: by proof where they end, and whether they run out of
+/// steps.
+class RayFinder {
+public:
+    RayFinder(ProbeBench& bench, const std::vector<PassText>& texts, CurableFindings& found)
+        : bench_(bench), texts_(texts), found_(found) {}
+
+    Result<void> run() {
+        const auto pass = TRY(marching_pass(bench_));
+        if (!pass)
+            return {};
+        TRY(add_wrong(*pass));
+        return add_exhausted(*pass);
+    }
+
+private:
+    Result<void> add_wrong(const MarchingPass& pass) {
+        const RayCounts counts = TRY(count_proved(bench_, pass));
+        if (counts.contradicted > 0 || !counts.wrong_loop || wrong_percent(counts) <= k_most_wrong_percent)
+            return {};
+        const auto lines = lines_of(*pass.function, pass.function->loops()[*counts.wrong_loop]);
+        auto cures =
+            counts.step_over > 0 ? cures_of(glsl::shorter_steps, pass, lines) : std::vector<glsl::Cure>();
+        for (glsl::Cure& cure : cures_of(glsl::more_turns, pass, lines))
+            cures.push_back(std::move(cure));
+        found_.all.push_back(
+            {Finding::Kind::first_hit,
+             fmt::format("{}:{}: of {} rays whose first hit is known {} step over it and {} miss it",
+                         lines.test.file, lines.test.line, counts.decided(), counts.step_over, counts.miss),
+             {},
+             std::move(cures)});
+        return {};
+    }
+
+    Result<void> add_exhausted(const MarchingPass& pass) {
+        if (!bench_.has_hits())
+            return {};
+        const double percent = TRY(most_flagged(bench_, glsl::k_hit_exhausted)).percent;
+        if (percent <= bench_.promises().most_exhausted_percent)
+            return {};
+        const auto lines = lines_of(*pass.function, pass.function->loops().front());
+        found_.all.push_back(
+            {Finding::Kind::budget,
+             fmt::format("{}:{}: {:.3g} % of the rays run out of steps in the worst of four views",
+                         lines.test.file, lines.test.line, percent),
+             {},
+             cures_of(glsl::more_turns, pass, lines)});
+        return {};
+    }
+
+    template <class CuresOf>
+    std::vector<glsl::Cure> cures_of(CuresOf cures, const MarchingPass& pass,
+                                     const glsl::MarchLines& lines) const {
+        const auto text = std::ranges::find(texts_, pass.index, &PassText::pass);
+        return text == texts_.end() ? std::vector<glsl::Cure>()
+                                    : cures(*text->text, {lines.test, lines.updates});
+    }
+
+    ProbeBench& bench_;
+    const std::vector<PassText>& texts_;
+    CurableFindings& found_;
+};
+
 } // namespace
 
-Result<Findings> find_curable(ProbeBench& bench) {
+Result<CurableFindings> find_curable(ProbeBench& bench) {
     const auto written = read_texts(bench, true), linked = read_texts(bench, false);
     if (!written || !linked)
-        return Findings{
+        return CurableFindings{
             {}, {}, "the text cannot be followed: " + to_string((written ? linked : written).error())};
-    Findings found = TRY(Finder(bench, *linked).run());
+    CurableFindings found = TRY(Finder(bench, *linked).run());
     add_without_value(found, *written);
+    TRY(RayFinder(bench, *written, found).run());
     return found;
 }
 

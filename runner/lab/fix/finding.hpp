@@ -17,6 +17,8 @@ struct Finding {
         no_value,   ///< read before it has one
         not_finite, ///< NaN or infinity in a picture
         undefined,  ///< a function outside of its domain, and visible
+        first_hit,  ///< rays that step over their first hit or miss it, by proof
+        budget,     ///< rays that run out of steps
     };
     Kind kind = Kind::no_value;
     std::string sentence;              ///< what is wrong, and where
@@ -24,12 +26,12 @@ struct Finding {
     std::vector<glsl::Cure> cures{};   ///< the plainest first; empty: none is known
 };
 
-struct Findings {
+struct CurableFindings {
     std::vector<Finding> all;
     std::vector<PictureView> views; ///< in which calls were looked at
     std::string left_out{};         ///< why the text was not followed; empty: it was
 };
 
-Result<Findings> find_curable(ProbeBench& bench);
+Result<CurableFindings> find_curable(ProbeBench& bench);
 
 } // namespace tidemark::lab

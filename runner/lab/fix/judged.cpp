@@ -4,6 +4,8 @@
 #include "glsl/analysis/unassigned.hpp"
 #include "image/census.hpp"
 #include "image/compare/flip.hpp"
+#include "lab/check/marching_pass.hpp"
+#include "lab/check/rays.hpp"
 #include "lab/statistics.hpp"
 #include "lab/stopwatch.hpp"
 
@@ -61,10 +63,34 @@ Result<double> undefined_percent(ProbeBench& bench, const std::vector<PictureVie
     return percent;
 }
 
+Result<double> proved_wrong_percent(ProbeBench& bench) {
+    const auto pass = TRY(marching_pass(bench));
+    if (!pass)
+        return fail(ErrorCode::check_failed, "its march is not found any more");
+    return wrong_percent(TRY(count_proved(bench, *pass)));
+}
+
 std::string name_of(Kind kind) {
-    return kind == Kind::no_value     ? "reads without a value"
-           : kind == Kind::not_finite ? "pixels that are not finite"
-                                      : "percent of the pixels that show what is undefined";
+    switch (kind) {
+    case Kind::no_value: return "reads without a value";
+    case Kind::not_finite: return "pixels that are not finite";
+    case Kind::undefined: return "percent of the pixels that show what is undefined";
+    case Kind::first_hit: return "percent of the rays that step over their first hit or miss it";
+    case Kind::budget: return "percent of the rays that run out of steps";
+    }
+    return {};
+}
+
+bool is_of_rays(Kind kind) {
+    return kind == Kind::first_hit || kind == Kind::budget;
+}
+
+/// Rays are mended as far as the probes ask: the last of them are a matter of silhouettes, and of what they
+/// may cost.
+bool is_mended(Kind kind, const Fault& fault, const Promises& promises) {
+    if (!is_of_rays(kind))
+        return fault.after < fault.before;
+    return fault.after <= (kind == Kind::first_hit ? k_most_wrong_percent : promises.most_exhausted_percent);
 }
 
 /// Adds a pass in one situation; false where a pixel is not finite any more.
@@ -81,7 +107,7 @@ bool compare(const image::Image& before, const image::Image& after, Judgement& j
     return true;
 }
 
-Result<bool> compare_all(Specimen& before, Specimen& after, const std::vector<FrameState>& states,
+Result<bool> compare_all(DrawnScene& before, DrawnScene& after, const std::vector<FrameState>& states,
                          Judgement& judgement) {
     for (const FrameState& state : states) {
         const auto &left = *TRY(before.passes(state)), &right = *TRY(after.passes(state));
@@ -160,6 +186,8 @@ bool compare_errors(ProbeBench& before, ProbeBench& after, const FrameState& sta
 bool is_another(const Judgement& judgement, Kind kind) {
     if (kind == Kind::no_value)
         return judgement.changed > 0;
+    if (is_of_rays(kind)) // what a ray shows that meets another surface may be anything
+        return judgement.flip > k_most_flip + judgement.fault.before / 100;
     const bool by_the_fault =
         kind == Kind::undefined &&
         judgement.largest_share <= std::min(judgement.fault.before / 100 + k_rounding, k_most_undefined);
@@ -184,7 +212,7 @@ Result<void> time_both(ProbeBench& before, ProbeBench& after, Judgement& judgeme
 
 } // namespace
 
-Result<const std::vector<PassPicture>*> Specimen::passes(const FrameState& state) {
+Result<const std::vector<PassPicture>*> DrawnScene::passes(const FrameState& state) {
     for (const auto& [drawn, pictures] : drawn_)
         if (drawn == state)
             return &pictures;
@@ -192,22 +220,29 @@ Result<const std::vector<PassPicture>*> Specimen::passes(const FrameState& state
     return &drawn_.emplace_back(state, std::move(pictures)).second;
 }
 
-Result<double> Specimen::fault(const Finding& finding, const std::vector<PictureView>& views) {
+Result<double> DrawnScene::fault(const Finding& finding, const std::vector<PictureView>& views) {
     if (finding.kind == Kind::no_value)
         return count_without_value(bench_);
     if (finding.kind == Kind::not_finite)
         return count_not_finite(*TRY(passes(*finding.where)));
+    if (finding.kind == Kind::first_hit)
+        return proved_wrong_percent(bench_);
+    if (finding.kind == Kind::budget) {
+        if (!bench_.has_hits())
+            return fail(ErrorCode::check_failed, bench_.hit_problem());
+        return TRY(most_flagged(bench_, glsl::k_hit_exhausted)).percent;
+    }
     if (!undefined_)
         undefined_ = TRY(undefined_percent(bench_, views));
     return *undefined_;
 }
 
-Result<std::optional<Judgement>> judge(Specimen& before, Specimen& after, const Finding& finding,
+Result<std::optional<Judgement>> judge(DrawnScene& before, DrawnScene& after, const Finding& finding,
                                        const std::vector<PictureView>& views) {
     std::optional<Judgement> none;
     Judgement judgement{{name_of(finding.kind), TRY(before.fault(finding, views)), 0}};
     judgement.fault.after = TRY(after.fault(finding, views));
-    if (!(judgement.fault.after < judgement.fault.before))
+    if (!is_mended(finding.kind, judgement.fault, before.bench().promises()))
         return none;
     std::vector<FrameState> states = usual_moments();
     if (finding.where)

@@ -31,9 +31,9 @@ struct Judgement {
 };
 
 /// The pictures of a scene in the situations that cures are judged in.
-class Specimen {
+class DrawnScene {
 public:
-    Specimen(scene::Scene scene, const Promises& promises) : bench_(std::move(scene), promises) {}
+    DrawnScene(scene::Scene scene, const Promises& promises) : bench_(std::move(scene), promises) {}
 
     ProbeBench& bench() { return bench_; }
     /// All passes in a situation; kept.
@@ -49,7 +49,7 @@ private:
 
 /// Nothing where the cured scene is not surely better: the fault is not less, another pixel is not finite any
 /// more, a picture changes that should not, or doubles know another value for what was not finite.
-Result<std::optional<Judgement>> judge(Specimen& before, Specimen& after, const Finding& finding,
+Result<std::optional<Judgement>> judge(DrawnScene& before, DrawnScene& after, const Finding& finding,
                                        const std::vector<PictureView>& views);
 
 } // namespace tidemark::lab

@@ -16,12 +16,12 @@ class Mender {
 public:
     Mender(const scene::Scene& scene, const Promises& promises, const Mending& mending)
         : scene_(scene), promises_(promises), mending_(mending),
-          now_(std::make_unique<Specimen>(scene, promises)) {}
+          now_(std::make_unique<DrawnScene>(scene, promises)) {}
 
     Result<void> run() {
         for (int round = 0; round < k_most_rounds; ++round) {
             refused_.clear();
-            const Findings found = TRY(find_curable(now_->bench()));
+            const CurableFindings found = TRY(find_curable(now_->bench()));
             if (!found.left_out.empty())
                 refused_[found.left_out] = "nothing was looked at";
             if (!TRY(mend_all(found)))
@@ -34,7 +34,7 @@ public:
 
 private:
     /// Whether any was mended.
-    Result<bool> mend_all(const Findings& found) {
+    Result<bool> mend_all(const CurableFindings& found) {
         bool mended = false;
         for (const Finding& finding : found.all) {
             if (finding.where && finding.kind == Finding::Kind::not_finite &&
@@ -58,7 +58,7 @@ private:
             if (!scene || !mending_.can_be_written(cures_)) {
                 why = "its words are not found in a file of the scene";
             } else {
-                auto next = std::make_unique<Specimen>(*std::move(scene), promises_);
+                auto next = std::make_unique<DrawnScene>(*std::move(scene), promises_);
                 const auto judgement = judge(*now_, *next, finding, views);
                 if (judgement && *judgement) {
                     refused_.erase(finding.sentence);
@@ -76,7 +76,7 @@ private:
     const scene::Scene& scene_;
     const Promises& promises_;
     const Mending& mending_;
-    std::unique_ptr<Specimen> now_;
+    std::unique_ptr<DrawnScene> now_;
     std::vector<glsl::Cure> cures_{};
     std::map<std::string, std::string> refused_{};
 };

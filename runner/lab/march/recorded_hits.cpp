@@ -28,25 +28,6 @@ std::optional<size_t> parameter_of(const ir::MarchingLoop& loop) {
     return std::nullopt;
 }
 
-glsl::MarchLines lines_of(const PassFunction& image, const ir::MarchingLoop& loop) {
-    const ir::Function& function = image.function();
-    const ir::Instruction& comparison = function.instructions[loop.comparison];
-    glsl::MarchLines lines;
-    lines.test = image.locate(loop.line);
-    lines.comparisons = loop.comparisons;
-    lines.which = loop.which;
-    lines.distance_is_less = function.operands_of(comparison)[0] == loop.distance;
-    const auto parameter = parameter_of(loop);
-    for (size_t i = 0; i < loop.carried.size(); ++i)
-        if (!parameter || i == *parameter)
-            lines.updates.push_back(image.locate(function.instructions[loop.carried[i].update].line));
-    lines.at_update = loop.cut_at_update;
-    lines.fixed_steps = loop.kind == ir::MarchingLoop::Kind::fixed_step;
-    lines.in_next_turn = loop.in_next_turn;
-    lines.stops_before = loop.stops_before;
-    return lines;
-}
-
 /// Each loop of the text once: one that is called from several places is inlined as often.
 std::vector<glsl::MarchLines> marches_of(const PassFunction& image) {
     std::vector<glsl::MarchLines> marches;
@@ -133,6 +114,25 @@ bool agrees(const CpuMarch& cpu, const float* recorded) {
 }
 
 } // namespace
+
+glsl::MarchLines lines_of(const PassFunction& image, const ir::MarchingLoop& loop) {
+    const ir::Function& function = image.function();
+    const ir::Instruction& comparison = function.instructions[loop.comparison];
+    glsl::MarchLines lines;
+    lines.test = image.locate(loop.line);
+    lines.comparisons = loop.comparisons;
+    lines.which = loop.which;
+    lines.distance_is_less = function.operands_of(comparison)[0] == loop.distance;
+    const auto parameter = parameter_of(loop);
+    for (size_t i = 0; i < loop.carried.size(); ++i)
+        if (!parameter || i == *parameter)
+            lines.updates.push_back(image.locate(function.instructions[loop.carried[i].update].line));
+    lines.at_update = loop.cut_at_update;
+    lines.fixed_steps = loop.kind == ir::MarchingLoop::Kind::fixed_step;
+    lines.in_next_turn = loop.in_next_turn;
+    lines.stops_before = loop.stops_before;
+    return lines;
+}
 
 Result<Recording> record_hits(const scene::Scene& scene, const PassFunction& image) {
     if (image.loops().empty())

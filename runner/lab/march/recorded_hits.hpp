@@ -11,6 +11,9 @@
 
 namespace tidemark::lab {
 
+/// Where a marching loop stands in its author's text.
+glsl::MarchLines lines_of(const PassFunction& image, const ir::MarchingLoop& loop);
+
 struct Recording {
     scene::Scene scene; ///< its Image is of kind hit; its last knob is glsl::k_record_knob
     /// Whether a sample below the surface shows: not where the march waits for one, or goes in fixed steps.

@@ -54,9 +54,9 @@ double clocked(const Elapsed& elapsed, bool by_cpu) {
 }
 
 /// The points of a study of whole scenes, to be drawn, held against the first, and timed.
-class Comparison {
+class SceneComparison {
 public:
-    Comparison(const Study& study, const Circumstances& circumstances) {
+    SceneComparison(const Study& study, const Circumstances& circumstances) {
         findings_.set.study = study;
         findings_.set.study.series = {{"cut", Trust::unknown, {}, {}}};
         findings_.set.circumstances = circumstances;
@@ -183,7 +183,7 @@ Result<Findings> compare_scenes(const scene::Scene& scene,
                                 const std::vector<std::pair<std::string, scene::Scene>>& others,
                                 const Study& study, const Timing& timing, const Watch& watch,
                                 const Circumstances& circumstances) {
-    Comparison comparison(study, circumstances);
+    SceneComparison comparison(study, circumstances);
     comparison.add(std::string(k_defaults), scene, true);
     for (const auto& [label, other] : others)
         comparison.add(label, other, false);

@@ -1,6 +1,6 @@
 // Cuts: what is proposed to be left out of a text, and what the text then says.
 #include "glsl/cut/cuts.hpp"
-#include "glsl/cut/loop_bound.hpp"
+#include "glsl/flow/loop_bound.hpp"
 
 #include <gtest/gtest.h>
 

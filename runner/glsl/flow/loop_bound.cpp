@@ -1,9 +1,9 @@
-#include "glsl/cut/loop_bound.hpp"
+#include "glsl/flow/loop_bound.hpp"
 
+#include "glsl/syntax/number.hpp"
 #include "glsl/syntax/tree_facts.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <tuple>
 
@@ -31,12 +31,7 @@ NodeId literal_node(const ParsedText& text, NodeId id) {
 }
 
 std::optional<double> number_of(const ParsedText& text, NodeId literal) {
-    if (literal == k_no_node)
-        return std::nullopt;
-    const std::string_view digits = text.word_of(literal);
-    double value = 0;
-    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return read.ec == std::errc{} ? std::optional(value) : std::nullopt;
+    return literal == k_no_node ? std::nullopt : number(text.word_of(literal));
 }
 
 std::optional<double> literal(const ParsedText& text, NodeId id) {
@@ -84,13 +79,13 @@ std::optional<double> change_of(const ParsedText& text, NodeId id, std::string_v
     return by && op == "+=" ? by : by && op == "-=" ? std::optional(-*by) : std::nullopt;
 }
 
-/// The head of a loop: its last part is k_no_node where it has none.
-struct Head {
-    NodeId loop, step;
-};
+/// k_no_node where it has none.
+NodeId step_of(const SyntaxTree& tree, NodeId loop) {
+    return tree[loop].kind == NodeKind::loop_for ? tree.child(loop, 2) : k_no_node;
+}
 
 /// Of one comparison in the head of a loop.
-std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, const Head& head) {
+std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId loop) {
     const SyntaxTree& tree = text.tree();
     const NodeId left = tree.child(test, 0), right = tree.child(test, 1);
     const std::string_view op = text.word_of(test);
@@ -101,11 +96,11 @@ std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, const Hea
     for (const auto& [counter, bound, up] : {std::tuple(left, right, less), std::tuple(right, left, !less)}) {
         const bool named = tree[counter].kind == NodeKind::name;
         const std::string_view name = named ? text.word_of(counter) : changed_name(text, counter);
-        const auto change = name.empty() ? std::nullopt : change_of(text, named ? head.step : counter, name);
+        const auto change = name.empty() ? std::nullopt : change_of(text, named ? step_of(tree, loop) : counter, name);
         if (!change || *change == 0 || (*change > 0) != (up || op == "!="))
             continue;
         const NodeId number = literal_node(text, bound);
-        const auto first = first_of(text, head.loop, name), last = number_of(text, number);
+        const auto first = first_of(text, loop, name), last = number_of(text, number);
         if (*change != 1 || !first || !last)
             return LoopBound{};
         return LoopBound{number, *first,
@@ -115,16 +110,16 @@ std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, const Hea
 }
 
 /// Any side of `&&` is enough to end a loop.
-std::optional<LoopBound> bound_in(const ParsedText& text, NodeId condition, const Head& head) {
+std::optional<LoopBound> bound_in(const ParsedText& text, NodeId condition, NodeId loop) {
     const SyntaxTree& tree = text.tree();
     if (tree[condition].kind == NodeKind::parenthesis)
-        return bound_in(text, tree.child(condition, 0), head);
+        return bound_in(text, tree.child(condition, 0), loop);
     if (tree[condition].kind != NodeKind::binary)
         return std::nullopt;
     if (text.word_of(condition) != "&&")
-        return bound_by(text, condition, head);
-    const auto left = bound_in(text, tree.child(condition, 0), head);
-    return left ? left : bound_in(text, tree.child(condition, 1), head);
+        return bound_by(text, condition, loop);
+    const auto left = bound_in(text, tree.child(condition, 0), loop);
+    return left ? left : bound_in(text, tree.child(condition, 1), loop);
 }
 
 } // namespace
@@ -137,12 +132,10 @@ NodeId loop_condition(const ParsedText& text, NodeId loop) {
 }
 
 std::optional<LoopBound> loop_bound(const ParsedText& text, NodeId loop) {
-    const SyntaxTree& tree = text.tree();
     const NodeId condition = loop_condition(text, loop);
     if (condition == k_no_node)
         return std::nullopt;
-    return bound_in(text, condition,
-                    {loop, tree[loop].kind == NodeKind::loop_for ? tree.child(loop, 2) : k_no_node});
+    return bound_in(text, condition, loop);
 }
 
 } // namespace tidemark::glsl

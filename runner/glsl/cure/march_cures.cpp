@@ -1,0 +1,139 @@
+#include "glsl/cure/march_cures.hpp"
+
+#include "glsl/flow/loop_bound.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tidemark::glsl {
+namespace {
+
+constexpr std::array k_more{2.0, 4.0, 8.0};
+constexpr std::array k_shorter{0.8, 0.6, 0.4, 0.25, 0.1};
+
+bool is_on(const ParsedText& text, size_t word, const SourceLocation& line) {
+    for (const SourceLocation& where : {text.used(word), text.spelled(word)})
+        if (where.file == line.file && where.line == line.line)
+            return true;
+    return false;
+}
+
+bool holds(const ParsedText& text, NodeId id, const SourceLocation& line) {
+    for (size_t word = text.tree()[id].begin; word < text.tree()[id].end; ++word)
+        if (is_on(text, word, line))
+            return true;
+    return false;
+}
+
+/// The innermost that has both the test and the step; k_no_node: there is none.
+NodeId find_loop(const ParsedText& text, const MarchPlace& place) {
+    const SyntaxTree& tree = text.tree();
+    const auto fits = [&](NodeId id) {
+        return is_loop(tree[id].kind) && holds(text, id, place.test) &&
+               std::ranges::all_of(place.updates, [&](const auto& line) { return holds(text, id, line); });
+    };
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) // inner ones come first
+        if (fits(id))
+            return id;
+    return k_no_node;
+}
+
+/// What is added in `t += d` and in `t = t + d`.
+NodeId added_in(const ParsedText& text, NodeId assignment) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[assignment].kind != NodeKind::assign)
+        return k_no_node;
+    const NodeId target = tree.child(assignment, 0), value = tree.child(assignment, 1);
+    if (text.word_of(assignment) == "+=")
+        return value;
+    const bool sum = text.word_of(assignment) == "=" && tree[value].kind == NodeKind::binary &&
+                     text.word_of(value) == "+" && text.excerpt(tree.child(value, 0)) == text.excerpt(target);
+    return sum ? tree.child(value, 1) : k_no_node;
+}
+
+/// The steps of a march that its lines leave no doubt about.
+std::vector<NodeId> find_steps(const ParsedText& text, NodeId loop, const MarchPlace& place) {
+    const SyntaxTree& tree = text.tree();
+    std::vector<NodeId> steps;
+    for (const SourceLocation& line : place.updates) {
+        std::vector<NodeId> here;
+        for (NodeId id = 1; id < loop; ++id) {
+            const NodeId added = tree.is_within(id, loop) ? added_in(text, id) : k_no_node;
+            if (added != k_no_node && tree[added].kind != NodeKind::literal &&
+                is_on(text, tree[id].word, line))
+                here.push_back(added);
+        }
+        if (here.size() != 1)
+            return {};
+        if (std::ranges::find(steps, here.front()) == steps.end())
+            steps.push_back(here.front());
+    }
+    return steps;
+}
+
+/// Nothing where no number says how often the loop turns.
+std::optional<Wrap> with_turns(const ParsedText& text, NodeId loop, double factor) {
+    const auto bound = loop_bound(text, loop);
+    if (!bound || bound->number == k_no_node)
+        return std::nullopt;
+    const auto written = written_for(text, bound->number, bound->number);
+    if (!written)
+        return std::nullopt;
+    const std::string_view digits = text.word_of(bound->number);
+    const bool whole = digits.find_first_of(".eE") == digits.npos;
+    const double last = bound->first + std::ceil(factor * bound->turns);
+    Wrap wrap = wrapped(text, *written,
+                        fmt::format("{}{}", last,
+                                    !whole                  ? ".0"
+                                    : digits.ends_with('u') ? "u"
+                                                            : ""),
+                        "");
+    wrap.replaces = true;
+    return wrap;
+}
+
+std::string turns_of(const ParsedText& text, NodeId loop, double factor) {
+    const double turns = loop_bound(text, loop)->turns;
+    return fmt::format("{:g} turns instead of {:g}", std::ceil(factor * turns), turns);
+}
+
+} // namespace
+
+std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place) {
+    place.updates.clear();
+    const NodeId loop = find_loop(text, place);
+    std::vector<Cure> cures;
+    for (const double factor : k_more)
+        if (auto wrap = loop == k_no_node ? std::nullopt : with_turns(text, loop, factor))
+            cures.push_back({{*std::move(wrap)},
+                             turns_of(text, loop, factor) +
+                                 ": rays that ended in front of a hit go on; those "
+                                 "that had one keep it"});
+    return cures;
+}
+
+std::vector<Cure> shorter_steps(const ParsedText& text, MarchPlace place) {
+    const NodeId loop = find_loop(text, place);
+    const std::vector<NodeId> steps =
+        loop == k_no_node ? std::vector<NodeId>() : find_steps(text, loop, place);
+    std::vector<Cure> cures;
+    for (const double factor : k_shorter) {
+        Cure cure{{}, fmt::format("steps of {:g} of the distance", factor)};
+        for (const NodeId step : steps)
+            if (const auto written = written_for(text, step, step))
+                cure.wraps.push_back(wrapped(text, *written, fmt::format("{:g} * (", factor), ")"));
+        if (cure.wraps.empty() || cure.wraps.size() < steps.size())
+            break;
+        if (auto wrap = with_turns(text, loop, 1 / factor)) {
+            cure.reason += ", and " + turns_of(text, loop, 1 / factor);
+            cure.wraps.push_back(*std::move(wrap));
+        }
+        cures.push_back(std::move(cure));
+    }
+    return cures;
+}
+
+} // namespace tidemark::glsl
