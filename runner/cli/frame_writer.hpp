@@ -20,6 +20,7 @@ struct FrameFile {
     OutputPath output;
     image::Image image;
     image::PictureFormat format;
+    std::vector<image::PictureLayer> layers{}; ///< instead of the picture, where the file has several
 };
 
 class FrameWriter {

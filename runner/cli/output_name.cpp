@@ -104,9 +104,8 @@ OutputPath OutputName::of_frame(int frame) const {
 }
 
 OutputPath OutputName::of_face(int frame, size_t face) const {
-    static constexpr std::array<std::string_view, 6> k_faces{"px", "nx", "py", "ny", "pz", "nz"};
     std::string name = of_frame(frame).string();
-    return output_of(name.replace(name.find(k_face), k_face.size(), k_faces[face]));
+    return output_of(name.replace(name.find(k_face), k_face.size(), k_face_names[face]));
 }
 
 std::string name_after_scene(const fs::path& scene, std::string_view ending) {

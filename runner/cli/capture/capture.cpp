@@ -214,6 +214,8 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                     "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
                     "which takes 16 bits or floats [srgb; of another --pass: numbers]")
         ->type_name("srgb|linear");
+    command.add_flag("--layers", options.layers,
+                     "All passes into one .exr, each as a part of its name; a cube as six");
     add_device_options(command, options.device);
     command
         .add_option("--timeout", options.timeout,

@@ -62,6 +62,29 @@ Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan
     return Transfer::linear;
 }
 
+/// Of the passes behind Image, which all go into its file. Buffers are state: they keep their floats.
+Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, const CapturePlan& plan) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--layers: {}", why));
+    };
+    if (!options.layers)
+        return std::nullopt;
+    if (!plan.to_picture_files() || !image::holds_layers(plan.output.pattern()))
+        return refuse("only an .exr holds several pictures");
+    if (plan.output.six_faces())
+        return refuse("the faces of a cube are layers: leave {} out of the name");
+    if (!plan.frames.state.pass.empty())
+        return refuse("all passes are in the file: leave --pass out");
+    if (options.tile)
+        return refuse("passes are drawn whole: leave --tile out");
+    if (plan.exposure.shutter > 0)
+        return refuse("with --shutter a frame has several moments, and a buffer has no mean");
+    const Extent extent = plan.frames.state.extent;
+    if (std::max(extent.width, extent.height) > image::k_largest_side)
+        return refuse(fmt::format("a side has at most {} pixels", image::k_largest_side));
+    return options.depth.empty() ? SampleDepth::f32 : plan.depth;
+}
+
 /// A frame that is named twice (`0-9,5-14`) is one file.
 void drop_repeats(std::vector<int>& frames) {
     std::unordered_set<int> seen;
@@ -168,6 +191,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.transfer = TRY(parse_transfer(options.transfer, plan));
     plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.exposure = exposure_of(options, plan.depth);
+    plan.layers = TRY(parse_layers(options, plan));
     const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several();
     plan.drawing = {
         .extent = plan.frames.state.extent,
@@ -175,6 +199,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
         .pass = plan.frames.state.pass,
         .precision = precision_of(options.scene),
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
+        .extras = {.passes = options.layers},
         .marks_non_finite = true,
     };
     if (plan.output.video())

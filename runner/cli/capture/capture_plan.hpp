@@ -34,6 +34,7 @@ struct CaptureOptions {
     std::optional<std::string> output;
     std::string depth;
     std::string transfer;
+    bool layers = false;
     platform::DeviceChoice device{};
     std::optional<double> timeout;
     double duration = 60;
@@ -68,6 +69,7 @@ struct CapturePlan {
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
+    std::optional<image::SampleDepth> layers{};       ///< the other passes' too, as this; none: one picture
     VideoPace pace;                                   ///< of a video
     std::vector<VideoSegment> segments{};             ///< of a video: all its frames
     render::RenderOptions drawing;                    ///< frames drawn whole

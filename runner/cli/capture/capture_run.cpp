@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/capture/kept_frames.hpp"
+#include "cli/capture/pass_layers.hpp"
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/omissions.hpp"
@@ -283,6 +284,9 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
         });
     if (!writer_)
         return put_raw(image).map([] { return true; });
+    if (plan_.layers)
+        return writer_->push(
+            {record.frame, plan_.output.of_frame(record.frame), {}, {}, layers_of(record, std::move(image))});
     if (!plan_.output.six_faces())
         return writer_->push(
             {record.frame, plan_.output.of_frame(record.frame), std::move(image), format_of(record)});
@@ -292,6 +296,14 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
         wanted = writer_->push({record.frame, plan_.output.of_face(record.frame, i),
                                 image::flipped((*faces)[i]), format_of(record)});
     return wanted;
+}
+
+std::vector<image::PictureLayer> Capture::layers_of(const FrameRecord& record, image::Image image) const {
+    std::vector<image::PictureLayer> layers;
+    layers.push_back({renderer_.shown_pass().name, std::move(image), format_of(record)});
+    for (image::PictureLayer& layer : other_layers(renderer_, *plan_.layers))
+        layers.push_back(std::move(layer));
+    return layers;
 }
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
@@ -333,6 +345,8 @@ nlohmann::ordered_json Capture::report() const {
     report["defines"] = plan_.request.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
+    if (plan_.layers)
+        report["layers"] = layer_names(renderer_);
     if (plan_.resume)
         report["kept"] = plan_.kept;
     if (plan_.loop)

@@ -79,6 +79,7 @@ private:
     image::Image read_back() const;
     std::optional<image::Image> draw_samples(int frame, const Interrupt& interrupt);
     Result<bool> deliver(const FrameRecord& record, image::Image image);
+    std::vector<image::PictureLayer> layers_of(const FrameRecord& record, image::Image image) const;
     image::PictureFormat format_of(const FrameRecord& record) const;
     Result<void> open_output();
     Result<void> close_output();

@@ -22,6 +22,8 @@ Json drawing_facts(const CapturePlan& plan) {
         facts.push_back(Json::array({plan.exposure.samples, plan.exposure.shutter}));
     if (plan.transfer != drawn_transfer(pass))
         facts.push_back(Json::array({"transfer", int(plan.transfer)}));
+    if (plan.layers)
+        facts.push_back(Json::array({"layers", int(*plan.layers)}));
     return facts;
 }
 
