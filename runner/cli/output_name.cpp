@@ -39,11 +39,11 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
     if (!image::check_picture_name(name.pattern_))
         return fail(
             ErrorCode::usage,
-            fmt::format(
-                "cannot tell the format of '{}': its name must end in .png, .jpg, .jpeg, .tif, "
-                ".tiff, .exr or .hdr for pictures, in .mp4, .webm, .mov, .gif or .webp for a video, or in "
-                ".wav for the sound alone",
-                pattern));
+            fmt::format("cannot tell the format of '{}': its name must end in .png, .jpg, .jpeg, .tif, "
+                        ".tiff, .exr or .hdr for pictures, in .mp4, .mkv, .webm, .mov, .gif or .webp for a "
+                        "video, or in "
+                        ".wav for the sound alone",
+                        pattern));
     name.six_faces_ = pattern.find(k_face) != std::string_view::npos;
     for (size_t i = 0; i < pattern.size(); ++i) {
         std::string& part = name.numbered_ ? name.after_ : name.before_;

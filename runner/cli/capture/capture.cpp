@@ -25,6 +25,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -58,18 +59,33 @@ void say_what_was_written(const std::vector<FrameRecord>& records, const Capture
                         records.back().file));
 }
 
-/// One line for all frames: a file does not show what was no number.
-void say_what_is_not_finite(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
-    const auto bad = [](const FrameRecord& record) { return record.not_finite > 0; };
+/// One line for all frames, which begins with the first of them that has such pixels. Nothing where none
+/// has: a file does not show them.
+void warn_of(const std::vector<FrameRecord>& records, size_t FrameRecord::*pixels,
+             const std::function<std::string(const FrameRecord&, const std::string& others)>& words) {
+    const auto bad = [&](const FrameRecord& record) { return record.*pixels > 0; };
     const auto first = std::ranges::find_if(records, bad);
     if (first == records.end())
         return;
     const auto others = std::ranges::count_if(first + 1, records.end(), bad);
-    say(fmt::format("warning: {} not finite{}; where from: {}",
-                    pixels_are(first->not_finite, fmt::format("of frame {}", first->frame)),
-                    others > 0 ? fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")
-                               : "",
-                    plan.trace_command(states_of(plan.frames)(first->frame))));
+    say("warning: " +
+        words(*first,
+              others == 0 ? "" : fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")));
+}
+
+void say_what_pixels_hold(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
+    warn_of(records, &FrameRecord::not_finite, [&](const FrameRecord& first, const std::string& others) {
+        return fmt::format("{} not finite{}; where from: {}",
+                           pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
+                           plan.trace_command(states_of(plan.frames)(first.frame)));
+    });
+    const bool clamped = !plan.to_picture_files() || plan.depth == image::SampleDepth::u8 ||
+                         plan.depth == image::SampleDepth::u16;
+    warn_of(records, &FrameRecord::no_coverage, [&](const FrameRecord& first, const std::string& others) {
+        return fmt::format("alpha is below 0 or above 1 in {} pixel{} of frame {}{}; {}", first.no_coverage,
+                           first.no_coverage > 1 ? "s" : "", first.frame, others,
+                           clamped ? "the file has 0 or 1" : "the file has it as it is");
+    });
 }
 
 /// The plan without the frames that are there already; says how many those are.
@@ -126,7 +142,7 @@ Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
 Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     if (plan.json)
         TRY(put(dump(run.report(), 2) + "\n"));
-    say_what_is_not_finite(run.records(), plan);
+    say_what_pixels_hold(run.records(), plan);
     const bool written = complete || !plan.output.video();
     if (written && !plan.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
@@ -201,7 +217,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
     command
         .add_option("-o,--output", options.output,
                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
-                    "a cube; a video: .mp4 .webm .mov .gif .webp; - for "
+                    "a cube; a video: .mp4 .mkv .webm .mov .gif .webp; - for "
                     "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
@@ -214,6 +230,18 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                     "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
                     "which takes 16 bits or floats [srgb; of another --pass: numbers]")
         ->type_name("srgb|linear");
+    command
+        .add_option(
+            "--codec", options.codec,
+            "Of a video: of .mp4 and .mkv h264 in 8 bits, hevc or av1 in 10; of .webm vp9 in 8, av1 in "
+            "10 [the first]")
+        ->type_name("h264|hevc|av1|vp9");
+    command
+        .add_option(
+            "--alpha", options.alpha,
+            "Of Image: 1, as ShaderToy shows it; or what its text gives, straight or with the colours "
+            "multiplied by it [opaque]")
+        ->type_name("opaque|keep|premultiplied");
     command.add_flag("--layers", options.layers,
                      "All passes into one .exr, each as a part of its name; a cube as six");
     add_device_options(command, options.device);

@@ -7,10 +7,12 @@
 #include "cli/capture/shard_note.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/sequence.hpp"
+#include "image/files/picture_file.hpp"
 #include "image/files/video_writer.hpp"
 #include "render/tile_grid.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <unordered_set>
@@ -18,6 +20,7 @@
 namespace tidemark::cli {
 namespace {
 
+using image::Alpha;
 using image::SampleDepth;
 using image::SampleType;
 using image::Transfer;
@@ -29,16 +32,36 @@ SampleDepth default_depth(const OutputName& output, const std::string& pass) {
     return natural == SampleDepth::half && state ? SampleDepth::f32 : natural;
 }
 
-Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& pass) {
+Result<std::string> parse_codec(const std::string& text, const OutputName& output) {
+    if (text.empty())
+        return text;
+    const auto codecs = output.video() ? image::codecs_of(output.pattern()) : std::vector<std::string_view>();
+    if (codecs.empty())
+        return fail(ErrorCode::usage, fmt::format("--codec {}: give an .mp4, an .mkv or a .webm", text));
+    if (std::ranges::find(codecs, text) == codecs.end())
+        return fail(ErrorCode::usage,
+                    fmt::format("--codec {}: a {} holds {}", text, output.pattern().extension().string(),
+                                fmt::join(codecs, ", ")));
+    return text;
+}
+
+/// Of a video of ten bits 16, which a frame is drawn for.
+Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& codec,
+                                const std::string& pass) {
     constexpr std::pair<std::string_view, SampleDepth> k_depths[] = {{"8", SampleDepth::u8},
                                                                      {"16", SampleDepth::u16},
                                                                      {"half", SampleDepth::half},
                                                                      {"float", SampleDepth::f32}};
     const bool raw = output.standard_output() || output.video();
     if (raw && !text.empty())
-        return fail(ErrorCode::usage, "--depth: videos and raw frames on standard output always have 8 bits");
+        return fail(
+            ErrorCode::usage,
+            "--depth: raw frames on standard output have 8 bits, videos what their codec has (--codec)");
+    if (text.empty() && raw)
+        return output.video() && image::has_ten_bits(output.pattern(), codec) ? SampleDepth::u16
+                                                                              : SampleDepth::u8;
     if (text.empty())
-        return raw ? SampleDepth::u8 : default_depth(output, pass);
+        return default_depth(output, pass);
     for (const auto& [name, depth] : k_depths)
         if (name == text)
             return depth;
@@ -60,6 +83,30 @@ Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan
     if (plan.depth == SampleDepth::u8)
         return refuse("linear: 8 bits of light show steps where it is dark: give --depth 16, or an .exr");
     return Transfer::linear;
+}
+
+/// What Image's alpha is, and what becomes of it in the file.
+Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--alpha {}: {}", text, why));
+    };
+    if (text.empty() || text == "opaque")
+        return Alpha::where_needed;
+    if (text != "keep" && text != "premultiplied")
+        return refuse("give opaque, keep or premultiplied");
+    const Alpha alpha = text == "keep" ? Alpha::straight : Alpha::premultiplied;
+    const auto holds = [&](Alpha kind) {
+        const std::filesystem::path& name = plan.output.pattern();
+        return plan.output.video() ? image::video_holds_alpha(name, kind) : image::holds_alpha(name, kind);
+    };
+    if (drawn_transfer(plan.frames.state.pass) == Transfer::data)
+        return refuse("what another pass holds is numbers: all four are in the file");
+    if (plan.output.standard_output() || !holds(Alpha::straight))
+        return refuse("that has no alpha: give a .png, .tif, .exr, .mov or .webp");
+    if (!holds(alpha))
+        return refuse(fmt::format("readers of a {} multiply themselves: give keep, or a .tif, .exr or .mov",
+                                  plan.output.pattern().extension().string()));
+    return alpha;
 }
 
 /// Of the passes behind Image, which all go into its file. Buffers are state: they keep their floats.
@@ -186,13 +233,16 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.output = std::move(output);
     if (plan.to_picture_files())
         drop_repeats(numbers);
-    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.frames.state.pass));
+    plan.codec = TRY(parse_codec(options.codec, plan.output));
+    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
     plan.depth = depth;
     plan.transfer = TRY(parse_transfer(options.transfer, plan));
     plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.exposure = exposure_of(options, plan.depth);
+    plan.alpha = TRY(parse_alpha(options.alpha, plan));
     plan.layers = TRY(parse_layers(options, plan));
-    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several();
+    const bool keeps_alpha = plan.alpha != Alpha::where_needed;
+    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several() && !keeps_alpha;
     plan.drawing = {
         .extent = plan.frames.state.extent,
         .samples = bytes ? SampleType::u8 : SampleType::f32,
@@ -201,9 +251,10 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
         .extras = {.passes = options.layers},
         .marks_non_finite = true,
+        .keeps_alpha = keeps_alpha,
     };
     if (plan.output.video())
-        plan.segments = segments_of(numbers, options.state_every);
+        plan.segments = segments_of(numbers, plan.pace, options.state_every);
     plan.tile_side = options.tile;
     plan.device = options.device;
     plan.timeout = options.timeout;

@@ -35,6 +35,8 @@ struct CaptureOptions {
     std::string depth;
     std::string transfer;
     bool layers = false;
+    std::string alpha;
+    std::string codec;
     platform::DeviceChoice device{};
     std::optional<double> timeout;
     double duration = 60;
@@ -60,7 +62,8 @@ struct PlannedTrial {
 /// Frames of a video that are encoded on their own.
 struct VideoSegment {
     std::vector<int> frames;
-    bool kept = false; ///< it is there already
+    std::vector<int> ticks; ///< of the video that each of them is shown
+    bool kept = false;      ///< it is there already
 };
 
 struct CapturePlan {
@@ -69,7 +72,9 @@ struct CapturePlan {
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
+    image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: it is 1
     std::optional<image::SampleDepth> layers{};       ///< the other passes' too, as this; none: one picture
+    std::string codec{};                              ///< of a video; empty: that of its name
     VideoPace pace;                                   ///< of a video
     std::vector<VideoSegment> segments{};             ///< of a video: all its frames
     render::RenderOptions drawing;                    ///< frames drawn whole

@@ -10,6 +10,7 @@
 #include "cli/progress.hpp"
 #include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
+#include "image/census.hpp"
 #include "image/files/cubemap_file.hpp"
 #include "image/files/file_samples.hpp"
 #include "render/bands.hpp"
@@ -163,7 +164,9 @@ Result<std::optional<image::Image>> Capture::picture_of(int frame, const Interru
     record.milliseconds = milliseconds_since(work->start);
     work.reset();
     record.not_finite = count_not_finite(renderer_, image);
-    if (plan_.depth == image::SampleDepth::u8)
+    if (keeps_alpha())
+        record.no_coverage = image::pixels_of_no_coverage(image);
+    else if (plan_.depth == image::SampleDepth::u8)
         image = image::in_bytes(std::move(image));
     if (plan_.loop)
         loop_.see(image);
@@ -224,14 +227,14 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     record.milliseconds = milliseconds_since(work.start);
     record.sha256 = bands.sha256();
     record.not_finite = bands.not_finite();
+    record.no_coverage = keeps_alpha() ? bands.no_coverage() : 0;
     return Outcome::made;
 }
 
 Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& record) const {
     std::optional<image::PictureStream> stream;
     if (!plan_.output.standard_output()) {
-        // Image's alpha is 1.
-        const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
+        const bool alpha = keeps_alpha() || renderer_.shown_pass().kind != scene::PassKind::image;
         stream.emplace(TRY(image::PictureStream::create(plan_.output.of_frame(record.frame),
                                                         renderer_.extent(), alpha, format_of(record))));
     }
@@ -310,7 +313,7 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     const render::FrameState state = states_(record.frame);
     // First: a JPEG that has no room for all of it keeps what stands in front.
     image::PictureFormat format{
-        plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}, plan_.transfer};
+        plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}, plan_.transfer, plan_.alpha};
     for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.request, plan_.frames, state)))
         format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();
@@ -319,6 +322,9 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
                             {"Pass", renderer_.shown_pass().name},
                             {"Precision", name_of(renderer_.precision())},
                             {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)}});
+    if (keeps_alpha())
+        format.metadata.emplace_back("Alpha",
+                                     plan_.alpha == image::Alpha::straight ? "straight" : "premultiplied");
     if (plan_.exposure.several())
         format.metadata.emplace_back("Samples", std::to_string(plan_.exposure.samples));
     if (plan_.exposure.shutter > 0)
@@ -355,15 +361,18 @@ nlohmann::ordered_json Capture::report() const {
     for (const FrameRecord& record : records_) {
         const render::FrameState state = states_(record.frame);
         const glm::vec4 mouse = state.mouse.uniform();
-        report["frames"].push_back({{"frame", record.frame},
-                                    {"iTime", state.seconds()},
-                                    {"iMouse", {mouse.x, mouse.y, mouse.z, mouse.w}},
-                                    {"camera", to_string(state.camera)},
-                                    {"file", record.file},
-                                    {"sha256", record.sha256},
-                                    {"not_finite", record.not_finite},
-                                    {"passes_drawn", record.passes_drawn},
-                                    {"milliseconds", record.milliseconds}});
+        auto& frame = report["frames"].emplace_back(
+            nlohmann::ordered_json{{"frame", record.frame},
+                                   {"iTime", state.seconds()},
+                                   {"iMouse", {mouse.x, mouse.y, mouse.z, mouse.w}},
+                                   {"camera", to_string(state.camera)},
+                                   {"file", record.file},
+                                   {"sha256", record.sha256},
+                                   {"not_finite", record.not_finite},
+                                   {"passes_drawn", record.passes_drawn},
+                                   {"milliseconds", record.milliseconds}});
+        if (keeps_alpha())
+            frame["no_coverage"] = record.no_coverage;
     }
     return report;
 }

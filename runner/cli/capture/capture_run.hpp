@@ -33,6 +33,7 @@ struct FrameRecord {
     std::string sha256;
     double milliseconds = 0;
     size_t not_finite = 0;   ///< pixels
+    size_t no_coverage = 0;  ///< pixels of an alpha that is kept and below 0 or above 1
     size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
 };
 
@@ -67,6 +68,7 @@ private:
     };
 
     bool in_bands() const;
+    bool keeps_alpha() const { return plan_.alpha != image::Alpha::where_needed; }
     void prepare(Interrupt& interrupt);
     void restore();
     Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);

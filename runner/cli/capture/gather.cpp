@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <memory>
 
@@ -130,16 +131,15 @@ Result<std::vector<std::string>> compare_sample(const GatherOptions& options, co
     return wrong;
 }
 
-/// Bytes with four channels, as an encoder takes them.
+/// Four channels, as an encoder takes them, in bytes or floats.
 image::Image for_video(const image::Image& picture) {
-    image::Image bytes(picture.extent, picture.channels, image::SampleType::u8);
-    bytes.bytes = image::file_samples(picture, image::SampleDepth::u8);
-    image::Image rgba(picture.extent, 4, image::SampleType::u8);
-    const size_t shown = picture.channels < 3 ? 1 : 3;
+    image::Image rgba(picture.extent, 4, picture.type);
+    const size_t shown = picture.channels < 3 ? 1 : 3, sample = image::size_of(picture.type);
     for (size_t pixel = 0; pixel < rgba.extent.pixels(); ++pixel)
         for (size_t channel = 0; channel < 4; ++channel)
-            rgba.u8()[4 * pixel + channel] =
-                channel == 3 ? 255 : bytes.u8()[pixel * size_t(picture.channels) + channel % shown];
+            std::memcpy(&rgba.bytes[(4 * pixel + channel) * sample],
+                        &picture.bytes[(pixel * size_t(picture.channels) + channel % shown) * sample],
+                        sample);
     return rgba;
 }
 
@@ -149,8 +149,8 @@ Result<void> make_video(const CapturePlan& pictures, const std::string& name, co
     plan.output = TRY(OutputName::parse(name, plan.frames.frames.size()));
     if (!plan.output.video() || pictures.output.six_faces())
         return fail(ErrorCode::usage,
-                    fmt::format("-o {}: give an .mp4, a .webm, a .mov, a .gif or a .webp", name));
-    plan.segments = segments_of(plan.frames.frames, 0);
+                    fmt::format("-o {}: give an .mp4, an .mkv, a .webm, a .mov, a .gif or a .webp", name));
+    plan.segments = segments_of(plan.frames.frames, plan.pace, 0);
     const auto sound = draw_sound_of_video(plan, interrupt);
     std::optional<SegmentedVideo> video;
     for (const int frame : plan.frames.frames) {
@@ -202,7 +202,8 @@ void add_gather(CLI::App& app, Action& chosen) {
     command->add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
         ->required()
         ->check(unnamed(CLI::ExistingDirectory));
-    command->add_option("-o,--output", options->video, "A video of the frames: .mp4 .webm .mov .gif .webp")
+    command
+        ->add_option("-o,--output", options->video, "A video of the frames: .mp4 .mkv .webm .mov .gif .webp")
         ->type_name("OUT");
     command->add_option("--sample", options->samples, "Frames that are drawn again and compared")
         ->type_name("N")

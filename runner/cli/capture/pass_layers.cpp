@@ -35,7 +35,8 @@ std::vector<Source> sources(const render::Renderer& renderer) {
 } // namespace
 
 std::vector<image::PictureLayer> other_layers(const render::Renderer& renderer, image::SampleDepth depth) {
-    const image::PictureFormat format{.depth = depth, .transfer = image::Transfer::data, .keeps_alpha = true};
+    const image::PictureFormat format{
+        .depth = depth, .transfer = image::Transfer::data, .alpha = image::Alpha::straight};
     std::vector<image::PictureLayer> layers;
     for (const Source& source : sources(renderer)) {
         const image::Image drawn = renderer.read_floats(source.pass, source.face);

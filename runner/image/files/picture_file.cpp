@@ -124,6 +124,7 @@ EncodeJob job_without_samples(const WrittenFormat& written, Extent extent, int c
     const bool profiled = written.format == FileFormat::jpeg || written.format == FileFormat::tiff;
     EncodeJob job{written.format, wanted.depth, extent, channels, {}, attributes(written.format, wanted)};
     job.transfer = wanted.transfer;
+    job.premultiplied = wanted.alpha == Alpha::premultiplied;
     if (profiled && wanted.transfer && channels >= 3)
         job.icc_profile = icc_profile(*wanted.transfer);
     return job;
@@ -136,14 +137,17 @@ std::pair<std::vector<std::byte>, int> stored(const WrittenFormat& written, cons
         return std::pair(file_samples(kept, wanted.depth), kept.channels);
     };
     const auto light = wanted.transfer == Transfer::linear ? std::optional(in_light(drawn)) : std::nullopt;
-    const Image& image = light ? *light : drawn;
+    const auto associated = wanted.alpha == Alpha::premultiplied
+                                ? std::optional(premultiplied(light ? *light : drawn))
+                                : std::nullopt;
+    const Image& image = associated ? *associated : light ? *light : drawn;
     if (written.format == FileFormat::hdr)
         return take(radiance_samples(image));
     return image.has_alpha() && !(alpha && written.has_alpha) ? take(without_alpha(image)) : take(image);
 }
 
 EncodeJob encode_job(const WrittenFormat& written, const Image& image, const PictureFormat& wanted) {
-    const bool alpha = wanted.keeps_alpha || !has_opaque_alpha(image);
+    const bool alpha = wanted.alpha != Alpha::where_needed || !has_opaque_alpha(image);
     auto [samples, channels] = stored(written, image, alpha, wanted);
     EncodeJob job = job_without_samples(written, image.extent, channels, wanted);
     job.samples = std::move(samples);
@@ -214,6 +218,12 @@ SampleDepth natural_depth(const fs::path& path) {
 bool holds_metadata(const fs::path& path) {
     const WrittenFormat* format = written_format(path);
     return format && format->format != FileFormat::hdr;
+}
+
+bool holds_alpha(const fs::path& path, Alpha alpha) {
+    const WrittenFormat* format = written_format(path);
+    return format && format->has_alpha &&
+           (alpha != Alpha::premultiplied || format->format != FileFormat::png);
 }
 
 bool holds_layers(const fs::path& path) {

@@ -29,6 +29,13 @@ enum class SampleDepth { u8, u16, half, f32 };
 inline constexpr int k_largest_side = 16384;
 inline constexpr size_t k_largest_picture = size_t{1} << 30;
 
+/// What becomes of a picture's alpha in a file that has one.
+enum class Alpha {
+    where_needed,  ///< as it is; left out where it is 1 all over
+    straight,      ///< as it is: the colours are not multiplied by it
+    premultiplied, ///< the file's colours are multiplied by it, after they are decoded
+};
+
 /// How a picture is stored.
 struct PictureFormat {
     SampleDepth depth = SampleDepth::u8;
@@ -41,8 +48,7 @@ struct PictureFormat {
     /// a profile, EXR in attributes. An Image that goes into a file of `linear` has its sRGB decoded on the
     /// way. None: the file says nothing.
     std::optional<Transfer> transfer{};
-    /// Alpha is in the file although it is 1 all over, where the format has one.
-    bool keeps_alpha = false;
+    Alpha alpha = Alpha::where_needed;
 };
 
 /// Whether `path` ends in a format we write (.png .jpg .jpeg .tif .tiff .exr .hdr, in either case); the
@@ -58,6 +64,9 @@ SampleDepth natural_depth(const std::filesystem::path& path);
 
 /// Whether a picture of that name keeps PictureFormat::metadata.
 bool holds_metadata(const std::filesystem::path& path);
+
+/// Whether a picture of that name may hold alpha in that way: .png straight, .tif and .exr in both.
+bool holds_alpha(const std::filesystem::path& path, Alpha alpha);
 
 /// Whether a picture of that name may hold several under names of their own: .exr.
 bool holds_layers(const std::filesystem::path& path);

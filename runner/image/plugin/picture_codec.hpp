@@ -30,6 +30,7 @@ struct EncodeJob {
     std::vector<std::pair<std::string, std::string>> attributes; ///< text, under its final name
     std::optional<Transfer> transfer{};                          ///< of these samples
     std::vector<std::byte> icc_profile{};                        ///< that says the same; empty: none
+    bool premultiplied = false;                                  ///< colours, by alpha
     std::string part{};                                          ///< its name among several in a file
 };
 

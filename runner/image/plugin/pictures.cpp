@@ -116,7 +116,7 @@ OIIO::ImageSpec spec_of(const EncodeJob& job) {
         spec.channelnames = {"Y", "A"};
         spec.alpha_channel = 1;
     }
-    spec.attribute("oiio:UnassociatedAlpha", 1); // "do not divide by it"
+    spec.attribute("oiio:UnassociatedAlpha", job.premultiplied ? 0 : 1); // as it is in either case
     spec.attribute("Software", "Tidemark");
     spec.attribute("DateTime", 0); // not a text: no date, where else there would be today's
     if (job.format == FileFormat::jpeg) {
