@@ -52,6 +52,9 @@ void say_what_was_written(const std::vector<FrameRecord>& records, const Capture
         say(fmt::format(
             "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.size(),
             plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
+    else if (plan.sheet)
+        say(fmt::format("wrote {}: {} moments, frames {} to {}", records.front().file, records.size(),
+                        records.front().frame, records.back().frame));
     else if (records.size() == 1)
         say(fmt::format("wrote {}", records.front().file));
     else if (!records.empty())
@@ -111,7 +114,9 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
     const std::string words = words_on_resuming(plan, run.whole_frames());
     return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().size(),
                        plan.kept.size() + plan.frames.frames.size(),
-                       plan.output.video() ? ": no video was written" : "",
+                       plan.output.video() ? ": no video was written"
+                       : plan.sheet        ? ": no sheet was written"
+                                           : "",
                        words.empty() ? "" : "; " + words);
 }
 
@@ -143,7 +148,7 @@ Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     if (plan.json)
         TRY(put(dump(run.report(), 2) + "\n"));
     say_what_pixels_hold(run.records(), plan);
-    const bool written = complete || !plan.output.video();
+    const bool written = complete || !(plan.output.video() || plan.sheet);
     if (written && !plan.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
     if (complete && plan.loop)
@@ -250,10 +255,10 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                     "Give up where compiling takes longer, or getting ready to draw, or a frame")
         ->type_name("SECONDS")
         ->check(number<double>("a number of seconds"));
-    command.add_option("--duration", options.duration, "Length of a .wav")
+    command
+        .add_option("--duration", options.duration, "Length of a .wav [60], or of what --sheet shows [10]")
         ->type_name("SECONDS")
-        ->check(number<double>("a number of seconds"))
-        ->capture_default_str();
+        ->check(number<double>("a number of seconds"));
     auto* plain = command.add_flag("--plain", options.plain, "Compiles the scene's text whole, as it is");
     command
         .add_option("--allow-difference", options.allowed_difference,
@@ -298,6 +303,16 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                   "Says whether the sequence goes round: how like its first the frame behind its last is")
         ->excludes(resume)
         ->excludes("--shard");
+    command
+        .add_option("--sheet", options.sheet,
+                    "One picture of so many moments, each of --size, evenly from --frames or --duration")
+        ->type_name("COLUMNSxROWS")
+        ->excludes("--layers")
+        ->excludes("--tile")
+        ->excludes(resume)
+        ->excludes("--state-every")
+        ->excludes("--shard")
+        ->excludes("--loop");
     command.add_flag("--json", options.json, "One JSON object about the frames on standard output");
 }
 

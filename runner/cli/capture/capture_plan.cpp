@@ -2,6 +2,7 @@
 
 #include "base/file.hpp"
 #include "base/try.hpp"
+#include "cli/capture/frame_choice.hpp"
 #include "cli/capture/saved_state.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/shard_note.hpp"
@@ -132,6 +133,49 @@ Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, c
     return options.depth.empty() ? SampleDepth::f32 : plan.depth;
 }
 
+/// How much of a scene a sheet shows where nobody says it.
+constexpr double k_seconds_of_sheet = 10;
+
+/// The moments of its cells.
+Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const FrameSequence& asked,
+                                         const SheetGrid& grid) {
+    const auto refuse = [](std::string why) {
+        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
+    };
+    if (options.frames.frame || options.frames.time)
+        return refuse("one moment is a picture: give --frames or --duration");
+    if (options.frames.frames && options.duration)
+        return refuse("--frames and --duration both say which moments: give one of them");
+    if (options.frames.frames)
+        return asked.frames.size() >= grid.cells()
+                   ? Result<std::vector<int>>(evenly(asked.frames, grid.cells()))
+                   : refuse(fmt::format("{}x{} cells want {} frames, --frames names {}", grid.columns,
+                                        grid.rows, grid.cells(), asked.frames.size()));
+    const double seconds = options.duration.value_or(k_seconds_of_sheet);
+    const double frames = seconds * asked.state.fps;
+    if (!(frames >= double(grid.cells())) || frames > render::k_last_frame)
+        return refuse(fmt::format("{} s at {} frames a second are not {} moments", seconds, asked.state.fps,
+                                  grid.cells()));
+    return beginnings(seconds, asked.state.fps, grid.cells());
+}
+
+/// What does not go with a sheet.
+Result<void> check_sheet(const CapturePlan& plan) {
+    if (!plan.sheet)
+        return {};
+    const auto refuse = [](std::string why) {
+        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
+    };
+    if (!plan.to_picture_files() || plan.output.six_faces())
+        return refuse("it is one picture: give a .png, .jpg, .tif, .exr or .hdr");
+    const Extent extent = plan.sheet->extent(plan.frames.state.extent);
+    const size_t bytes = extent.pixels() * 4 * image::size_of(plan.drawing.samples);
+    if (std::max(extent.width, extent.height) > image::k_largest_side || bytes > image::k_largest_picture)
+        return refuse(fmt::format("it would be {}x{} pixels: give a smaller --size, or fewer cells",
+                                  extent.width, extent.height));
+    return {};
+}
+
 /// A frame that is named twice (`0-9,5-14`) is one file.
 void drop_repeats(std::vector<int>& frames) {
     std::unordered_set<int> seen;
@@ -140,6 +184,7 @@ void drop_repeats(std::vector<int>& frames) {
 
 /// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
 constexpr double k_longest_sound = 3600;
+constexpr double k_seconds_of_sound = 60;
 
 /// Whether what is there already can be told from what is missing.
 Result<void> check_resume(const OutputName& output) {
@@ -206,6 +251,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
         if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
             return fits;
     }
+    TRY(check_sheet(plan));
     TRY(check_keeping(options, output, extent));
     if (options.loop && plan.frames.frames.size() < 2)
         return fail(ErrorCode::usage, "--loop: give --frames, two at least");
@@ -227,11 +273,15 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.frames =
         TRY(resolve(options.frames, options.likeness ? options.likeness->sequence : FrameSequence()));
     std::vector<int>& numbers = plan.frames.frames;
-    const size_t count = std::unordered_set(numbers.begin(), numbers.end()).size();
+    if (!options.sheet.empty()) {
+        plan.sheet = TRY(parse_sheet(options.sheet));
+        numbers = TRY(frames_of_sheet(options, plan.frames, *plan.sheet));
+    }
+    const size_t count = plan.sheet ? 1 : std::unordered_set(numbers.begin(), numbers.end()).size();
     auto output = TRY(options.output ? OutputName::parse(*options.output, count)
                                      : OutputName::of_scene(options.scene.path, count));
     plan.output = std::move(output);
-    if (plan.to_picture_files())
+    if (plan.to_picture_files() && !plan.sheet)
         drop_repeats(numbers);
     plan.codec = TRY(parse_codec(options.codec, plan.output));
     const auto depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
@@ -288,11 +338,14 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
     return {};
 }
 
-Result<void> check_faces(const CapturePlan& plan) {
+Result<void> check_cube(const CapturePlan& plan) {
     const std::string& name = plan.drawing.pass;
     const auto shown = std::ranges::find(plan.scene.passes, name.empty() ? plan.scene.image().name : name,
                                          &scene::Pass::name);
     const bool other = shown != plan.scene.passes.end() && shown->kind != scene::PassKind::cubemap;
+    if (plan.sheet && shown != plan.scene.passes.end() && !other)
+        return fail(ErrorCode::usage,
+                    "--sheet: a cube is shown as a panorama, which is too large for a cell");
     if (plan.output.six_faces() && other)
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
@@ -342,7 +395,7 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     auto scene = TRY(load(options.scene, plan->frames));
     plan->scene = std::move(scene);
     TRY(spare_what_is_read(options, *plan));
-    TRY(check_faces(*plan));
+    TRY(check_cube(*plan));
     if (!options.shard.empty())
         TRY(take_shard(options, *plan));
     else
@@ -368,14 +421,15 @@ bool wants_sound(const CaptureOptions& options) {
 Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     if (options.resume)
         return fail(ErrorCode::usage, "--resume: a sound is made at once, and whole or not at all");
-    if (!(options.duration > 0) || options.duration > k_longest_sound)
-        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
-                                                  options.duration, k_longest_sound));
+    const double duration = options.duration.value_or(k_seconds_of_sound);
+    if (!(duration > 0) || duration > k_longest_sound)
+        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}", duration,
+                                                  k_longest_sound));
     auto scene = TRY(load(options.scene));
     OutputPath output = OutputPath::typed(*options.output).sparing(files_read(scene));
     TRY(check_writable(output));
     return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene),
-                     options.duration};
+                     duration};
 }
 
 } // namespace tidemark::cli

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cli/capture/shard.hpp"
+#include "cli/capture/sheet.hpp"
 #include "cli/capture/video_pace.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
@@ -39,7 +40,8 @@ struct CaptureOptions {
     std::string codec;
     platform::DeviceChoice device{};
     std::optional<double> timeout;
-    double duration = 60;
+    std::string sheet;
+    std::optional<double> duration; ///< seconds
     bool plain = false;
     std::optional<double> allowed_difference;
     std::optional<int> tile;
@@ -73,6 +75,7 @@ struct CapturePlan {
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
     image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: it is 1
+    std::optional<SheetGrid> sheet{};                 ///< its cells are the frames
     std::optional<image::SampleDepth> layers{};       ///< the other passes' too, as this; none: one picture
     std::string codec{};                              ///< of a video; empty: that of its name
     VideoPace pace;                                   ///< of a video

@@ -61,7 +61,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         if (outcome == Outcome::interrupted) {
             if (video_)
                 video_->drop();
-            else
+            else if (!sheet_)
                 TRY(close_output());
             if (whole_frames() == 0 && !plan_.output.standard_output())
                 remove_states(plan_.output);
@@ -90,6 +90,8 @@ Result<void> Capture::open_output() {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
         video_.emplace(
             TRY(SegmentedVideo::create(plan_, fingerprint_, cube ? image::k_panorama : renderer_.extent())));
+    } else if (plan_.sheet) {
+        sheet_.emplace(*plan_.sheet);
     } else if (!plan_.output.standard_output() && !in_bands()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
         writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
@@ -100,6 +102,9 @@ Result<void> Capture::open_output() {
 Result<void> Capture::close_output() {
     if (video_)
         return video_->finish(sound_);
+    if (sheet_)
+        return image::write_picture(plan_.output.of_frame(plan_.frames.frames.front()), sheet_->picture(),
+                                    format_of_sheet());
     return writer_ ? writer_->finish() : Result<void>();
 }
 
@@ -262,6 +267,7 @@ std::optional<image::Image> Capture::draw_samples(int frame, const Interrupt& in
 size_t Capture::whole_frames() {
     constexpr size_t k_faces = 6;
     const size_t made = video_    ? video_->written()
+                        : sheet_  ? size_t{0}
                         : writer_ ? writer_->written() / (plan_.output.six_faces() ? k_faces : 1)
                                   : records_.size();
     return plan_.kept.size() + made;
@@ -285,6 +291,10 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
             error.message += fmt::format(" (in frame {})", record.frame);
             return error;
         });
+    if (sheet_) {
+        sheet_->add(image);
+        return true;
+    }
     if (!writer_)
         return put_raw(image).map([] { return true; });
     if (plan_.layers)
@@ -334,6 +344,25 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     return format;
 }
 
+/// What its moments share, and which they are.
+image::PictureFormat Capture::format_of_sheet() const {
+    image::PictureFormat format = format_of(records_.front());
+    constexpr std::string_view k_of_one[] = {k_fingerprint, k_moment, "Frame", "iTime", "iMouse", "Camera"};
+    std::erase_if(format.metadata, [&](const auto& fact) {
+        return std::ranges::find(k_of_one, fact.first) != std::end(k_of_one);
+    });
+    std::vector<int> frames;
+    std::vector<double> times;
+    for (const FrameRecord& record : records_) {
+        frames.push_back(record.frame);
+        times.push_back(states_(record.frame).seconds());
+    }
+    format.metadata.emplace_back("Sheet", fmt::format("{}x{}", plan_.sheet->columns, plan_.sheet->rows));
+    format.metadata.emplace_back("Frames", fmt::format("{}", fmt::join(frames, ",")));
+    format.metadata.emplace_back("Times", fmt::format("{}", fmt::join(times, ",")));
+    return format;
+}
+
 nlohmann::ordered_json Capture::report() const {
     nlohmann::ordered_json report;
     report["tidemark"] = k_version;
@@ -351,6 +380,8 @@ nlohmann::ordered_json Capture::report() const {
     report["defines"] = plan_.request.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
+    if (plan_.sheet)
+        report["sheet"] = {plan_.sheet->columns, plan_.sheet->rows};
     if (plan_.layers)
         report["layers"] = layer_names(renderer_);
     if (plan_.resume)

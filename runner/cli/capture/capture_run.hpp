@@ -83,6 +83,7 @@ private:
     Result<bool> deliver(const FrameRecord& record, image::Image image);
     std::vector<image::PictureLayer> layers_of(const FrameRecord& record, image::Image image) const;
     image::PictureFormat format_of(const FrameRecord& record) const;
+    image::PictureFormat format_of_sheet() const;
     Result<void> open_output();
     Result<void> close_output();
     void rescue_output();
@@ -99,7 +100,8 @@ private:
     double prepare_milliseconds_ = 0;
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_; ///< of pictures
-    std::optional<SegmentedVideo> video_; ///< neither: frames go to standard output
+    std::optional<SegmentedVideo> video_;
+    std::optional<Sheet> sheet_; ///< none of these: frames go to standard output
     LoopCheck loop_;
     Watchdog watchdog_; ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;

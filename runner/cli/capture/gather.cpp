@@ -6,6 +6,7 @@
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
 #include "cli/capture/compile_plan.hpp"
+#include "cli/capture/frame_choice.hpp"
 #include "cli/capture/gathered.hpp"
 #include "cli/capture/kept_frames.hpp"
 #include "cli/capture/run_fingerprint.hpp"
@@ -62,13 +63,7 @@ Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& n
 
 /// Evenly spread; of a scene whose frames need the ones before, the first alone.
 std::vector<int> sample_of(const CapturePlan& plan, int count) {
-    const std::vector<int>& frames = plan.frames.frames;
-    const auto wanted =
-        std::min(frames.size(), size_t(may_feed_back(plan.scene) ? std::min(count, 1) : count));
-    std::vector<int> sample;
-    for (size_t i = 0; i < wanted; ++i)
-        sample.push_back(frames[wanted == 1 ? 0 : i * (frames.size() - 1) / (wanted - 1)]);
-    return sample;
+    return evenly(plan.frames.frames, size_t(may_feed_back(plan.scene) ? std::min(count, 1) : count));
 }
 
 /// The largest difference of a sample, 0..1 in a picture of bytes; infinite where the sizes differ.
