@@ -128,13 +128,20 @@ Result<std::vector<std::string>> compare_sample(const GatherOptions& options, co
 
 /// Four channels, as an encoder takes them, in bytes or floats.
 image::Image for_video(const image::Image& picture) {
+    if (picture.channels == 4)
+        return picture;
     image::Image rgba(picture.extent, 4, picture.type);
-    const size_t shown = picture.channels < 3 ? 1 : 3, sample = image::size_of(picture.type);
-    for (size_t pixel = 0; pixel < rgba.extent.pixels(); ++pixel)
-        for (size_t channel = 0; channel < 4; ++channel)
-            std::memcpy(&rgba.bytes[(4 * pixel + channel) * sample],
-                        &picture.bytes[(pixel * size_t(picture.channels) + channel % shown) * sample],
-                        sample);
+    const size_t colours = picture.channels < 3 ? 1 : 3, sample = image::size_of(picture.type);
+    const float one = 1;
+    const uint8_t most = 255;
+    const void* const opaque = picture.type == image::SampleType::u8 ? static_cast<const void*>(&most) : &one;
+    for (size_t pixel = 0; pixel < rgba.extent.pixels(); ++pixel) {
+        const std::byte* const from = &picture.bytes[pixel * size_t(picture.channels) * sample];
+        std::byte* const to = &rgba.bytes[4 * pixel * sample];
+        for (size_t channel = 0; channel < 3; ++channel)
+            std::memcpy(to + channel * sample, from + channel % colours * sample, sample);
+        std::memcpy(to + 3 * sample, picture.has_alpha() ? from + colours * sample : opaque, sample);
+    }
     return rgba;
 }
 
@@ -145,6 +152,12 @@ Result<void> make_video(const CapturePlan& pictures, const std::string& name, co
     if (!plan.output.video() || pictures.output.six_faces())
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: give an .mp4, an .mkv, a .webm, a .mov, a .gif or a .webp", name));
+    if (plan.alpha != image::Alpha::where_needed &&
+        !image::video_holds_alpha(plan.output.pattern(), plan.alpha))
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: the frames have an alpha that it cannot hold: give a .mov", name));
+    if (plan.alpha == image::Alpha::premultiplied)
+        plan.alpha = image::Alpha::straight; // they are, in the files
     plan.segments = segments_of(plan.frames.frames, plan.pace, 0);
     const auto sound = draw_sound_of_video(plan, interrupt);
     std::optional<SegmentedVideo> video;

@@ -25,7 +25,7 @@ Json drawing_facts(const CapturePlan& plan) {
         facts.push_back(Json::array({"transfer", int(plan.transfer)}));
     if (!plan.codec.empty())
         facts.push_back(Json::array({"codec", plan.codec}));
-    if (plan.pace.holds)
+    if (plan.output.video() && plan.pace.holds)
         facts.push_back(Json::array({"ticks", ticks_of(plan.frames.frames, plan.pace)}));
     if (keeps_alpha)
         facts.push_back(Json::array({"alpha", int(plan.alpha)}));

@@ -5,14 +5,15 @@
 
 #include "image/image.hpp"
 
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tidemark::image {
 
-/// Planes of Y', Cb, Cr and, with `alpha`, of alpha, which has all of 0 to 1023; each from the top row down,
-/// little-endian, 16 bits for each sample (ffmpeg's yuv444p10le and yuva444p10le). Colours and alpha are
-/// taken to 0 to 1, NaN to 0, and rounded to nearest, once.
-std::vector<std::byte> ten_bit_planes(const Image& image, bool alpha);
+/// Planes of Y', Cb, Cr and, with `alpha`, of alpha, which has all of 0 to 1023; each from the top row down
+/// (ffmpeg's yuv444p10 and yuva444p10, in this machine's order of bytes). Colours and alpha are
+/// taken to 0 to 1, NaN to 0, and rounded to nearest: first to 16 bits, so that pictures of 16 bits make the
+/// very same video.
+std::vector<uint16_t> ten_bit_planes(const Image& image, bool alpha);
 
 } // namespace tidemark::image

@@ -33,7 +33,7 @@ Words joined(Words words, const More&... more) {
 const char* layout_of(const VideoEncoding& encoding, Alpha alpha) {
     const bool has_alpha = alpha != Alpha::where_needed;
     if (encoding.ten_bits)
-        return has_alpha ? "yuva444p10le" : "yuv444p10le";
+        return has_alpha ? "yuva444p10" : "yuv444p10";
     return has_alpha ? "rgba" : "rgb0";
 }
 
@@ -153,9 +153,14 @@ Result<void> SegmentWriter::push(const Image& image) {
     const auto hand_over = [&](std::span<const std::byte> bytes) -> Result<void> {
         return encoder_.write(bytes, words_) ? Result<void>() : failure(video_, words_);
     };
-    if (ten_bits_)
-        return hand_over(ten_bit_planes(alpha_ == Alpha::premultiplied ? premultiplied(image) : image,
-                                        alpha_ != Alpha::where_needed));
+    const auto planes_of = [&](const Image& shown) {
+        return ten_bit_planes(shown, alpha_ != Alpha::where_needed);
+    };
+    if (ten_bits_) {
+        const auto planes =
+            alpha_ == Alpha::premultiplied ? planes_of(premultiplied(image)) : planes_of(image);
+        return hand_over(std::as_bytes(std::span(planes)));
+    }
     return image.type == SampleType::u8 ? hand_over(image.bytes)
                                         : hand_over(file_samples(image, SampleDepth::u8));
 }

@@ -52,7 +52,7 @@ public:
     static Result<SegmentWriter> create(const OutputPath& segment, const std::filesystem::path& video,
                                         const VideoFormat& format);
 
-    /// Of four channels; floats are rounded once. Waits while the encoder is busy. ErrorCode::write has the
+    /// Of four channels, in bytes or floats. Waits while the encoder is busy. ErrorCode::write has the
     /// encoder's last words.
     Result<void> push(const Image& image);
     /// Waits for the encoder, puts `note` behind the pictures and moves the file to its place. Without it

@@ -18,11 +18,8 @@ Image row(std::initializer_list<std::array<float, 4>> pixels) {
 }
 
 std::vector<int> codes(const Image& image, bool alpha) {
-    const std::vector<std::byte> bytes = ten_bit_planes(image, alpha);
-    std::vector<int> result;
-    for (size_t i = 0; i < bytes.size(); i += 2)
-        result.push_back(int(bytes[i]) | int(bytes[i + 1]) << 8);
-    return result;
+    const std::vector<uint16_t> planes = ten_bit_planes(image, alpha);
+    return {planes.begin(), planes.end()};
 }
 
 /// By hand: of pure red luma is 0.2126, Cb -0.2126 / 1.8556, Cr 0.5; of blue 0.0722, 0.5, -0.0722 / 1.5748.
@@ -44,6 +41,16 @@ TEST(VideoPlanes, of_bytes_and_from_the_top) {
     Image image({1, 2}, 4, SampleType::u8);
     std::ranges::copy(std::array<uint8_t, 8>{255, 255, 255, 255, 51, 51, 51, 255}, image.u8().begin());
     EXPECT_EQ(codes(image, false), (std::vector{239, 940, 512, 512, 512, 512})); // 64 + 876 / 5
+}
+
+TEST(VideoPlanes, of_a_file_of_16_bits_are_the_same) {
+    Image drawn({65536, 1}, 4, SampleType::f32), stored = drawn;
+    for (size_t i = 0; i < drawn.samples(); ++i) {
+        const auto word = uint16_t(2654435761u * uint32_t(i) >> 16);
+        stored.f32()[i] = float(word) / 65535.0f;
+        drawn.f32()[i] = float((double(word) + 0.4 * double(i % 3) - 0.4) / 65535);
+    }
+    EXPECT_EQ(ten_bit_planes(drawn, true), ten_bit_planes(stored, true));
 }
 
 TEST(VideoPlanes, tell_more_than_256_levels) {
