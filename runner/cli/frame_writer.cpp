@@ -6,7 +6,7 @@
 
 namespace tidemark::cli {
 
-FrameWriter::FrameWriter(unsigned workers) : capacity_(workers + 1) {
+FrameWriter::FrameWriter(unsigned workers, unsigned waiting) : capacity_(waiting) {
     try {
         for (unsigned i = 0; i < workers; ++i)
             workers_.emplace_back([this] { work(); });

@@ -25,7 +25,9 @@ struct FrameFile {
 
 class FrameWriter {
 public:
-    explicit FrameWriter(unsigned workers);
+    /// `waiting`: frames at most that no worker has in hand yet.
+    FrameWriter(unsigned workers, unsigned waiting);
+    explicit FrameWriter(unsigned workers) : FrameWriter(workers, workers + 1) {}
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;

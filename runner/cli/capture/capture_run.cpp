@@ -94,7 +94,9 @@ Result<void> Capture::open_output() {
         sheet_.emplace(*plan_.sheet);
     } else if (!plan_.output.standard_output() && !in_bands()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
-        writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
+        const auto encoders = unsigned(std::min<size_t>(2, plan_.frames.frames.size()));
+        // All passes of a frame are large: few wait.
+        writer_ = std::make_unique<FrameWriter>(encoders, plan_.layers ? 1 : encoders + 1);
     }
     return {};
 }
