@@ -104,8 +104,14 @@ class Shards(ProgramTest):
             self.assertEqual(len(theirs), 48 * 20 * 10)  # frame 5 is shown for four ticks
             # Multiplied colours are rounded to 16 bits in the file, before they are to 10.
             self.assertLessEqual(max(abs(a - b) for a, b in zip(theirs, ours)), 16 if folder == "multiplied" else 0, folder)
-        self.expect_failure_like(["gather", "straight", "--sample", "0", "-o", "a.mp4"], 2,
-                                 ".*\ntidemark: error: -o a.mp4: the frames have an alpha that it cannot hold: give a .mov")
+        self.expect_failure_like(["gather", "plain", "--sample", "0", "-o", "a.mp4", "--codec", "vp9"], 2,
+                                 ".*\ntidemark: error: --codec vp9: a .mp4 holds h264, hevc, av1")
+        if " libx265 " in subprocess.run(["ffmpeg", "-v", "error", "-encoders"], stdout=subprocess.PIPE, text=True, check=True).stdout:
+            self.succeed("gather", "plain", "-o", "a.mp4", "--codec", "hevc")
+            self.succeed(*frames, "--codec", "hevc", "-o", "b.mp4")
+            self.assertEqual(*((self.folder / name).read_bytes() for name in ("a.mp4", "b.mp4")))
+        self.expect_failure_like(["gather", "straight", "--sample", "0", "-o", "a2.mp4"], 2,
+                                 ".*\ntidemark: error: -o a2.mp4: the frames have an alpha that it cannot hold: give a .mov")
 
     def test_feedback_goes_on_from_the_shard_before(self):
         self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'

@@ -208,6 +208,15 @@ Result<int> capture(const CaptureOptions& typed) {
 
 } // namespace
 
+void add_codec_option(CLI::App& command, std::string& codec) {
+    command
+        .add_option(
+            "--codec", codec,
+            "Of a video: of .mp4 and .mkv h264 in 8 bits, hevc or av1 in 10; of .webm vp9 in 8, av1 in "
+            "10 [the first]")
+        ->type_name("h264|hevc|av1|vp9");
+}
+
 void add_capture_options(CLI::App& command, CaptureOptions& options) {
     add_scene_options(command, options.scene);
     add_precision_options(command, options.scene);
@@ -235,12 +244,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                     "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
                     "which takes 16 bits or floats [srgb; of another --pass: numbers]")
         ->type_name("srgb|linear");
-    command
-        .add_option(
-            "--codec", options.codec,
-            "Of a video: of .mp4 and .mkv h264 in 8 bits, hevc or av1 in 10; of .webm vp9 in 8, av1 in "
-            "10 [the first]")
-        ->type_name("h264|hevc|av1|vp9");
+    add_codec_option(command, options.codec);
     command
         .add_option(
             "--alpha", options.alpha,

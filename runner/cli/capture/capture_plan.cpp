@@ -33,19 +33,6 @@ SampleDepth default_depth(const OutputName& output, const std::string& pass) {
     return natural == SampleDepth::half && state ? SampleDepth::f32 : natural;
 }
 
-Result<std::string> parse_codec(const std::string& text, const OutputName& output) {
-    if (text.empty())
-        return text;
-    const auto codecs = output.video() ? image::codecs_of(output.pattern()) : std::vector<std::string_view>();
-    if (codecs.empty())
-        return fail(ErrorCode::usage, fmt::format("--codec {}: give an .mp4, an .mkv or a .webm", text));
-    if (std::ranges::find(codecs, text) == codecs.end())
-        return fail(ErrorCode::usage,
-                    fmt::format("--codec {}: a {} holds {}", text, output.pattern().extension().string(),
-                                fmt::join(codecs, ", ")));
-    return text;
-}
-
 /// Of a video of ten bits 16, which a frame is drawn for.
 Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& codec,
                                 const std::string& pass) {
@@ -401,6 +388,19 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     else
         plan->trial = TRY(plan_trial(options, *plan));
     return plan;
+}
+
+Result<std::string> parse_codec(const std::string& text, const OutputName& output) {
+    if (text.empty())
+        return text;
+    const auto codecs = output.video() ? image::codecs_of(output.pattern()) : std::vector<std::string_view>();
+    if (codecs.empty())
+        return fail(ErrorCode::usage, fmt::format("--codec {}: give an .mp4, an .mkv or a .webm", text));
+    if (std::ranges::find(codecs, text) == codecs.end())
+        return fail(ErrorCode::usage,
+                    fmt::format("--codec {}: a {} holds {}", text, output.pattern().extension().string(),
+                                fmt::join(codecs, ", ")));
+    return text;
 }
 
 Transfer drawn_transfer(const std::string& pass) {

@@ -104,6 +104,9 @@ struct CapturePlan {
 /// What the samples of a pass stand for as they are drawn. Of a buffer they are state, not colours.
 image::Transfer drawn_transfer(const std::string& pass);
 
+/// --codec, where a file of that name may have it (ErrorCode::usage otherwise).
+Result<std::string> parse_codec(const std::string& text, const OutputName& output);
+
 /// How to go on where a capture is cut short after so many whole frames; empty: it begins anew.
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);
 

@@ -145,13 +145,15 @@ image::Image for_video(const image::Image& picture) {
     return rgba;
 }
 
-Result<void> make_video(const CapturePlan& pictures, const std::string& name, const Fingerprint& run,
+Result<void> make_video(const CapturePlan& pictures, const GatherOptions& options, const Fingerprint& run,
                         Interrupt& interrupt) {
+    const std::string& name = *options.video;
     CapturePlan plan = pictures;
     plan.output = TRY(OutputName::parse(name, plan.frames.frames.size()));
     if (!plan.output.video() || pictures.output.six_faces())
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: give an .mp4, an .mkv, a .webm, a .mov, a .gif or a .webp", name));
+    plan.codec = TRY(parse_codec(options.codec, plan.output));
     if (plan.alpha != image::Alpha::where_needed &&
         !image::video_holds_alpha(plan.output.pattern(), plan.alpha))
         return fail(ErrorCode::usage,
@@ -196,7 +198,7 @@ Result<int> gather(const GatherOptions& options) {
             !wrong.empty())
             return report(wrong);
     if (options.video)
-        TRY(make_video(plan, *options.video, run, interrupt));
+        TRY(make_video(plan, options, run, interrupt));
     remove_states(plan.output);
     for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
         StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is at work any more
@@ -213,6 +215,8 @@ void add_gather(CLI::App& app, Action& chosen) {
     command
         ->add_option("-o,--output", options->video, "A video of the frames: .mp4 .mkv .webm .mov .gif .webp")
         ->type_name("OUT");
+    add_codec_option(*command, options->codec);
+    command->get_option("--codec")->needs("--output");
     command->add_option("--sample", options->samples, "Frames that are drawn again and compared")
         ->type_name("N")
         ->check(unnamed(CLI::NonNegativeNumber))

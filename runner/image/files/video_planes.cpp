@@ -27,7 +27,8 @@ std::vector<uint16_t> ten_bit_planes(const Image& image, bool alpha) {
     assert(image.channels == 4);
     if (image.type != SampleType::f32)
         return ten_bit_planes(in_floats(image), alpha);
-    const size_t plane = image.extent.pixels(), width = size_t(image.extent.width);
+    const size_t plane = image.extent.pixels();
+    const auto width = size_t(image.extent.width);
     std::vector<uint16_t> planes((alpha ? 4 : 3) * plane);
     const float* pixel = image.f32().data();
     for (size_t row = size_t(image.extent.height); row-- > 0;) {
