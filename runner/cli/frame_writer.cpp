@@ -6,7 +6,7 @@
 
 namespace tidemark::cli {
 
-FrameWriter::FrameWriter(unsigned workers) : capacity_(workers + 1) {
+FrameWriter::FrameWriter(unsigned workers, unsigned waiting) : capacity_(waiting) {
     try {
         for (unsigned i = 0; i < workers; ++i)
             workers_.emplace_back([this] { work(); });
@@ -77,7 +77,8 @@ void FrameWriter::write(const FrameFile& frame, std::unique_lock<std::mutex>& lo
     lock.unlock();
     Result<void> written;
     try {
-        written = image::write_picture(frame.output, frame.image, frame.format);
+        written = frame.layers.empty() ? image::write_picture(frame.output, frame.image, frame.format)
+                                       : image::write_layers(frame.output, frame.layers);
     } catch (const std::bad_alloc&) {
         written =
             fail(ErrorCode::write, "cannot write '" + frame.output.path().string() + "': out of memory");

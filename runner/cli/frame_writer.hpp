@@ -20,11 +20,14 @@ struct FrameFile {
     OutputPath output;
     image::Image image;
     image::PictureFormat format;
+    std::vector<image::PictureLayer> layers{}; ///< instead of the picture, where the file has several
 };
 
 class FrameWriter {
 public:
-    explicit FrameWriter(unsigned workers);
+    /// `waiting`: frames at most that no worker has in hand yet.
+    FrameWriter(unsigned workers, unsigned waiting);
+    explicit FrameWriter(unsigned workers) : FrameWriter(workers, workers + 1) {}
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;

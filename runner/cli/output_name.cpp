@@ -39,11 +39,11 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
     if (!image::check_picture_name(name.pattern_))
         return fail(
             ErrorCode::usage,
-            fmt::format(
-                "cannot tell the format of '{}': its name must end in .png, .jpg, .jpeg, .tif, "
-                ".tiff, .exr or .hdr for pictures, in .mp4, .webm, .mov, .gif or .webp for a video, or in "
-                ".wav for the sound alone",
-                pattern));
+            fmt::format("cannot tell the format of '{}': its name must end in .png, .jpg, .jpeg, .tif, "
+                        ".tiff, .exr or .hdr for pictures, in .mp4, .mkv, .webm, .mov, .gif or .webp for a "
+                        "video, or in "
+                        ".wav for the sound alone",
+                        pattern));
     name.six_faces_ = pattern.find(k_face) != std::string_view::npos;
     for (size_t i = 0; i < pattern.size(); ++i) {
         std::string& part = name.numbered_ ? name.after_ : name.before_;
@@ -104,9 +104,8 @@ OutputPath OutputName::of_frame(int frame) const {
 }
 
 OutputPath OutputName::of_face(int frame, size_t face) const {
-    static constexpr std::array<std::string_view, 6> k_faces{"px", "nx", "py", "ny", "pz", "nz"};
     std::string name = of_frame(frame).string();
-    return output_of(name.replace(name.find(k_face), k_face.size(), k_faces[face]));
+    return output_of(name.replace(name.find(k_face), k_face.size(), k_face_names[face]));
 }
 
 std::string name_after_scene(const fs::path& scene, std::string_view ending) {

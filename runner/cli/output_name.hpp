@@ -5,12 +5,16 @@
 #include "base/output_path.hpp"
 #include "base/result.hpp"
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace tidemark::cli {
+
+/// Of a cube, in OpenGL's order.
+inline constexpr std::array<std::string_view, 6> k_face_names{"px", "nx", "py", "ny", "pz", "nz"};
 
 class OutputName {
 public:

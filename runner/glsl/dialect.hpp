@@ -46,6 +46,8 @@ struct Dialect {
     /// A pixel of Image that is not finite, which bytes cannot hold, has the alpha of
     /// image::k_non_finite_alpha instead of 1.
     bool marks_non_finite = false;
+    /// Image has the alpha that its text gives it, instead of 1.
+    bool keeps_alpha = false;
 
     bool operator==(const Dialect&) const = default;
 };

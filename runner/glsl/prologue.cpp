@@ -69,7 +69,7 @@ constexpr const char* k_image_main = R"(void main() {{
     vec4 tidemark_pixel = vec4(0.0, 0.0, 0.0, 1.0);
     vec2 tidemark_at = gl_FragCoord.xy;
     mainImage(tidemark_pixel, tidemark_at);
-    tidemark_color = vec4(tidemark_pixel.rgb, 1.0);
+    tidemark_color = {};
 {}{}}}
 )";
 
@@ -233,8 +233,9 @@ Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& di
         const bool own = !survey.own_output.empty();
         const std::string_view output = own ? survey.own_output : k_output;
         const bool has_alpha = !own || survey.own_output_type == "vec4";
-        const std::string end =
-            has_alpha && image ? fmt::format("    {}.a = 1.0;\n{}", output, mark(output)) : "";
+        const std::string end = has_alpha && image && !dialect.keeps_alpha
+                                    ? fmt::format("    {}.a = 1.0;\n{}", output, mark(output))
+                                    : "";
         return {{},
                 fmt::format("void main() {{\n{}    {}();\n{}}}\n",
                             has_alpha ? fmt::format("    {} = vec4(0.0, 0.0, 0.0, 1.0);\n", output) : "",
@@ -254,8 +255,9 @@ Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& di
                 std::string(k_cubemap_main)};
     default:
         return {fmt::format("void {}({} vec4 fragColor, in vec2 fragCoord);\n", entry_point(pass.kind), out),
-                image ? fmt::format(k_image_main, mark(k_output),
-                                    survey.wants("st_assert") ? k_paint_assertions : "")
+                image ? fmt::format(k_image_main,
+                                    dialect.keeps_alpha ? "tidemark_pixel" : "vec4(tidemark_pixel.rgb, 1.0)",
+                                    mark(k_output), survey.wants("st_assert") ? k_paint_assertions : "")
                       : fmt::format(k_buffer_main, entry_point(pass.kind))};
     }
 }

@@ -1,5 +1,6 @@
 #include "image/census.hpp"
 
+#include <cassert>
 #include <cstring>
 
 namespace tidemark::image {
@@ -69,6 +70,16 @@ FiniteCensus census(const Image& image) {
             first = place_of(i, image);
     }
     return result;
+}
+
+size_t pixels_of_no_coverage(const Image& image) {
+    assert(image.type == SampleType::f32 && image.has_alpha());
+    const auto channels = size_t(image.channels);
+    const std::span<const float> samples = image.f32();
+    size_t count = 0;
+    for (size_t i = channels - 1; i < samples.size(); i += channels)
+        count += samples[i] < 0.0f || samples[i] > 1.0f;
+    return count;
 }
 
 size_t take_non_finite(Image& image) {

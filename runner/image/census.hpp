@@ -35,6 +35,9 @@ struct FiniteCensus {
 
 FiniteCensus census(const Image& image);
 
+/// How many pixels of a picture of floats have an alpha below 0 or above 1; NaN is neither.
+size_t pixels_of_no_coverage(const Image& image);
+
 /// The alpha of a pixel of bytes that was no number when it was drawn: bytes have no NaN of their own.
 inline constexpr uint8_t k_non_finite_alpha = 51;
 

@@ -18,18 +18,24 @@ void LightMean::add(const Image& picture) {
     const auto samples = picture.f32();
     if (count_++ == 0)
         sums_.assign(samples.size(), 0);
-    for (size_t i = 0; i < samples.size(); ++i) {
-        const double sample = samples[i];
-        const double shown = clamped_ && std::isfinite(sample) ? std::clamp(sample, 0.0, 1.0) : sample;
-        sums_[i] += i % 4 == k_alpha ? sample : light_of_srgb(shown);
+    const auto shown = [&](double sample) {
+        return clamped_ && std::isfinite(sample) ? std::clamp(sample, 0.0, 1.0) : sample;
+    };
+    for (size_t pixel = 0; pixel < samples.size(); pixel += 4) {
+        const double alpha = shown(samples[pixel + k_alpha]);
+        for (size_t i = pixel; i < pixel + k_alpha; ++i)
+            sums_[i] += alpha * light_of_srgb(shown(samples[i]));
+        sums_[pixel + k_alpha] += alpha;
     }
 }
 
 void LightMean::take(Image& mean) {
     const auto samples = mean.f32();
-    for (size_t i = 0; i < samples.size(); ++i) {
-        const double part = sums_[i] / count_;
-        samples[i] = float(i % 4 == k_alpha ? part : srgb_of_light(part));
+    for (size_t pixel = 0; pixel < samples.size(); pixel += 4) {
+        const double alpha = sums_[pixel + k_alpha];
+        for (size_t i = pixel; i < pixel + k_alpha; ++i)
+            samples[i] = float(alpha == 0 && sums_[i] == 0 ? 0 : srgb_of_light(sums_[i] / alpha));
+        samples[pixel + k_alpha] = float(alpha / count_);
     }
     count_ = 0;
 }

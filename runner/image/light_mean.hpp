@@ -1,5 +1,6 @@
 // The mean of pictures as light adds up, and as the eye or a film would take it: samples are taken as sRGB,
-// decoded, added and encoded again. Alpha is added as it is.
+// decoded, added and encoded again. A colour counts as much as it covers: by its straight alpha; where
+// nothing covers a pixel it is black.
 #pragma once
 
 #include "image/image.hpp"

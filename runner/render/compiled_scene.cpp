@@ -107,9 +107,9 @@ Result<void> CompiledScene::compile() {
     for (size_t i = 0; i < scene_.passes.size(); ++i) {
         if (!wanted[i])
             continue;
-        auto linked = TRY(link_pass(
-            scene_, scene_.passes[i],
-            {options_.precision, options_.specialise, options_.tile && i == shown_, marks && i == shown_}));
+        auto linked = TRY(link_pass(scene_, scene_.passes[i],
+                                    {options_.precision, options_.specialise, options_.tile && i == shown_,
+                                     marks && i == shown_, options_.keeps_alpha}));
         supply_other_kinds(scene_, i, linked.dialect.channels);
         reflections[i] = linked.program.reflection();
         if (linked.discards)

@@ -36,6 +36,8 @@ struct RenderOptions {
     std::optional<Extent> tile{};
     /// Bytes of Image tell which pixels were not finite: image::take_non_finite. Not where a pass reads it.
     bool marks_non_finite = false;
+    /// Image has the alpha that its text gives it, instead of 1, also where a pass reads it.
+    bool keeps_alpha = false;
 };
 
 struct CompiledPass {

@@ -76,6 +76,7 @@ private:
         for (glsl::Dialect dialect : dialects) {
             dialect.tiled = options_.tiled;
             dialect.marks_non_finite = options_.marks_non_finite;
+            dialect.keeps_alpha = options_.keeps_alpha;
             auto assembly = reading_.assemble(dialect);
             if (!assembly) {
                 unpromotable_ = std::move(assembly.error());

@@ -26,6 +26,7 @@ struct LinkOptions {
     glsl::Specialise specialise = glsl::Specialise::nothing;
     bool tiled = false;            ///< as glsl::Dialect has it
     bool marks_non_finite = false; ///< likewise
+    bool keeps_alpha = false;      ///< likewise
 };
 
 /// The error has the authors' own files and lines. A specialised text that does not link is not used.

@@ -69,7 +69,7 @@ class Names(CaptureTest):
         self.assertEqual(done.stderr.splitlines(), ["wrote 2 frames, f0.png to f1.png"])
 
     def test_errors(self):
-        formats = (".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr for pictures, in .mp4, .webm, .mov, .gif or .webp for a video, or "
+        formats = (".png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr for pictures, in .mp4, .mkv, .webm, .mov, .gif or .webp for a video, or "
                    "in .wav for the sound alone")
         for options, words in [
             ("-o a.xyz", f"cannot tell the format of 'a.xyz': its name must end in {formats}"),
@@ -78,7 +78,7 @@ class Names(CaptureTest):
             ("-o a%x.png", "-o a%x.png: write the frame number as %04d or ####"),
             ("-o a%d.%d.png", "-o a%d.%d.png: it has two frame numbers; one is enough"),
             ("-o - --json", "--json and -o - both want standard output: give one of them"),
-            ("-o - --depth 16", "--depth: videos and raw frames on standard output always have 8 bits"),
+            ("-o - --depth 16", "--depth: raw frames on standard output have 8 bits, videos what their codec has (--codec)"),
             ("--depth 12", "--depth 12: give 8, 16, half or float"),
             ("-o a.exr --depth 16", "'a.exr' cannot hold 16-bit samples: .exr holds half, float"),
             ("-o a.jpg --depth float", "'a.jpg' cannot hold float samples: .jpg holds 8-bit"),

@@ -186,7 +186,8 @@ class Videos(Resume):
 
     def cut(self, arguments: list[str], segments: int) -> None:
         """Killed when so many segments are whole."""
-        last = self.folder / "out" / f"{arguments[-1][4:]}.segment-{segments - 1:04}.mp4"
+        name = arguments[-1][4:]
+        last = self.folder / "out" / f"{name}.segment-{segments - 1:04}{'.mov' if name.endswith('.mov') else '.mp4'}"
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=environment(),
                                    stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while not last.exists():
@@ -202,7 +203,7 @@ class Videos(Resume):
 
     def test_goes_on_from_whole_segments(self):
         self.write_feedback()
-        for extension, scene in ((".mp4", "a.glsl"), (".webm", "a.glsl"), (".gif", "a.glsl"), (".mp4", "fb")):
+        for extension, scene in ((".mp4", "a.glsl"), (".webm", "a.glsl"), (".gif", "a.glsl"), (".mov", "a.glsl"), (".mp4", "fb")):
             arguments = self.video(extension, scene)
             whole = self.whole(*arguments)
             self.assertEqual(set(whole), {f"a{extension}"})

@@ -1,4 +1,5 @@
 """`capture --shard` and `gather`: what several processes make is what one would have made."""
+import array
 import json
 import shutil
 import subprocess
@@ -81,6 +82,36 @@ class Shards(ProgramTest):
             self.assertTrue(self.succeed("gather", "out", "-o", name).stderr.endswith(f"wrote {name}: 10 frames\n"))
             self.succeed(*SEQUENCE, f"whole/{name}")
             self.assertEqual((self.folder / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
+
+    def luma(self, name: str) -> array.array:
+        return array.array("H", subprocess.run(["ffmpeg", "-v", "error", "-i", name, "-pix_fmt", "gray12le", "-f", "rawvideo", "-"],
+                                               cwd=self.folder, stdout=subprocess.PIPE, check=True).stdout)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_ten_bits_and_alpha_of_a_video_of_them(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / 97.0, sin(iTime * 31.0), 0.7 + p.x / 999.0); }\n")
+        frames = ("capture", "a.glsl", "--size", "48x20", "--frames", "0-5,9", "--fps", "25")
+        for folder, name, options in (("plain", "%d.png", ("--depth", "16")),
+                                      ("straight", "%d.png", ("--depth", "16", "--alpha", "keep")),
+                                      ("multiplied", "%d.tif", ("--depth", "16", "--alpha", "premultiplied"))):
+            (self.folder / folder).mkdir()
+            for k in (1, 2):
+                self.succeed(*frames, *options, "-o", f"{folder}/{name}", "--shard", f"{k}/2")
+            self.succeed("gather", folder, "-o", f"{folder}.mov")
+            alpha = () if folder == "plain" else options[2:]
+            self.succeed(*frames, *alpha, "-o", "whole.mov")
+            theirs, ours = (self.luma(name) for name in (f"{folder}.mov", "whole.mov"))
+            self.assertEqual(len(theirs), 48 * 20 * 10)  # frame 5 is shown for four ticks
+            # Multiplied colours are rounded to 16 bits in the file, before they are to 10.
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(theirs, ours)), 16 if folder == "multiplied" else 0, folder)
+        self.expect_failure_like(["gather", "plain", "--sample", "0", "-o", "a.mp4", "--codec", "vp9"], 2,
+                                 ".*\ntidemark: error: --codec vp9: a .mp4 holds h264, hevc, av1")
+        if " libx265 " in subprocess.run(["ffmpeg", "-v", "error", "-encoders"], stdout=subprocess.PIPE, text=True, check=True).stdout:
+            self.succeed("gather", "plain", "-o", "a.mp4", "--codec", "hevc")
+            self.succeed(*frames, "--codec", "hevc", "-o", "b.mp4")
+            self.assertEqual(*((self.folder / name).read_bytes() for name in ("a.mp4", "b.mp4")))
+        self.expect_failure_like(["gather", "straight", "--sample", "0", "-o", "a2.mp4"], 2,
+                                 ".*\ntidemark: error: -o a2.mp4: the frames have an alpha that it cannot hold: give a .mov")
 
     def test_feedback_goes_on_from_the_shard_before(self):
         self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'

@@ -50,6 +50,8 @@ Result<image::Image> BandOutput::take(image::Image band) {
 
 Result<void> BandOutput::write() {
     not_finite_ += image::take_non_finite(band_);
+    if (band_.type == image::SampleType::f32)
+        no_coverage_ += image::pixels_of_no_coverage(band_);
     if (hash_)
         add_rows(*hash_, band_);
     return stream_ ? stream_->add(band_) : put_raw(band_);

@@ -32,6 +32,8 @@ public:
     std::string sha256() { return hash_ ? hash_->digits() : std::string(); }
     /// Pixels, after `finish`.
     size_t not_finite() const { return not_finite_; }
+    /// Pixels whose alpha is below 0 or above 1, after `finish`; of bytes none.
+    size_t no_coverage() const { return no_coverage_; }
 
 private:
     Result<void> write();
@@ -40,6 +42,7 @@ private:
     std::optional<image::PictureStream> stream_;
     std::optional<Sha256> hash_;
     size_t not_finite_ = 0;
+    size_t no_coverage_ = 0;
     image::Image band_;                 ///< in hand
     std::future<Result<void>> writing_; ///< last: its end is waited for while all else is still there
 };

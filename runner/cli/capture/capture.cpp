@@ -25,6 +25,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -51,6 +52,9 @@ void say_what_was_written(const std::vector<FrameRecord>& records, const Capture
         say(fmt::format(
             "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.size(),
             plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
+    else if (plan.sheet)
+        say(fmt::format("wrote {}: {} moments, frames {} to {}", records.front().file, records.size(),
+                        records.front().frame, records.back().frame));
     else if (records.size() == 1)
         say(fmt::format("wrote {}", records.front().file));
     else if (!records.empty())
@@ -58,18 +62,33 @@ void say_what_was_written(const std::vector<FrameRecord>& records, const Capture
                         records.back().file));
 }
 
-/// One line for all frames: a file does not show what was no number.
-void say_what_is_not_finite(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
-    const auto bad = [](const FrameRecord& record) { return record.not_finite > 0; };
+/// One line for all frames, which begins with the first of them that has such pixels. Nothing where none
+/// has: a file does not show them.
+void warn_of(const std::vector<FrameRecord>& records, size_t FrameRecord::*pixels,
+             const std::function<std::string(const FrameRecord&, const std::string& others)>& words) {
+    const auto bad = [&](const FrameRecord& record) { return record.*pixels > 0; };
     const auto first = std::ranges::find_if(records, bad);
     if (first == records.end())
         return;
     const auto others = std::ranges::count_if(first + 1, records.end(), bad);
-    say(fmt::format("warning: {} not finite{}; where from: {}",
-                    pixels_are(first->not_finite, fmt::format("of frame {}", first->frame)),
-                    others > 0 ? fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")
-                               : "",
-                    plan.trace_command(states_of(plan.frames)(first->frame))));
+    say("warning: " +
+        words(*first,
+              others == 0 ? "" : fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")));
+}
+
+void say_what_pixels_hold(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
+    warn_of(records, &FrameRecord::not_finite, [&](const FrameRecord& first, const std::string& others) {
+        return fmt::format("{} not finite{}; where from: {}",
+                           pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
+                           plan.trace_command(states_of(plan.frames)(first.frame)));
+    });
+    const bool clamped = !plan.to_picture_files() || plan.depth == image::SampleDepth::u8 ||
+                         plan.depth == image::SampleDepth::u16;
+    warn_of(records, &FrameRecord::no_coverage, [&](const FrameRecord& first, const std::string& others) {
+        return fmt::format("alpha is below 0 or above 1 in {} pixel{} of frame {}{}; {}", first.no_coverage,
+                           first.no_coverage > 1 ? "s" : "", first.frame, others,
+                           clamped ? "the file has 0 or 1" : "the file has it as it is");
+    });
 }
 
 /// The plan without the frames that are there already; says how many those are.
@@ -95,7 +114,9 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
     const std::string words = words_on_resuming(plan, run.whole_frames());
     return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().size(),
                        plan.kept.size() + plan.frames.frames.size(),
-                       plan.output.video() ? ": no video was written" : "",
+                       plan.output.video() ? ": no video was written"
+                       : plan.sheet        ? ": no sheet was written"
+                                           : "",
                        words.empty() ? "" : "; " + words);
 }
 
@@ -126,8 +147,8 @@ Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
 Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     if (plan.json)
         TRY(put(dump(run.report(), 2) + "\n"));
-    say_what_is_not_finite(run.records(), plan);
-    const bool written = complete || !plan.output.video();
+    say_what_pixels_hold(run.records(), plan);
+    const bool written = complete || !(plan.output.video() || plan.sheet);
     if (written && !plan.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
     if (complete && plan.loop)
@@ -187,6 +208,15 @@ Result<int> capture(const CaptureOptions& typed) {
 
 } // namespace
 
+void add_codec_option(CLI::App& command, std::string& codec) {
+    command
+        .add_option(
+            "--codec", codec,
+            "Of a video: of .mp4 and .mkv h264 in 8 bits, hevc or av1 in 10; of .webm vp9 in 8, av1 in "
+            "10 [the first]")
+        ->type_name("h264|hevc|av1|vp9");
+}
+
 void add_capture_options(CLI::App& command, CaptureOptions& options) {
     add_scene_options(command, options.scene);
     add_precision_options(command, options.scene);
@@ -201,7 +231,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
     command
         .add_option("-o,--output", options.output,
                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
-                    "a cube; a video: .mp4 .webm .mov .gif .webp; - for "
+                    "a cube; a video: .mp4 .mkv .webm .mov .gif .webp; - for "
                     "raw RGB frames on standard output [SCENE.png]")
         ->type_name("OUT");
     command
@@ -214,16 +244,25 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                     "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
                     "which takes 16 bits or floats [srgb; of another --pass: numbers]")
         ->type_name("srgb|linear");
+    add_codec_option(command, options.codec);
+    command
+        .add_option(
+            "--alpha", options.alpha,
+            "Of Image: 1, as ShaderToy shows it; or what its text gives, straight or with the colours "
+            "multiplied by it [opaque]")
+        ->type_name("opaque|keep|premultiplied");
+    command.add_flag("--layers", options.layers,
+                     "All passes into one .exr, each as a part of its name; a cube as six");
     add_device_options(command, options.device);
     command
         .add_option("--timeout", options.timeout,
                     "Give up where compiling takes longer, or getting ready to draw, or a frame")
         ->type_name("SECONDS")
         ->check(number<double>("a number of seconds"));
-    command.add_option("--duration", options.duration, "Length of a .wav")
+    command
+        .add_option("--duration", options.duration, "Length of a .wav [60], or of what --sheet shows [10]")
         ->type_name("SECONDS")
-        ->check(number<double>("a number of seconds"))
-        ->capture_default_str();
+        ->check(number<double>("a number of seconds"));
     auto* plain = command.add_flag("--plain", options.plain, "Compiles the scene's text whole, as it is");
     command
         .add_option("--allow-difference", options.allowed_difference,
@@ -268,6 +307,16 @@ void add_capture_options(CLI::App& command, CaptureOptions& options) {
                   "Says whether the sequence goes round: how like its first the frame behind its last is")
         ->excludes(resume)
         ->excludes("--shard");
+    command
+        .add_option("--sheet", options.sheet,
+                    "One picture of so many moments, each of --size, evenly from --frames or --duration")
+        ->type_name("COLUMNSxROWS")
+        ->excludes("--layers")
+        ->excludes("--tile")
+        ->excludes(resume)
+        ->excludes("--state-every")
+        ->excludes("--shard")
+        ->excludes("--loop");
     command.add_flag("--json", options.json, "One JSON object about the frames on standard output");
 }
 

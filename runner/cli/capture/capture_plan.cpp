@@ -2,15 +2,18 @@
 
 #include "base/file.hpp"
 #include "base/try.hpp"
+#include "cli/capture/frame_choice.hpp"
 #include "cli/capture/saved_state.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/shard_note.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/sequence.hpp"
+#include "image/files/picture_file.hpp"
 #include "image/files/video_writer.hpp"
 #include "render/tile_grid.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <unordered_set>
@@ -18,6 +21,7 @@
 namespace tidemark::cli {
 namespace {
 
+using image::Alpha;
 using image::SampleDepth;
 using image::SampleType;
 using image::Transfer;
@@ -29,16 +33,23 @@ SampleDepth default_depth(const OutputName& output, const std::string& pass) {
     return natural == SampleDepth::half && state ? SampleDepth::f32 : natural;
 }
 
-Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& pass) {
+/// Of a video of ten bits 16, which a frame is drawn for.
+Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& codec,
+                                const std::string& pass) {
     constexpr std::pair<std::string_view, SampleDepth> k_depths[] = {{"8", SampleDepth::u8},
                                                                      {"16", SampleDepth::u16},
                                                                      {"half", SampleDepth::half},
                                                                      {"float", SampleDepth::f32}};
     const bool raw = output.standard_output() || output.video();
     if (raw && !text.empty())
-        return fail(ErrorCode::usage, "--depth: videos and raw frames on standard output always have 8 bits");
+        return fail(
+            ErrorCode::usage,
+            "--depth: raw frames on standard output have 8 bits, videos what their codec has (--codec)");
+    if (text.empty() && raw)
+        return output.video() && image::has_ten_bits(output.pattern(), codec) ? SampleDepth::u16
+                                                                              : SampleDepth::u8;
     if (text.empty())
-        return raw ? SampleDepth::u8 : default_depth(output, pass);
+        return default_depth(output, pass);
     for (const auto& [name, depth] : k_depths)
         if (name == text)
             return depth;
@@ -62,6 +73,96 @@ Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan
     return Transfer::linear;
 }
 
+/// What Image's alpha is, and what becomes of it in the file.
+Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--alpha {}: {}", text, why));
+    };
+    if (text.empty() || text == "opaque")
+        return Alpha::where_needed;
+    if (text != "keep" && text != "premultiplied")
+        return refuse("give opaque, keep or premultiplied");
+    const Alpha alpha = text == "keep" ? Alpha::straight : Alpha::premultiplied;
+    const auto holds = [&](Alpha kind) {
+        const std::filesystem::path& name = plan.output.pattern();
+        return plan.output.video() ? image::video_holds_alpha(name, kind) : image::holds_alpha(name, kind);
+    };
+    if (drawn_transfer(plan.frames.state.pass) == Transfer::data)
+        return refuse("what another pass holds is numbers: all four are in the file");
+    if (plan.output.standard_output() || !holds(Alpha::straight))
+        return refuse("that has no alpha: give a .png, .tif, .exr, .mov or .webp");
+    if (!holds(alpha))
+        return refuse(fmt::format("readers of a {} multiply themselves: give keep, or a .tif, .exr or .mov",
+                                  plan.output.pattern().extension().string()));
+    return alpha;
+}
+
+/// Of the passes behind Image, which all go into its file. Buffers are state: they keep their floats.
+Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, const CapturePlan& plan) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--layers: {}", why));
+    };
+    if (!options.layers)
+        return std::nullopt;
+    if (!plan.to_picture_files() || !image::holds_layers(plan.output.pattern()))
+        return refuse("only an .exr holds several pictures");
+    if (plan.output.six_faces())
+        return refuse("the faces of a cube are layers: leave {} out of the name");
+    if (!plan.frames.state.pass.empty())
+        return refuse("all passes are in the file: leave --pass out");
+    if (options.tile)
+        return refuse("passes are drawn whole: leave --tile out");
+    if (plan.exposure.shutter > 0)
+        return refuse("with --shutter a frame has several moments, and a buffer has no mean");
+    const Extent extent = plan.frames.state.extent;
+    if (std::max(extent.width, extent.height) > image::k_largest_side)
+        return refuse(fmt::format("a side has at most {} pixels", image::k_largest_side));
+    return options.depth.empty() ? SampleDepth::f32 : plan.depth;
+}
+
+/// How much of a scene a sheet shows where nobody says it.
+constexpr double k_seconds_of_sheet = 10;
+
+/// The moments of its cells.
+Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const FrameSequence& asked,
+                                         const SheetGrid& grid) {
+    const auto refuse = [](std::string why) {
+        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
+    };
+    if (options.frames.frame || options.frames.time)
+        return refuse("one moment is a picture: give --frames or --duration");
+    if (options.frames.frames && options.duration)
+        return refuse("--frames and --duration both say which moments: give one of them");
+    if (options.frames.frames)
+        return asked.frames.size() >= grid.cells()
+                   ? Result<std::vector<int>>(evenly(asked.frames, grid.cells()))
+                   : refuse(fmt::format("{}x{} cells want {} frames, --frames names {}", grid.columns,
+                                        grid.rows, grid.cells(), asked.frames.size()));
+    const double seconds = options.duration.value_or(k_seconds_of_sheet);
+    const double frames = seconds * asked.state.fps;
+    if (!(frames >= double(grid.cells())) || frames > render::k_last_frame)
+        return refuse(fmt::format("{} s at {} frames a second are not {} moments", seconds, asked.state.fps,
+                                  grid.cells()));
+    return beginnings(seconds, asked.state.fps, grid.cells());
+}
+
+/// What does not go with a sheet.
+Result<void> check_sheet(const CapturePlan& plan) {
+    if (!plan.sheet)
+        return {};
+    const auto refuse = [](std::string why) {
+        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
+    };
+    if (!plan.to_picture_files() || plan.output.six_faces())
+        return refuse("it is one picture: give a .png, .jpg, .tif, .exr or .hdr");
+    const Extent extent = plan.sheet->extent(plan.frames.state.extent);
+    const size_t bytes = extent.pixels() * 4 * image::size_of(plan.drawing.samples);
+    if (std::max(extent.width, extent.height) > image::k_largest_side || bytes > image::k_largest_picture)
+        return refuse(fmt::format("it would be {}x{} pixels: give a smaller --size, or fewer cells",
+                                  extent.width, extent.height));
+    return {};
+}
+
 /// A frame that is named twice (`0-9,5-14`) is one file.
 void drop_repeats(std::vector<int>& frames) {
     std::unordered_set<int> seen;
@@ -70,6 +171,7 @@ void drop_repeats(std::vector<int>& frames) {
 
 /// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
 constexpr double k_longest_sound = 3600;
+constexpr double k_seconds_of_sound = 60;
 
 /// Whether what is there already can be told from what is missing.
 Result<void> check_resume(const OutputName& output) {
@@ -136,6 +238,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
         if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
             return fits;
     }
+    TRY(check_sheet(plan));
     TRY(check_keeping(options, output, extent));
     if (options.loop && plan.frames.frames.size() < 2)
         return fail(ErrorCode::usage, "--loop: give --frames, two at least");
@@ -157,28 +260,38 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.frames =
         TRY(resolve(options.frames, options.likeness ? options.likeness->sequence : FrameSequence()));
     std::vector<int>& numbers = plan.frames.frames;
-    const size_t count = std::unordered_set(numbers.begin(), numbers.end()).size();
+    if (!options.sheet.empty()) {
+        plan.sheet = TRY(parse_sheet(options.sheet));
+        numbers = TRY(frames_of_sheet(options, plan.frames, *plan.sheet));
+    }
+    const size_t count = plan.sheet ? 1 : std::unordered_set(numbers.begin(), numbers.end()).size();
     auto output = TRY(options.output ? OutputName::parse(*options.output, count)
                                      : OutputName::of_scene(options.scene.path, count));
     plan.output = std::move(output);
-    if (plan.to_picture_files())
+    if (plan.to_picture_files() && !plan.sheet)
         drop_repeats(numbers);
-    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.frames.state.pass));
+    plan.codec = TRY(parse_codec(options.codec, plan.output));
+    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
     plan.depth = depth;
     plan.transfer = TRY(parse_transfer(options.transfer, plan));
     plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.exposure = exposure_of(options, plan.depth);
-    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several();
+    plan.alpha = TRY(parse_alpha(options.alpha, plan));
+    plan.layers = TRY(parse_layers(options, plan));
+    const bool keeps_alpha = plan.alpha != Alpha::where_needed;
+    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several() && !keeps_alpha;
     plan.drawing = {
         .extent = plan.frames.state.extent,
         .samples = bytes ? SampleType::u8 : SampleType::f32,
         .pass = plan.frames.state.pass,
         .precision = precision_of(options.scene),
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
+        .extras = {.passes = options.layers},
         .marks_non_finite = true,
+        .keeps_alpha = keeps_alpha,
     };
     if (plan.output.video())
-        plan.segments = segments_of(numbers, options.state_every);
+        plan.segments = segments_of(numbers, plan.pace, options.state_every);
     plan.tile_side = options.tile;
     plan.device = options.device;
     plan.timeout = options.timeout;
@@ -212,11 +325,14 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
     return {};
 }
 
-Result<void> check_faces(const CapturePlan& plan) {
+Result<void> check_cube(const CapturePlan& plan) {
     const std::string& name = plan.drawing.pass;
     const auto shown = std::ranges::find(plan.scene.passes, name.empty() ? plan.scene.image().name : name,
                                          &scene::Pass::name);
     const bool other = shown != plan.scene.passes.end() && shown->kind != scene::PassKind::cubemap;
+    if (plan.sheet && shown != plan.scene.passes.end() && !other)
+        return fail(ErrorCode::usage,
+                    "--sheet: a cube is shown as a panorama, which is too large for a cell");
     if (plan.output.six_faces() && other)
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
@@ -266,12 +382,25 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     auto scene = TRY(load(options.scene, plan->frames));
     plan->scene = std::move(scene);
     TRY(spare_what_is_read(options, *plan));
-    TRY(check_faces(*plan));
+    TRY(check_cube(*plan));
     if (!options.shard.empty())
         TRY(take_shard(options, *plan));
     else
         plan->trial = TRY(plan_trial(options, *plan));
     return plan;
+}
+
+Result<std::string> parse_codec(const std::string& text, const OutputName& output) {
+    if (text.empty())
+        return text;
+    const auto codecs = output.video() ? image::codecs_of(output.pattern()) : std::vector<std::string_view>();
+    if (codecs.empty())
+        return fail(ErrorCode::usage, fmt::format("--codec {}: give an .mp4, an .mkv or a .webm", text));
+    if (std::ranges::find(codecs, text) == codecs.end())
+        return fail(ErrorCode::usage,
+                    fmt::format("--codec {}: a {} holds {}", text, output.pattern().extension().string(),
+                                fmt::join(codecs, ", ")));
+    return text;
 }
 
 Transfer drawn_transfer(const std::string& pass) {
@@ -292,14 +421,15 @@ bool wants_sound(const CaptureOptions& options) {
 Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     if (options.resume)
         return fail(ErrorCode::usage, "--resume: a sound is made at once, and whole or not at all");
-    if (!(options.duration > 0) || options.duration > k_longest_sound)
-        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}",
-                                                  options.duration, k_longest_sound));
+    const double duration = options.duration.value_or(k_seconds_of_sound);
+    if (!(duration > 0) || duration > k_longest_sound)
+        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}", duration,
+                                                  k_longest_sound));
     auto scene = TRY(load(options.scene));
     OutputPath output = OutputPath::typed(*options.output).sparing(files_read(scene));
     TRY(check_writable(output));
     return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene),
-                     options.duration};
+                     duration};
 }
 
 } // namespace tidemark::cli

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cli/capture/shard.hpp"
+#include "cli/capture/sheet.hpp"
 #include "cli/capture/video_pace.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
@@ -34,9 +35,13 @@ struct CaptureOptions {
     std::optional<std::string> output;
     std::string depth;
     std::string transfer;
+    bool layers = false;
+    std::string alpha;
+    std::string codec;
     platform::DeviceChoice device{};
     std::optional<double> timeout;
-    double duration = 60;
+    std::string sheet;
+    std::optional<double> duration; ///< seconds
     bool plain = false;
     std::optional<double> allowed_difference;
     std::optional<int> tile;
@@ -59,7 +64,8 @@ struct PlannedTrial {
 /// Frames of a video that are encoded on their own.
 struct VideoSegment {
     std::vector<int> frames;
-    bool kept = false; ///< it is there already
+    std::vector<int> ticks; ///< of the video that each of them is shown
+    bool kept = false;      ///< it is there already
 };
 
 struct CapturePlan {
@@ -68,6 +74,10 @@ struct CapturePlan {
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
+    image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: it is 1
+    std::optional<SheetGrid> sheet{};                 ///< its cells are the frames
+    std::optional<image::SampleDepth> layers{};       ///< the other passes' too, as this; none: one picture
+    std::string codec{};                              ///< of a video; empty: that of its name
     VideoPace pace;                                   ///< of a video
     std::vector<VideoSegment> segments{};             ///< of a video: all its frames
     render::RenderOptions drawing;                    ///< frames drawn whole
@@ -93,6 +103,9 @@ struct CapturePlan {
 
 /// What the samples of a pass stand for as they are drawn. Of a buffer they are state, not colours.
 image::Transfer drawn_transfer(const std::string& pass);
+
+/// --codec, where a file of that name may have it (ErrorCode::usage otherwise).
+Result<std::string> parse_codec(const std::string& text, const OutputName& output);
 
 /// How to go on where a capture is cut short after so many whole frames; empty: it begins anew.
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);

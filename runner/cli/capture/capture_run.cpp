@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/capture/kept_frames.hpp"
+#include "cli/capture/pass_layers.hpp"
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/omissions.hpp"
@@ -9,6 +10,7 @@
 #include "cli/progress.hpp"
 #include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
+#include "image/census.hpp"
 #include "image/files/cubemap_file.hpp"
 #include "image/files/file_samples.hpp"
 #include "render/bands.hpp"
@@ -59,7 +61,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         if (outcome == Outcome::interrupted) {
             if (video_)
                 video_->drop();
-            else
+            else if (!sheet_)
                 TRY(close_output());
             if (whole_frames() == 0 && !plan_.output.standard_output())
                 remove_states(plan_.output);
@@ -88,9 +90,13 @@ Result<void> Capture::open_output() {
         const bool cube = renderer_.shown_pass().kind == scene::PassKind::cubemap;
         video_.emplace(
             TRY(SegmentedVideo::create(plan_, fingerprint_, cube ? image::k_panorama : renderer_.extent())));
+    } else if (plan_.sheet) {
+        sheet_.emplace(*plan_.sheet);
     } else if (!plan_.output.standard_output() && !in_bands()) {
         // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
-        writer_ = std::make_unique<FrameWriter>(unsigned(std::min<size_t>(2, plan_.frames.frames.size())));
+        const auto encoders = unsigned(std::min<size_t>(2, plan_.frames.frames.size()));
+        // All passes of a frame are large: few wait.
+        writer_ = std::make_unique<FrameWriter>(encoders, plan_.layers ? 1 : encoders + 1);
     }
     return {};
 }
@@ -98,6 +104,9 @@ Result<void> Capture::open_output() {
 Result<void> Capture::close_output() {
     if (video_)
         return video_->finish(sound_);
+    if (sheet_)
+        return image::write_picture(plan_.output.of_frame(plan_.frames.frames.front()), sheet_->picture(),
+                                    format_of_sheet());
     return writer_ ? writer_->finish() : Result<void>();
 }
 
@@ -162,7 +171,9 @@ Result<std::optional<image::Image>> Capture::picture_of(int frame, const Interru
     record.milliseconds = milliseconds_since(work->start);
     work.reset();
     record.not_finite = count_not_finite(renderer_, image);
-    if (plan_.depth == image::SampleDepth::u8)
+    if (keeps_alpha())
+        record.no_coverage = image::pixels_of_no_coverage(image);
+    else if (plan_.depth == image::SampleDepth::u8)
         image = image::in_bytes(std::move(image));
     if (plan_.loop)
         loop_.see(image);
@@ -223,14 +234,14 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     record.milliseconds = milliseconds_since(work.start);
     record.sha256 = bands.sha256();
     record.not_finite = bands.not_finite();
+    record.no_coverage = keeps_alpha() ? bands.no_coverage() : 0;
     return Outcome::made;
 }
 
 Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& record) const {
     std::optional<image::PictureStream> stream;
     if (!plan_.output.standard_output()) {
-        // Image's alpha is 1.
-        const bool alpha = renderer_.shown_pass().kind != scene::PassKind::image;
+        const bool alpha = keeps_alpha() || renderer_.shown_pass().kind != scene::PassKind::image;
         stream.emplace(TRY(image::PictureStream::create(plan_.output.of_frame(record.frame),
                                                         renderer_.extent(), alpha, format_of(record))));
     }
@@ -258,6 +269,7 @@ std::optional<image::Image> Capture::draw_samples(int frame, const Interrupt& in
 size_t Capture::whole_frames() {
     constexpr size_t k_faces = 6;
     const size_t made = video_    ? video_->written()
+                        : sheet_  ? size_t{0}
                         : writer_ ? writer_->written() / (plan_.output.six_faces() ? k_faces : 1)
                                   : records_.size();
     return plan_.kept.size() + made;
@@ -281,8 +293,15 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
             error.message += fmt::format(" (in frame {})", record.frame);
             return error;
         });
+    if (sheet_) {
+        sheet_->add(image);
+        return true;
+    }
     if (!writer_)
         return put_raw(image).map([] { return true; });
+    if (plan_.layers)
+        return writer_->push(
+            {record.frame, plan_.output.of_frame(record.frame), {}, {}, layers_of(record, std::move(image))});
     if (!plan_.output.six_faces())
         return writer_->push(
             {record.frame, plan_.output.of_frame(record.frame), std::move(image), format_of(record)});
@@ -294,11 +313,19 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     return wanted;
 }
 
+std::vector<image::PictureLayer> Capture::layers_of(const FrameRecord& record, image::Image image) const {
+    std::vector<image::PictureLayer> layers;
+    layers.push_back({renderer_.shown_pass().name, std::move(image), format_of(record)});
+    for (image::PictureLayer& layer : other_layers(renderer_, *plan_.layers))
+        layers.push_back(std::move(layer));
+    return layers;
+}
+
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     const render::FrameState state = states_(record.frame);
     // First: a JPEG that has no room for all of it keeps what stands in front.
     image::PictureFormat format{
-        plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}, plan_.transfer};
+        plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}, plan_.transfer, plan_.alpha};
     for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.request, plan_.frames, state)))
         format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();
@@ -307,12 +334,34 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
                             {"Pass", renderer_.shown_pass().name},
                             {"Precision", name_of(renderer_.precision())},
                             {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)}});
+    if (keeps_alpha())
+        format.metadata.emplace_back("Alpha",
+                                     plan_.alpha == image::Alpha::straight ? "straight" : "premultiplied");
     if (plan_.exposure.several())
         format.metadata.emplace_back("Samples", std::to_string(plan_.exposure.samples));
     if (plan_.exposure.shutter > 0)
         format.metadata.emplace_back("Shutter", fmt::format("{}", plan_.exposure.shutter));
     if (!plan_.request.defines.empty())
         format.metadata.emplace_back("Defines", fmt::format("{}", fmt::join(plan_.request.defines, "; ")));
+    return format;
+}
+
+/// What its moments share, and which they are.
+image::PictureFormat Capture::format_of_sheet() const {
+    image::PictureFormat format = format_of(records_.front());
+    constexpr std::string_view k_of_one[] = {k_fingerprint, k_moment, "Frame", "iTime", "iMouse", "Camera"};
+    std::erase_if(format.metadata, [&](const auto& fact) {
+        return std::ranges::find(k_of_one, fact.first) != std::end(k_of_one);
+    });
+    std::vector<int> frames;
+    std::vector<double> times;
+    for (const FrameRecord& record : records_) {
+        frames.push_back(record.frame);
+        times.push_back(states_(record.frame).seconds());
+    }
+    format.metadata.emplace_back("Sheet", fmt::format("{}x{}", plan_.sheet->columns, plan_.sheet->rows));
+    format.metadata.emplace_back("Frames", fmt::format("{}", fmt::join(frames, ",")));
+    format.metadata.emplace_back("Times", fmt::format("{}", fmt::join(times, ",")));
     return format;
 }
 
@@ -333,6 +382,10 @@ nlohmann::ordered_json Capture::report() const {
     report["defines"] = plan_.request.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
+    if (plan_.sheet)
+        report["sheet"] = {plan_.sheet->columns, plan_.sheet->rows};
+    if (plan_.layers)
+        report["layers"] = layer_names(renderer_);
     if (plan_.resume)
         report["kept"] = plan_.kept;
     if (plan_.loop)
@@ -341,15 +394,18 @@ nlohmann::ordered_json Capture::report() const {
     for (const FrameRecord& record : records_) {
         const render::FrameState state = states_(record.frame);
         const glm::vec4 mouse = state.mouse.uniform();
-        report["frames"].push_back({{"frame", record.frame},
-                                    {"iTime", state.seconds()},
-                                    {"iMouse", {mouse.x, mouse.y, mouse.z, mouse.w}},
-                                    {"camera", to_string(state.camera)},
-                                    {"file", record.file},
-                                    {"sha256", record.sha256},
-                                    {"not_finite", record.not_finite},
-                                    {"passes_drawn", record.passes_drawn},
-                                    {"milliseconds", record.milliseconds}});
+        auto& frame = report["frames"].emplace_back(
+            nlohmann::ordered_json{{"frame", record.frame},
+                                   {"iTime", state.seconds()},
+                                   {"iMouse", {mouse.x, mouse.y, mouse.z, mouse.w}},
+                                   {"camera", to_string(state.camera)},
+                                   {"file", record.file},
+                                   {"sha256", record.sha256},
+                                   {"not_finite", record.not_finite},
+                                   {"passes_drawn", record.passes_drawn},
+                                   {"milliseconds", record.milliseconds}});
+        if (keeps_alpha())
+            frame["no_coverage"] = record.no_coverage;
     }
     return report;
 }

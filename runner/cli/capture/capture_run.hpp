@@ -33,6 +33,7 @@ struct FrameRecord {
     std::string sha256;
     double milliseconds = 0;
     size_t not_finite = 0;   ///< pixels
+    size_t no_coverage = 0;  ///< pixels of an alpha that is kept and below 0 or above 1
     size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
 };
 
@@ -67,6 +68,7 @@ private:
     };
 
     bool in_bands() const;
+    bool keeps_alpha() const { return plan_.alpha != image::Alpha::where_needed; }
     void prepare(Interrupt& interrupt);
     void restore();
     Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
@@ -79,7 +81,9 @@ private:
     image::Image read_back() const;
     std::optional<image::Image> draw_samples(int frame, const Interrupt& interrupt);
     Result<bool> deliver(const FrameRecord& record, image::Image image);
+    std::vector<image::PictureLayer> layers_of(const FrameRecord& record, image::Image image) const;
     image::PictureFormat format_of(const FrameRecord& record) const;
+    image::PictureFormat format_of_sheet() const;
     Result<void> open_output();
     Result<void> close_output();
     void rescue_output();
@@ -96,7 +100,8 @@ private:
     double prepare_milliseconds_ = 0;
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_; ///< of pictures
-    std::optional<SegmentedVideo> video_; ///< neither: frames go to standard output
+    std::optional<SegmentedVideo> video_;
+    std::optional<Sheet> sheet_; ///< none of these: frames go to standard output
     LoopCheck loop_;
     Watchdog watchdog_; ///< last: its thread may use the writer
     std::vector<FrameRecord> records_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace tidemark::cli {
 
@@ -44,11 +45,17 @@ std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Int
     if (!pace.not_in_time.empty())
         say(fmt::format("the video does not go by the scene's time: {}, {:.4g} a second{}", pace.not_in_time,
                         pace.fps, heard ? "; it is silent" : ""));
+    if (pace.holds)
+        say(fmt::format("its frames are not evenly apart: the video shows each until the next one is due, "
+                        "{:.4g} a second",
+                        pace.fps));
     if (!heard || !pace.not_in_time.empty())
         return std::nullopt;
+    const std::vector<int> shown = ticks_of(frames, pace);
+    const auto ticks = std::accumulate(shown.begin(), shown.end(), size_t{0});
     const double first = plan.frames.state.at_frame(frames.front()).seconds();
     auto samples = draw_sound(plan.scene, plan.drawing.precision, std::max(0.0, first),
-                              double(frames.size()) / pace.fps, interrupt);
+                              double(ticks) / pace.fps, interrupt);
     auto file = StagedFile::create(plan.output.of_frame(0), ".wav");
     Result<void> written = !file      ? fail(std::move(file.error()))
                            : !samples ? fail(std::move(samples.error()))

@@ -18,9 +18,10 @@ Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
         return render::tile_of_side(*plan.tile_side, limit).map([](Extent tile) {
             return std::optional(tile);
         });
-    const auto tile = plan.output.video() ? std::nullopt
-                                          : render::tile_for(plan.drawing.extent,
-                                                             4 * image::size_of(plan.drawing.samples), limit);
+    const bool whole = plan.output.video() || plan.layers || plan.sheet;
+    const auto tile =
+        whole ? std::nullopt
+              : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
     return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, which is shifted
 }
 

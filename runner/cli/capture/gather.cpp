@@ -6,6 +6,7 @@
 #include "cli/capture/capture_run.hpp"
 #include "cli/capture/capture_sound.hpp"
 #include "cli/capture/compile_plan.hpp"
+#include "cli/capture/frame_choice.hpp"
 #include "cli/capture/gathered.hpp"
 #include "cli/capture/kept_frames.hpp"
 #include "cli/capture/run_fingerprint.hpp"
@@ -23,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <memory>
 
@@ -61,13 +63,7 @@ Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& n
 
 /// Evenly spread; of a scene whose frames need the ones before, the first alone.
 std::vector<int> sample_of(const CapturePlan& plan, int count) {
-    const std::vector<int>& frames = plan.frames.frames;
-    const auto wanted =
-        std::min(frames.size(), size_t(may_feed_back(plan.scene) ? std::min(count, 1) : count));
-    std::vector<int> sample;
-    for (size_t i = 0; i < wanted; ++i)
-        sample.push_back(frames[wanted == 1 ? 0 : i * (frames.size() - 1) / (wanted - 1)]);
-    return sample;
+    return evenly(plan.frames.frames, size_t(may_feed_back(plan.scene) ? std::min(count, 1) : count));
 }
 
 /// The largest difference of a sample, 0..1 in a picture of bytes; infinite where the sizes differ.
@@ -130,27 +126,41 @@ Result<std::vector<std::string>> compare_sample(const GatherOptions& options, co
     return wrong;
 }
 
-/// Bytes with four channels, as an encoder takes them.
+/// Four channels, as an encoder takes them, in bytes or floats.
 image::Image for_video(const image::Image& picture) {
-    image::Image bytes(picture.extent, picture.channels, image::SampleType::u8);
-    bytes.bytes = image::file_samples(picture, image::SampleDepth::u8);
-    image::Image rgba(picture.extent, 4, image::SampleType::u8);
-    const size_t shown = picture.channels < 3 ? 1 : 3;
-    for (size_t pixel = 0; pixel < rgba.extent.pixels(); ++pixel)
-        for (size_t channel = 0; channel < 4; ++channel)
-            rgba.u8()[4 * pixel + channel] =
-                channel == 3 ? 255 : bytes.u8()[pixel * size_t(picture.channels) + channel % shown];
+    if (picture.channels == 4)
+        return picture;
+    image::Image rgba(picture.extent, 4, picture.type);
+    const size_t colours = picture.channels < 3 ? 1 : 3, sample = image::size_of(picture.type);
+    const float one = 1;
+    const uint8_t most = 255;
+    const void* const opaque = picture.type == image::SampleType::u8 ? static_cast<const void*>(&most) : &one;
+    for (size_t pixel = 0; pixel < rgba.extent.pixels(); ++pixel) {
+        const std::byte* const from = &picture.bytes[pixel * size_t(picture.channels) * sample];
+        std::byte* const to = &rgba.bytes[4 * pixel * sample];
+        for (size_t channel = 0; channel < 3; ++channel)
+            std::memcpy(to + channel * sample, from + channel % colours * sample, sample);
+        std::memcpy(to + 3 * sample, picture.has_alpha() ? from + colours * sample : opaque, sample);
+    }
     return rgba;
 }
 
-Result<void> make_video(const CapturePlan& pictures, const std::string& name, const Fingerprint& run,
+Result<void> make_video(const CapturePlan& pictures, const GatherOptions& options, const Fingerprint& run,
                         Interrupt& interrupt) {
+    const std::string& name = *options.video;
     CapturePlan plan = pictures;
     plan.output = TRY(OutputName::parse(name, plan.frames.frames.size()));
     if (!plan.output.video() || pictures.output.six_faces())
         return fail(ErrorCode::usage,
-                    fmt::format("-o {}: give an .mp4, a .webm, a .mov, a .gif or a .webp", name));
-    plan.segments = segments_of(plan.frames.frames, 0);
+                    fmt::format("-o {}: give an .mp4, an .mkv, a .webm, a .mov, a .gif or a .webp", name));
+    plan.codec = TRY(parse_codec(options.codec, plan.output));
+    if (plan.alpha != image::Alpha::where_needed &&
+        !image::video_holds_alpha(plan.output.pattern(), plan.alpha))
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: the frames have an alpha that it cannot hold: give a .mov", name));
+    if (plan.alpha == image::Alpha::premultiplied)
+        plan.alpha = image::Alpha::straight; // they are, in the files
+    plan.segments = segments_of(plan.frames.frames, plan.pace, 0);
     const auto sound = draw_sound_of_video(plan, interrupt);
     std::optional<SegmentedVideo> video;
     for (const int frame : plan.frames.frames) {
@@ -188,7 +198,7 @@ Result<int> gather(const GatherOptions& options) {
             !wrong.empty())
             return report(wrong);
     if (options.video)
-        TRY(make_video(plan, *options.video, run, interrupt));
+        TRY(make_video(plan, options, run, interrupt));
     remove_states(plan.output);
     for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
         StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is at work any more
@@ -202,8 +212,11 @@ void add_gather(CLI::App& app, Action& chosen) {
     command->add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
         ->required()
         ->check(unnamed(CLI::ExistingDirectory));
-    command->add_option("-o,--output", options->video, "A video of the frames: .mp4 .webm .mov .gif .webp")
+    command
+        ->add_option("-o,--output", options->video, "A video of the frames: .mp4 .mkv .webm .mov .gif .webp")
         ->type_name("OUT");
+    add_codec_option(*command, options->codec);
+    command->get_option("--codec")->needs("--output");
     command->add_option("--sample", options->samples, "Frames that are drawn again and compared")
         ->type_name("N")
         ->check(unnamed(CLI::NonNegativeNumber))

@@ -12,6 +12,7 @@ namespace tidemark::cli {
 struct GatherOptions {
     std::filesystem::path folder;
     std::optional<std::string> video;
+    std::string codec{};          ///< of it; empty: that of its name
     int samples = 3;              ///< frames that are drawn again
     double tolerance = 2.0 / 255; ///< of a sample, where another device draws
 };

@@ -12,7 +12,8 @@ Json knob_facts(const scene::Scene& scene) {
 
 /// Size and pass are the frame's; tiles, and a trial of two programs that may not differ, change no picture.
 Json drawing_facts(const CapturePlan& plan) {
-    const auto& [extent, samples, pass, precision, specialise, extras, tile, marks] = plan.drawing;
+    const auto& [extent, samples, pass, precision, specialise, extras, tile, marks, keeps_alpha] =
+        plan.drawing;
     const bool differs = plan.trial && plan.trial->frames.allowed;
     Json facts = Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
                               plan.output.pattern().extension().string(), plan.output.six_faces(),
@@ -22,6 +23,14 @@ Json drawing_facts(const CapturePlan& plan) {
         facts.push_back(Json::array({plan.exposure.samples, plan.exposure.shutter}));
     if (plan.transfer != drawn_transfer(pass))
         facts.push_back(Json::array({"transfer", int(plan.transfer)}));
+    if (!plan.codec.empty())
+        facts.push_back(Json::array({"codec", plan.codec}));
+    if (plan.output.video() && plan.pace.holds)
+        facts.push_back(Json::array({"ticks", ticks_of(plan.frames.frames, plan.pace)}));
+    if (keeps_alpha)
+        facts.push_back(Json::array({"alpha", int(plan.alpha)}));
+    if (plan.layers)
+        facts.push_back(Json::array({"layers", int(*plan.layers)}));
     return facts;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <system_error>
 
 namespace tidemark::cli {
@@ -13,21 +14,28 @@ namespace {
 /// As far apart as libx264 sets pictures that depend on no other, so that a long video is no larger for it.
 constexpr int k_default_length = 250;
 
+size_t ticks_in(const VideoSegment& segment) {
+    return std::accumulate(segment.ticks.begin(), segment.ticks.end(), size_t{0});
+}
+
 } // namespace
 
-std::vector<VideoSegment> segments_of(const std::vector<int>& frames, int length) {
+std::vector<VideoSegment> segments_of(const std::vector<int>& frames, const VideoPace& pace, int length) {
     const auto step = std::ptrdiff_t(length > 0 ? length : k_default_length);
     std::vector<VideoSegment> segments;
+    const std::vector<int> ticks = ticks_of(frames, pace);
     for (auto first = frames.begin(); first != frames.end();) {
         const auto end = first + std::min(step, frames.end() - first);
-        segments.push_back({{first, end}});
+        const auto ticks_from = ticks.begin() + (first - frames.begin());
+        segments.push_back({{first, end}, {ticks_from, ticks_from + (end - first)}});
         first = end;
     }
     return segments;
 }
 
 OutputPath segment_file(const OutputName& video, size_t index) {
-    return video.of_frame(0).beside(fmt::format(".segment-{:04}.mp4", index));
+    return video.of_frame(0).beside(
+        fmt::format(".segment-{:04}{}", index, image::segment_extension(video.pattern())));
 }
 
 std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const Fingerprint& run) {
@@ -50,8 +58,8 @@ Result<void> SegmentedVideo::open_next() {
         ++next_;
     if (next_ == segments.size())
         return {};
-    writer_.emplace(TRY(image::SegmentWriter::create(segment_file(plan_.output, next_),
-                                                     plan_.output.pattern(), {extent_, plan_.pace.fps})));
+    writer_.emplace(TRY(
+        image::SegmentWriter::create(segment_file(plan_.output, next_), plan_.output.pattern(), format())));
     pushed_ = 0;
     ++next_;
     return {};
@@ -60,7 +68,8 @@ Result<void> SegmentedVideo::open_next() {
 Result<void> SegmentedVideo::push(const image::Image& image) {
     if (!writer_)
         TRY(open_next());
-    TRY(writer_->push(image));
+    for (int tick = 0; tick < plan_.segments[next_ - 1].ticks[pushed_]; ++tick)
+        TRY(writer_->push(image));
     return ++pushed_ < plan_.segments[next_ - 1].frames.size() ? Result<void>() : close();
 }
 
@@ -75,8 +84,8 @@ Result<void> SegmentedVideo::close() {
 Result<void> SegmentedVideo::finish(const std::filesystem::path& sound) {
     std::vector<image::SegmentFile> files;
     for (size_t i = 0; i < plan_.segments.size(); ++i)
-        files.push_back({segment_file(plan_.output, i).path(), plan_.segments[i].frames.size()});
-    TRY(image::join_segments(plan_.output.of_frame(0), files, plan_.pace.fps, sound));
+        files.push_back({segment_file(plan_.output, i).path(), ticks_in(plan_.segments[i])});
+    TRY(image::join_segments(plan_.output.of_frame(0), files, format(), sound));
     remove_segments();
     return {};
 }

@@ -12,7 +12,7 @@
 namespace tidemark::cli {
 
 /// `length`: frames in each but the last; 0: as nobody said it.
-std::vector<VideoSegment> segments_of(const std::vector<int>& frames, int length);
+std::vector<VideoSegment> segments_of(const std::vector<int>& frames, const VideoPace& pace, int length);
 
 /// `wave.mp4.segment-0003.mp4`.
 OutputPath segment_file(const OutputName& video, size_t index);
@@ -39,6 +39,7 @@ private:
         : plan_(plan), run_(std::move(run)), extent_(extent) {}
     Result<void> open_next();
     Result<void> close();
+    image::VideoFormat format() const { return {extent_, plan_.pace.fps, plan_.codec, plan_.alpha}; }
     void remove_segments() const;
 
     const CapturePlan& plan_;

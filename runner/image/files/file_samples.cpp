@@ -49,6 +49,21 @@ std::vector<std::byte> from_f32(const Image& image, SampleDepth depth) {
     return {};
 }
 
+/// Each colour as `becomes(colour, alpha)`.
+template <class Becomes>
+Image with_colours(const Image& image, const Becomes& becomes) {
+    Image result = in_floats(image);
+    const auto channels = size_t(result.channels);
+    const size_t colours = channels - (result.has_alpha() ? 1 : 0);
+    const std::span<float> samples = result.f32();
+    for (size_t pixel = 0; pixel < samples.size(); pixel += channels) {
+        const float alpha = result.has_alpha() ? samples[pixel + colours] : 1.0f;
+        for (float& sample : samples.subspan(pixel, colours))
+            sample = becomes(sample, alpha);
+    }
+    return result;
+}
+
 } // namespace
 
 std::vector<std::byte> file_samples(const Image& image, SampleDepth depth) {
@@ -77,14 +92,11 @@ Image in_floats(Image image) {
 }
 
 Image in_light(const Image& image) {
-    Image light = in_floats(image);
-    const auto channels = size_t(light.channels);
-    const size_t colours = channels - (light.has_alpha() ? 1 : 0);
-    const std::span<float> samples = light.f32();
-    for (size_t pixel = 0; pixel < samples.size(); pixel += channels)
-        for (float& sample : samples.subspan(pixel, colours))
-            sample = float(light_of_srgb(sample));
-    return light;
+    return with_colours(image, [](float colour, float) { return float(light_of_srgb(colour)); });
+}
+
+Image premultiplied(const Image& image) {
+    return with_colours(image, [](float colour, float alpha) { return colour * alpha; });
 }
 
 Image radiance_samples(const Image& image) {

@@ -23,6 +23,9 @@ Image in_floats(Image image);
 /// The light that the samples of an sRGB picture stand for, in floats; alpha is none and stays.
 Image in_light(const Image& image);
 
+/// In floats, the colours multiplied by alpha, whatever both are.
+Image premultiplied(const Image& image);
+
 /// What Radiance HDR can hold: three channels of f32, grey repeated, alpha left out, negatives and NaN as 0,
 /// nothing above the format's largest number.
 Image radiance_samples(const Image& image);

@@ -124,6 +124,7 @@ EncodeJob job_without_samples(const WrittenFormat& written, Extent extent, int c
     const bool profiled = written.format == FileFormat::jpeg || written.format == FileFormat::tiff;
     EncodeJob job{written.format, wanted.depth, extent, channels, {}, attributes(written.format, wanted)};
     job.transfer = wanted.transfer;
+    job.premultiplied = wanted.alpha == Alpha::premultiplied;
     if (profiled && wanted.transfer && channels >= 3)
         job.icc_profile = icc_profile(*wanted.transfer);
     return job;
@@ -136,14 +137,18 @@ std::pair<std::vector<std::byte>, int> stored(const WrittenFormat& written, cons
         return std::pair(file_samples(kept, wanted.depth), kept.channels);
     };
     const auto light = wanted.transfer == Transfer::linear ? std::optional(in_light(drawn)) : std::nullopt;
-    const Image& image = light ? *light : drawn;
+    const auto associated = wanted.alpha == Alpha::premultiplied
+                                ? std::optional(premultiplied(light ? *light : drawn))
+                                : std::nullopt;
+    const Image& image = associated ? *associated : light ? *light : drawn;
     if (written.format == FileFormat::hdr)
         return take(radiance_samples(image));
     return image.has_alpha() && !(alpha && written.has_alpha) ? take(without_alpha(image)) : take(image);
 }
 
 EncodeJob encode_job(const WrittenFormat& written, const Image& image, const PictureFormat& wanted) {
-    auto [samples, channels] = stored(written, image, !has_opaque_alpha(image), wanted);
+    const bool alpha = wanted.alpha != Alpha::where_needed || !has_opaque_alpha(image);
+    auto [samples, channels] = stored(written, image, alpha, wanted);
     EncodeJob job = job_without_samples(written, image.extent, channels, wanted);
     job.samples = std::move(samples);
     return job;
@@ -215,6 +220,17 @@ bool holds_metadata(const fs::path& path) {
     return format && format->format != FileFormat::hdr;
 }
 
+bool holds_alpha(const fs::path& path, Alpha alpha) {
+    const WrittenFormat* format = written_format(path);
+    return format && format->has_alpha &&
+           (alpha != Alpha::premultiplied || format->format != FileFormat::png);
+}
+
+bool holds_layers(const fs::path& path) {
+    const WrittenFormat* format = written_format(path);
+    return format && format->format == FileFormat::exr;
+}
+
 std::jthread preload_picture_codec(const fs::path& path) {
     const WrittenFormat* format = written_format(path);
     if (!format || format->format == FileFormat::png)
@@ -259,6 +275,25 @@ Result<void> write_picture(const OutputPath& output, const Image& image, const P
     if (!*file)
         return cannot_write(path, file->error());
     return write_file(output, std::as_bytes(std::span(**file)));
+}
+
+Result<void> write_layers(const OutputPath& output, std::span<const PictureLayer> layers) {
+    const fs::path& path = output.path();
+    assert(holds_layers(path) && !layers.empty());
+    std::vector<EncodeJob> jobs;
+    for (const PictureLayer& layer : layers) {
+        TRY(check_picture_format(path, layer.format.depth));
+        TRY(check_extent(path, layer.image));
+        jobs.push_back(encode_job(*written_format(path), layer.image, layer.format));
+        jobs.back().part = layer.name;
+    }
+    const auto& codec = picture_codec();
+    if (!codec)
+        return fail(ErrorCode::write, codec.error().message);
+    const auto file = (*codec)->encode_parts(jobs);
+    if (!file)
+        return cannot_write(path, file.error());
+    return write_file(output, std::as_bytes(std::span(*file)));
 }
 
 /// A stream for encoders, which learn nothing of a disk that is full: libjpeg would end the process, and

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -28,6 +29,13 @@ enum class SampleDepth { u8, u16, half, f32 };
 inline constexpr int k_largest_side = 16384;
 inline constexpr size_t k_largest_picture = size_t{1} << 30;
 
+/// What becomes of a picture's alpha in a file that has one.
+enum class Alpha {
+    where_needed,  ///< as it is; left out where it is 1 all over
+    straight,      ///< as it is: the colours are not multiplied by it
+    premultiplied, ///< the file's colours are multiplied by it, after they are decoded
+};
+
 /// How a picture is stored.
 struct PictureFormat {
     SampleDepth depth = SampleDepth::u8;
@@ -40,6 +48,7 @@ struct PictureFormat {
     /// a profile, EXR in attributes. An Image that goes into a file of `linear` has its sRGB decoded on the
     /// way. None: the file says nothing.
     std::optional<Transfer> transfer{};
+    Alpha alpha = Alpha::where_needed;
 };
 
 /// Whether `path` ends in a format we write (.png .jpg .jpeg .tif .tiff .exr .hdr, in either case); the
@@ -55,6 +64,12 @@ SampleDepth natural_depth(const std::filesystem::path& path);
 
 /// Whether a picture of that name keeps PictureFormat::metadata.
 bool holds_metadata(const std::filesystem::path& path);
+
+/// Whether a picture of that name may hold alpha in that way: .png straight, .tif and .exr in both.
+bool holds_alpha(const std::filesystem::path& path, Alpha alpha);
+
+/// Whether a picture of that name may hold several under names of their own: .exr.
+bool holds_layers(const std::filesystem::path& path);
 
 /// Starts loading what writing `path` will need in the background, if anything; returns at once. Never
 /// needed, only faster. The caller keeps the thread in a scope that ends before `main` returns (its
@@ -72,6 +87,17 @@ Result<Image> read_picture(const std::filesystem::path& path);
 /// for f32 every bit is kept, but HDR has no negatives, NaN or infinities and 8 bits of each value.
 /// The same picture gives the same bytes.
 Result<void> write_picture(const OutputPath& output, const Image& image, const PictureFormat& format = {});
+
+/// One of several pictures in a file.
+struct PictureLayer {
+    std::string name;
+    Image image;
+    PictureFormat format;
+};
+
+/// As write_picture, one part of the file for each. They may differ in size and depth, not in primaries. The
+/// first one's metadata is the file's for read_metadata, and its picture is what read_picture reads.
+Result<void> write_layers(const OutputPath& output, std::span<const PictureLayer> layers);
 
 class RowEncoder;
 

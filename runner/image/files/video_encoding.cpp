@@ -1,5 +1,12 @@
 #include "image/files/video_encoding.hpp"
 
+#include "base/child_process.hpp"
+#include "base/try.hpp"
+#include "image/files/video_times.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace tidemark::image {
@@ -11,61 +18,146 @@ using Words = std::vector<std::string>;
 constexpr const char* k_upright_bt709 = "vflip,scale=out_color_matrix=bt709:out_range=tv";
 constexpr const char* k_palettes = "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
 
-Words bt709(Words encoder) {
-    for (const char* word : {"-vf", k_upright_bt709, "-colorspace", "bt709", "-color_primaries", "bt709",
-                             "-color_trc", "iec61966-2-1"})
-        encoder.emplace_back(word);
+Words with(Words words, std::initializer_list<const char*> more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+Words tagged(Words encoder) {
+    const Words colours = colour_words();
+    encoder.insert(encoder.end(), colours.begin(), colours.end());
     return encoder;
 }
 
+Words bt709(Words encoder) {
+    return tagged(with(std::move(encoder), {"-vf", k_upright_bt709}));
+}
+
 /// Half the colour resolution, which every player takes, needs even sizes in H.264.
-Words h264(Extent extent) {
-    const bool even = extent.width % 2 == 0 && extent.height % 2 == 0;
+Words h264(const VideoFormat& format, std::string_view) {
+    const bool even = format.extent.width % 2 == 0 && format.extent.height % 2 == 0;
     return bt709({"-c:v", "libx264", "-crf", "18", "-pix_fmt", even ? "yuv420p" : "yuv444p"});
 }
 
-Words vp9(Extent) {
+Words vp9(const VideoFormat&, std::string_view) {
     return bt709({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-cpu-used", "4", "-row-mt", "1",
                   "-pix_fmt", "yuv420p"});
 }
 
-/// Of 4444 all colours are kept, in 10 bits, and sound as it is. The encoder takes what frames say of their
-/// colours.
-Words prores() {
-    return {"-vf",
-            "scale=out_color_matrix=bt709:out_range=tv,"
-            "setparams=colorspace=bt709:color_primaries=bt709:color_trc=iec61966-2-1",
-            "-c:v",
-            "prores_ks",
-            "-profile:v",
-            "4444",
-            "-pix_fmt",
-            "yuv444p10le",
-            "-vendor",
-            "apl0",
-            "-movflags",
-            "+write_colr",
-            "-c:a",
-            "pcm_s16le"};
+/// Its own words in the file would name its threads. Players of Apple's want the tag.
+Words hevc(const VideoFormat& format, std::string_view encoder) {
+    const bool even = format.extent.width % 2 == 0 && format.extent.height % 2 == 0;
+    return tagged({"-c:v", std::string(encoder), "-crf", "18", "-x265-params", "log-level=error:info=0",
+                   "-pix_fmt", even ? "yuv420p10le" : "yuv444p10le", "-tag:v", "hvc1"});
 }
 
-Words lossless(Extent) {
+Words av1(const VideoFormat&, std::string_view encoder) {
+    Words words{"-c:v", std::string(encoder), "-crf", "24", "-pix_fmt", "yuv420p10le"};
+    return tagged(encoder == "libsvtav1"
+                      ? with(std::move(words), {"-preset", "6"})
+                      : with(std::move(words), {"-b:v", "0", "-cpu-used", "6", "-row-mt", "1"}));
+}
+
+/// Of 4444 all colours are kept, in 10 bits, and alpha in 16. The encoder takes what frames say of their
+/// colours.
+Words prores(const VideoFormat& format, std::string_view) {
+    const bool alpha = format.alpha != Alpha::where_needed;
+    return tagged(
+        with({"-c:v", "prores_ks", "-profile:v", "4444", "-vendor", "apl0", "-movflags", "+write_colr"},
+             {"-pix_fmt", alpha ? "yuva444p10le" : "yuv444p10le", "-alpha_bits", alpha ? "16" : "0"}));
+}
+
+/// H.264 has no alpha.
+Words lossless(const VideoFormat& format, std::string_view) {
+    if (format.alpha != Alpha::where_needed)
+        return {"-vf", "vflip", "-c:v", "png", "-pix_fmt", "rgba"};
     return {"-vf", "vflip", "-c:v", "libx264rgb", "-qp", "0", "-preset", "ultrafast", "-pix_fmt", "rgb24"};
+}
+
+struct Encoder {
+    std::string_view codec;
+    std::string_view name;
+    int step = 1;     ///< a side is a multiple of it
+    int shortest = 1; ///< side
+};
+
+/// Of a codec that an ffmpeg may lack, the best first. SVT-AV1 refuses odd and small pictures.
+constexpr Encoder k_encoders[] = {
+    {"hevc", "libx265", 1, 16}, {"av1", "libsvtav1", 2, 64}, {"av1", "libaom-av1"}};
+
+bool takes(const Encoder& encoder, Extent extent) {
+    const auto side = [&](int length) { return length % encoder.step == 0 && length >= encoder.shortest; };
+    return side(extent.width) && side(extent.height);
+}
+
+/// What `ffmpeg -encoders` prints; asked once.
+const Result<std::string>& known_encoders() {
+    static const Result<std::string> known =
+        output_of({"ffmpeg", "-hide_banner", "-loglevel", "error", "-encoders"}, {1 << 20}, k_get_ffmpeg);
+    return known;
 }
 
 } // namespace
 
-const VideoEncoding* encoding_of(const std::filesystem::path& path) {
-    static const VideoEncoding encodings[] = {
-        {".mp4", h264, {"-c:v", "copy", "-c:a", "aac", "-b:a", "192k", "-movflags", "+faststart"}},
-        {".webm", vp9, {"-c:v", "copy", "-c:a", "libopus"}},
-        {".gif", lossless, {"-filter_complex", k_palettes, "-loop", "0"}},
-        {".webp", lossless, {"-an", "-c:v", "libwebp_anim", "-lossless", "1", "-loop", "0"}},
-        {".mov", lossless, prores()},
+const std::vector<VideoEncoding>& encodings() {
+    using enum Alpha;
+    static const Words mp4{"-c:v", "copy", "-c:a", "aac", "-b:a", "192k", "-movflags", "+faststart"};
+    static const Words mkv{"-c:v", "copy", "-c:a", "aac", "-b:a", "192k"};
+    static const Words webm{"-c:v", "copy", "-c:a", "libopus"};
+    static const Words gif{"-filter_complex", k_palettes, "-loop", "0"};
+    static const Words webp{"-an", "-c:v", "libwebp_anim", "-lossless", "1", "-loop", "0"};
+    static const Words mov{"-c:v", "copy", "-movflags", "+write_colr", "-c:a", "pcm_s16le"};
+    static const std::vector<VideoEncoding> all{
+        {".mp4", "h264", false, {}, h264, mp4},
+        {".mp4", "hevc", true, {}, hevc, with(mp4, {"-tag:v", "hvc1"})},
+        {".mp4", "av1", true, {}, av1, mp4},
+        {".mkv", "h264", false, {}, h264, mkv},
+        {".mkv", "hevc", true, {}, hevc, mkv},
+        {".mkv", "av1", true, {}, av1, mkv},
+        {".webm", "vp9", false, {}, vp9, webm},
+        {".webm", "av1", true, {}, av1, webm},
+        {".mov", "prores", true, {straight, premultiplied}, prores, mov},
+        {".gif", "", false, {}, lossless, gif},
+        {".webp", "", false, {straight}, lossless, webp},
     };
+    return all;
+}
+
+std::string_view segment_extension(const VideoEncoding& encoding) {
+    return encoding.codec == "prores" ? ".mov" : ".mp4";
+}
+
+const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec) {
     const std::string extension = path.extension().string();
-    const auto* found = std::ranges::find(encodings, std::string_view(extension), &VideoEncoding::extension);
-    return found == std::end(encodings) ? nullptr : found;
+    const auto found = std::ranges::find_if(encodings(), [&](const VideoEncoding& encoding) {
+        return encoding.extension == extension && (codec.empty() || encoding.codec == codec);
+    });
+    return found == encodings().end() ? nullptr : &*found;
+}
+
+Result<std::string_view> encoder_of(std::string_view codec, Extent extent) {
+    Words missing;
+    for (const Encoder& encoder : k_encoders) {
+        if (encoder.codec != codec || !takes(encoder, extent))
+            continue;
+        const std::string known = TRY(known_encoders());
+        if (known.find(fmt::format(" {} ", encoder.name)) != known.npos)
+            return encoder.name;
+        missing.emplace_back(encoder.name);
+    }
+    const bool optional = std::ranges::find(k_encoders, codec, &Encoder::codec) != std::end(k_encoders);
+    if (!optional)
+        return std::string_view();
+    if (missing.empty())
+        return fail(ErrorCode::write, fmt::format("--codec {}: no encoder takes {}x{} pixels", codec,
+                                                  extent.width, extent.height));
+    return fail(ErrorCode::write, fmt::format("--codec {}: this ffmpeg has no {}, which that needs", codec,
+                                              fmt::join(missing, " and no ")));
+}
+
+Words colour_words() {
+    return {"-color_range",     "tv",    "-colorspace", "bt709",
+            "-color_primaries", "bt709", "-color_trc",  "iec61966-2-1"};
 }
 
 Words ffmpeg_words() {

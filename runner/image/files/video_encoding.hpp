@@ -2,28 +2,45 @@
 // whole.
 #pragma once
 
-#include "base/extent.hpp"
+#include "base/result.hpp"
+#include "image/files/video_writer.hpp"
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::image {
 
-/// H.264 (with AAC) in .mp4, VP9 (with Opus) in .webm, ProRes 4444 (with PCM) in .mov; colours as BT.709. A
-/// GIF has a palette for each frame, a WebP all bytes of it. These two and ProRes are encoded when they are
-/// whole; until then their frames are kept without loss.
+/// H.264, HEVC and AV1 (with AAC) in .mp4 and .mkv, VP9 and AV1 (with Opus) in .webm, ProRes 4444 (with PCM)
+/// in .mov; colours as BT.709. A GIF has a palette for each frame, a WebP all bytes of it: these two are
+/// encoded when they are whole; until then their frames are kept without loss.
 struct VideoEncoding {
     std::string_view extension;
-    /// From frames that run from the bottom up into an .mp4 without sound.
-    std::vector<std::string> (*segment)(Extent extent);
+    std::string_view codec;    ///< as --codec names it; empty: it has no name there
+    bool ten_bits;             ///< a sample; else 8
+    std::vector<Alpha> alphas; ///< that it can hold
+    /// Into a file without sound, by that encoder (`encoder_of`).
+    std::vector<std::string> (*segment)(const VideoFormat& format, std::string_view encoder);
     /// From such segments, and a sound, into the whole.
     std::vector<std::string> whole;
 };
 
-/// By the name's extension; null where it is none of a video.
-const VideoEncoding* encoding_of(const std::filesystem::path& path);
+const std::vector<VideoEncoding>& encodings();
 
+/// Of the file that a segment is: MP4 has no ProRes.
+std::string_view segment_extension(const VideoEncoding& encoding);
+
+/// By the name's extension, and the codec (empty: the one that such a file has by nature); null where there
+/// is none.
+const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec = {});
+
+/// The first of the encoders of that codec which this ffmpeg has and which takes that size, as ffmpeg names
+/// it. Fails (ErrorCode::write) where there is none.
+Result<std::string_view> encoder_of(std::string_view codec, Extent extent);
+
+/// What is said of colours that are coded by BT.709 already: of planes of 10 bits.
+std::vector<std::string> colour_words();
 /// What both begin with.
 std::vector<std::string> ffmpeg_words();
 /// The same frames make the same file: no date, no version.

@@ -1,13 +1,16 @@
 #include "image/files/video_writer.hpp"
 
 #include "base/try.hpp"
+#include "image/files/file_samples.hpp"
 #include "image/files/video_encoding.hpp"
 #include "image/files/video_note.hpp"
+#include "image/files/video_planes.hpp"
 #include "image/files/video_times.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -26,22 +29,33 @@ Words joined(Words words, const More&... more) {
     return words;
 }
 
-Words words_for_segment(const fs::path& staged, const fs::path& video, const VideoFormat& format) {
-    const Words input{"-f",         "rawvideo",
-                      "-pix_fmt",   "rgb0",
-                      "-s",         fmt::format("{}x{}", format.extent.width, format.extent.height),
-                      "-framerate", fmt::format("{}", format.fps),
-                      "-i",         "pipe:0"};
-    return joined(ffmpeg_words(), input, encoding_of(video)->segment(format.extent), reproducible_words(),
-                  Words{"-f", "mp4", "file:" + staged.string()});
+/// Frames as `SegmentWriter::push` hands them over.
+const char* layout_of(const VideoEncoding& encoding, Alpha alpha) {
+    const bool has_alpha = alpha != Alpha::where_needed;
+    if (encoding.ten_bits)
+        return has_alpha ? "yuva444p10" : "yuv444p10";
+    return has_alpha ? "rgba" : "rgb0";
 }
 
-Words words_for_joining(const fs::path& staged, const fs::path& sound) {
+Words words_for_segment(const fs::path& staged, const VideoEncoding& encoding, const VideoFormat& format,
+                        std::string_view encoder) {
+    Words input{"-f",         "rawvideo",
+                "-pix_fmt",   layout_of(encoding, format.alpha),
+                "-s",         fmt::format("{}x{}", format.extent.width, format.extent.height),
+                "-framerate", fmt::format("{}", format.fps)};
+    if (encoding.ten_bits)
+        input = joined(input, colour_words());
+    return joined(ffmpeg_words(), input, Words{"-i", "pipe:0"}, encoding.segment(format, encoder),
+                  reproducible_words(),
+                  Words{"-f", segment_extension(encoding).data() + 1, "file:" + staged.string()});
+}
+
+Words words_for_joining(const fs::path& staged, const VideoEncoding& encoding, const fs::path& sound) {
     Words input{"-f", "concat", "-safe", "0", "-protocol_whitelist", "file,pipe", "-i", "pipe:0"};
     if (!sound.empty())
         input =
             joined(input, Words{"-protocol_whitelist", "file", "-f", "wav", "-i", "file:" + sound.string()});
-    return joined(ffmpeg_words(), input, encoding_of(staged)->whole, reproducible_words(),
+    return joined(ffmpeg_words(), input, encoding.whole, reproducible_words(),
                   Words{"file:" + staged.string()});
 }
 
@@ -102,19 +116,53 @@ bool is_video_name(const fs::path& path) {
     return encoding_of(path) != nullptr;
 }
 
+std::vector<std::string_view> codecs_of(const fs::path& path) {
+    std::vector<std::string_view> codecs;
+    for (const VideoEncoding& encoding : encodings())
+        if (encoding.extension == path.extension().string() && !encoding.codec.empty())
+            codecs.push_back(encoding.codec);
+    return codecs;
+}
+
+bool has_ten_bits(const fs::path& path, std::string_view codec) {
+    const VideoEncoding* const encoding = encoding_of(path, codec);
+    return encoding && encoding->ten_bits;
+}
+
+bool video_holds_alpha(const fs::path& path, Alpha alpha) {
+    const VideoEncoding* const encoding = encoding_of(path);
+    return encoding && std::ranges::find(encoding->alphas, alpha) != encoding->alphas.end();
+}
+
+std::string_view segment_extension(const fs::path& video) {
+    return segment_extension(*encoding_of(video));
+}
+
 Result<SegmentWriter> SegmentWriter::create(const OutputPath& segment, const fs::path& video,
                                             const VideoFormat& format) {
-    assert(is_video_name(video));
+    const VideoEncoding* const encoding = encoding_of(video, format.codec);
+    assert(encoding);
     auto staged = TRY(StagedFile::create(segment));
-    auto encoder = TRY(start(words_for_segment(staged.path(), video, format), video));
-    return SegmentWriter(video, std::move(staged), std::move(encoder));
+    const auto name = TRY(encoder_of(encoding->codec, format.extent));
+    auto encoder = TRY(start(words_for_segment(staged.path(), *encoding, format, name), video));
+    return SegmentWriter(video, encoding->ten_bits, format.alpha, std::move(staged), std::move(encoder));
 }
 
 Result<void> SegmentWriter::push(const Image& image) {
-    assert(image.type == SampleType::u8 && image.channels == 4);
-    if (encoder_.write(image.bytes, words_))
-        return {};
-    return failure(video_, words_);
+    assert(image.channels == 4);
+    const auto hand_over = [&](std::span<const std::byte> bytes) -> Result<void> {
+        return encoder_.write(bytes, words_) ? Result<void>() : failure(video_, words_);
+    };
+    const auto planes_of = [&](const Image& shown) {
+        return ten_bit_planes(shown, alpha_ != Alpha::where_needed);
+    };
+    if (ten_bits_) {
+        const auto planes =
+            alpha_ == Alpha::premultiplied ? planes_of(premultiplied(image)) : planes_of(image);
+        return hand_over(std::as_bytes(std::span(planes)));
+    }
+    return image.type == SampleType::u8 ? hand_over(image.bytes)
+                                        : hand_over(file_samples(image, SampleDepth::u8));
 }
 
 Result<void> SegmentWriter::finish(std::string_view note) {
@@ -132,12 +180,14 @@ std::optional<std::string> note_of_segment(const fs::path& segment) {
     return file ? note_at_end(*file) : std::nullopt;
 }
 
-Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile> segments, double fps,
-                           const fs::path& sound) {
+Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile> segments,
+                           const VideoFormat& format, const fs::path& sound) {
+    const VideoEncoding* const encoding = encoding_of(video.path(), format.codec);
+    assert(encoding);
     auto staged = TRY(StagedFile::create(video));
-    auto joiner = TRY(start(words_for_joining(staged.path(), sound), video.path()));
+    auto joiner = TRY(start(words_for_joining(staged.path(), *encoding, sound), video.path()));
     std::string words;
-    const std::string list = list_of(segments, fps);
+    const std::string list = list_of(segments, format.fps);
     if (!joiner.write(std::as_bytes(std::span(list)), words) || !ended_well(joiner, words))
         return failure(video.path(), words);
     return staged.commit();

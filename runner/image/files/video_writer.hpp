@@ -5,12 +5,15 @@
 #include "base/child_process.hpp"
 #include "base/file.hpp"
 #include "base/result.hpp"
+#include "image/files/picture_file.hpp"
 #include "image/image.hpp"
 
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace tidemark::image {
 
@@ -18,33 +21,53 @@ namespace tidemark::image {
 /// down.
 inline constexpr double k_fastest_gif = 50;
 
-/// Whether the name is one of a video: `.mp4`, `.webm`, `.mov`, `.gif`, `.webp`.
+/// Whether the name is one of a video: `.mp4`, `.mkv`, `.webm`, `.mov`, `.gif`, `.webp`.
 bool is_video_name(const std::filesystem::path& path);
+
+/// The codecs that a video of that name may have, as `--codec` names them, its own first: of `.mp4` h264,
+/// hevc, av1; of a `.gif` none.
+std::vector<std::string_view> codecs_of(const std::filesystem::path& path);
+
+/// Whether a video of that name and codec (empty: its own) has 10 bits a sample; else it has 8.
+bool has_ten_bits(const std::filesystem::path& path, std::string_view codec);
+
+/// Whether a video of that name may hold alpha in that way: .webp straight, .mov in both.
+bool video_holds_alpha(const std::filesystem::path& path, Alpha alpha);
+
+/// Of the segments of a video of that name: `.mp4`, or `.mov`.
+std::string_view segment_extension(const std::filesystem::path& video);
 
 struct VideoFormat {
     Extent extent;
     double fps = 60;
+    std::string codec{};               ///< empty: that which the name says
+    Alpha alpha = Alpha::where_needed; ///< that: none
 };
 
 /// One segment, which begins with a frame of its own and depends on no other.
 class SegmentWriter {
 public:
     /// Starts ffmpeg. `video`: what the segment is to become a part of. Fails (ErrorCode::write) when it is
-    /// not installed, naming the package.
+    /// not installed, naming the package, or lacks the codec.
     static Result<SegmentWriter> create(const OutputPath& segment, const std::filesystem::path& video,
                                         const VideoFormat& format);
 
-    /// RGBA8, alpha ignored. Waits while the encoder is busy. ErrorCode::write has the encoder's last words.
+    /// Of four channels, in bytes or floats. Waits while the encoder is busy. ErrorCode::write has the
+    /// encoder's last words.
     Result<void> push(const Image& image);
     /// Waits for the encoder, puts `note` behind the pictures and moves the file to its place. Without it
     /// nothing is left behind.
     Result<void> finish(std::string_view note);
 
 private:
-    SegmentWriter(std::filesystem::path video, StagedFile staged, ChildProcess encoder)
-        : video_(std::move(video)), staged_(std::move(staged)), encoder_(std::move(encoder)) {}
+    SegmentWriter(std::filesystem::path video, bool ten_bits, Alpha alpha, StagedFile staged,
+                  ChildProcess encoder)
+        : video_(std::move(video)), ten_bits_(ten_bits), alpha_(alpha), staged_(std::move(staged)),
+          encoder_(std::move(encoder)) {}
 
     std::filesystem::path video_;
+    bool ten_bits_;
+    Alpha alpha_;
     StagedFile staged_;
     ChildProcess encoder_;
     std::string words_;
@@ -59,7 +82,7 @@ struct SegmentFile {
 std::optional<std::string> note_of_segment(const std::filesystem::path& segment);
 
 /// `sound`: a WAV file to go with it; empty: silent. Whole or not at all (ErrorCode::write).
-Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile> segments, double fps,
-                           const std::filesystem::path& sound);
+Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile> segments,
+                           const VideoFormat& format, const std::filesystem::path& sound);
 
 } // namespace tidemark::image

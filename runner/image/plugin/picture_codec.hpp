@@ -30,6 +30,8 @@ struct EncodeJob {
     std::vector<std::pair<std::string, std::string>> attributes; ///< text, under its final name
     std::optional<Transfer> transfer{};                          ///< of these samples
     std::vector<std::byte> icc_profile{};                        ///< that says the same; empty: none
+    bool premultiplied = false;                                  ///< colours, by alpha
+    std::string part{};                                          ///< its name among several in a file
 };
 
 /// The error is the reason alone, in one line.
@@ -58,9 +60,11 @@ struct PictureCodec {
     TextsResult (*texts)(FileFormat, std::span<const std::byte>) noexcept;
     /// Of a job without samples, into an empty file. The file must outlive it.
     RowEncoderResult (*encode_rows)(const EncodeJob&, std::FILE*) noexcept;
+    /// Several pictures in one file, each under its name. They may differ in size, channels and depth.
+    EncodeResult (*encode_parts)(std::span<const EncodeJob>) noexcept;
 };
 
-inline constexpr unsigned k_picture_codec_version = 4;
+inline constexpr unsigned k_picture_codec_version = 5;
 inline constexpr const char* k_picture_codec_entry = "tidemark_picture_codec";
 
 } // namespace tidemark::image

@@ -3,6 +3,8 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
@@ -114,7 +116,7 @@ OIIO::ImageSpec spec_of(const EncodeJob& job) {
         spec.channelnames = {"Y", "A"};
         spec.alpha_channel = 1;
     }
-    spec.attribute("oiio:UnassociatedAlpha", 1); // "do not divide by it"
+    spec.attribute("oiio:UnassociatedAlpha", job.premultiplied ? 0 : 1); // as it is in either case
     spec.attribute("Software", "Tidemark");
     spec.attribute("DateTime", 0); // not a text: no date, where else there would be today's
     if (job.format == FileFormat::jpeg) {
@@ -132,22 +134,46 @@ OIIO::ImageSpec spec_of(const EncodeJob& job) {
                        job.icc_profile.data());
     for (const auto& [name, value] : job.attributes)
         spec.attribute(name, value);
+    if (!job.part.empty())
+        spec.attribute("oiio:subimagename", job.part);
     return spec;
 }
 
-/// What OpenImageIO writes, from the top down.
+/// The parts of an OpenEXR share one display window: that of the first.
+std::vector<OIIO::ImageSpec> specs_of(std::span<const EncodeJob> jobs) {
+    std::vector<OIIO::ImageSpec> specs;
+    for (const EncodeJob& job : jobs) {
+        specs.push_back(spec_of(job));
+        specs.back().full_width = jobs.front().extent.width;
+        specs.back().full_height = jobs.front().extent.height;
+    }
+    return specs;
+}
+
+/// What OpenImageIO writes of one picture, from the top down, or of one part of a file after the other.
 class Rows {
 public:
-    Rows(const EncodeJob& job, OIIO::Filesystem::IOProxy& sink)
-        : output_(OIIO::ImageOutput::create(codec_name(job.format))), sink_(sink),
-          given_(job.depth == SampleDepth::half ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)
-                                                : file_type(job.depth)),
-          row_bytes_(OIIO::stride_t(size_t(job.extent.width) * size_t(job.channels) * given_.size())) {}
+    explicit Rows(FileFormat format) : output_(OIIO::ImageOutput::create(codec_name(format))) {}
 
-    RowEncoder::Done begin(const EncodeJob& job) {
+    RowEncoder::Done begin(const EncodeJob& job, OIIO::Filesystem::IOProxy& sink) {
         if (!output_)
             return cannot_encode(OIIO::geterror());
-        return done(output_->set_ioproxy(&sink_) && output_->open(std::string(k_no_file), spec_of(job)));
+        take(job);
+        return done(output_->set_ioproxy(&sink) && output_->open(std::string(k_no_file), spec_of(job)));
+    }
+    /// Into a file of that name: OpenImageIO 2.4 writes several parts into no other place.
+    RowEncoder::Done begin_parts(const std::string& file, const std::vector<OIIO::ImageSpec>& specs) {
+        if (!output_)
+            return cannot_encode(OIIO::geterror());
+        return done(output_->open(file, int(specs.size()), specs.data()));
+    }
+    /// All of it. The first one is begun by `begin_parts`.
+    RowEncoder::Done add_part(const std::string& file, const OIIO::ImageSpec& spec, const EncodeJob& job,
+                              bool first) {
+        take(job);
+        if (!first && !output_->open(file, spec, OIIO::ImageOutput::AppendSubimage))
+            return cannot_encode(output_->geterror());
+        return add(job.samples.data(), job.extent.height);
     }
     RowEncoder::Done add(const std::byte* samples, int rows) {
         const std::byte* top = samples + row_bytes_ * (rows - 1);
@@ -157,6 +183,12 @@ public:
     RowEncoder::Done finish() { return done(output_->close()); }
 
 private:
+    void take(const EncodeJob& job) {
+        const bool half = job.depth == SampleDepth::half;
+        given_ = half ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT) : file_type(job.depth);
+        row_bytes_ = OIIO::stride_t(size_t(job.extent.width) * size_t(job.channels) * given_.size());
+        next_ = 0;
+    }
     RowEncoder::Done done(bool well) {
         if (!well)
             return cannot_encode(output_->geterror());
@@ -164,28 +196,61 @@ private:
     }
 
     std::unique_ptr<OIIO::ImageOutput> output_;
-    OIIO::Filesystem::IOProxy& sink_;
     OIIO::TypeDesc given_;
-    OIIO::stride_t row_bytes_;
+    OIIO::stride_t row_bytes_ = 0;
     int next_ = 0;
 };
 
 EncodeResult encode_or_throw(const EncodeJob& job) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput sink(bytes);
-    Rows rows(job, sink);
-    return rows.begin(job)
+    Rows rows(job.format);
+    return rows.begin(job, sink)
         .and_then([&] { return rows.add(job.samples.data(), job.extent.height); })
         .and_then([&] { return rows.finish(); })
         .map([&] { return std::move(bytes); });
 }
 
+/// A file that is nowhere but in memory and has a name all the same, within this process.
+class MemoryFile {
+public:
+    MemoryFile() : descriptor_(::memfd_create("picture", MFD_CLOEXEC)) {}
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() { ::close(descriptor_); }
+
+    std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    EncodeResult bytes() const {
+        std::vector<unsigned char> bytes(size_t(std::max<off_t>(0, ::lseek(descriptor_, 0, SEEK_END))));
+        for (size_t done = 0; done < bytes.size();) {
+            const ssize_t count = ::pread(descriptor_, &bytes[done], bytes.size() - done, off_t(done));
+            if (count <= 0)
+                return cannot_encode("not enough memory");
+            done += size_t(count);
+        }
+        return bytes;
+    }
+
+private:
+    int descriptor_;
+};
+
+EncodeResult encode_parts_or_throw(std::span<const EncodeJob> jobs) {
+    const std::vector<OIIO::ImageSpec> specs = specs_of(jobs);
+    const MemoryFile file;
+    Rows rows(jobs.front().format);
+    RowEncoder::Done done = rows.begin_parts(file.name(), specs);
+    for (size_t part = 0; done && part < jobs.size(); ++part)
+        done = rows.add_part(file.name(), specs[part], jobs[part], part == 0);
+    return done.and_then([&] { return rows.finish(); }).and_then([&] { return file.bytes(); });
+}
+
 class FileRows : public RowEncoder {
 public:
-    FileRows(const EncodeJob& job, std::FILE* file)
-        : sink_(file, OIIO::Filesystem::IOProxy::Write), rows_(job, sink_) {}
+    FileRows(FileFormat format, std::FILE* file)
+        : sink_(file, OIIO::Filesystem::IOProxy::Write), rows_(format) {}
 
-    Done begin(const EncodeJob& job) { return rows_.begin(job); }
+    Done begin(const EncodeJob& job) { return rows_.begin(job, sink_); }
     Done add(std::span<const std::byte> samples, int rows) noexcept override {
         return guarded<Done>([&] { return rows_.add(samples.data(), rows); });
     }
@@ -287,9 +352,13 @@ EncodeResult encode(const EncodeJob& job) noexcept {
     return guarded<EncodeResult>([&] { return encode_or_throw(job); });
 }
 
+EncodeResult encode_parts(std::span<const EncodeJob> jobs) noexcept {
+    return guarded<EncodeResult>([&] { return encode_parts_or_throw(jobs); });
+}
+
 RowEncoderResult encode_rows(const EncodeJob& job, std::FILE* file) noexcept {
     return guarded<RowEncoderResult>([&]() -> RowEncoderResult {
-        auto rows = std::make_unique<FileRows>(job, file);
+        auto rows = std::make_unique<FileRows>(job.format, file);
         return rows->begin(job).map([&]() -> std::unique_ptr<RowEncoder> { return std::move(rows); });
     });
 }
@@ -311,7 +380,7 @@ extern "C" __attribute__((visibility("default"))) const void* tidemark_picture_c
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", -1);
         OIIO::attribute("debug", 0); // Debian's build talks on stderr otherwise
-        return PictureCodec{k_picture_codec_version, encode, decode, texts, encode_rows};
+        return PictureCodec{k_picture_codec_version, encode, decode, texts, encode_rows, encode_parts};
     }();
     return &codec;
 }

@@ -135,7 +135,7 @@ TEST(OutputName, unknown_formats) {
         EXPECT_EQ(name.error().message,
                   "cannot tell the format of '" + pattern +
                       "': its name must end in .png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr for pictures, in "
-                      ".mp4, .webm, .mov, .gif or .webp for a video, or in .wav for the sound alone");
+                      ".mp4, .mkv, .webm, .mov, .gif or .webp for a video, or in .wav for the sound alone");
     }
 }
 
