@@ -71,6 +71,45 @@ class CheckFix(ProgramTest):
         probe, = json.loads(self.succeed("check", "march.glsl", "--json", *BUDGET, "--probe", "first_hit").stdout)["probes"]
         self.assertEqual(probe["verdict"], "pass")
 
+    def test_hashes_of_sines_become_hashes_of_bits_where_that_is_asked_for(self):
+        text = """float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }
+float line(float n) { return fract(43758.5453 * sin(n)); }
+vec2 two(vec3 p) { return fract(sin(vec2(dot(p, vec3(127.1, 311.7, 7.0)), dot(p, vec3(269.5, 183.3, 9.0)))) * 43758.5); }
+void mainImage(out vec4 c, in vec2 p) {
+    vec2 i = floor(p / 8.0);
+    c = vec4(hash(i), line(i.x), two(i.xyx));
+}
+"""
+        scene = self.write("noise.glsl", text)
+        self.assertEqual(self.succeed("check", "--fix", "noise.glsl", *BUDGET).stdout, b"nothing to mend\n")
+        cure, = self.fix("noise.glsl", "--hashes", "--write")["cures"]
+        self.assertEqual(cure["fault"], {"of": "hashes of large sines", "before": 3, "after": 0})
+        self.assertIn("another picture", cure["cure"])
+        written = scene.read_text()
+        for call in ("return hash_of_bits(vec4(p, 0.0, 0.0)); }", "return hash_of_bits(vec4(n, 0.0, 0.0, 0.0)); }",
+                     "return vec2(hash_of_bits(vec4(p, 0.0)), hash_of_bits(vec4(p, 1.0))); }"):
+            self.assertIn(call, written)
+        probe, = json.loads(self.succeed("check", "noise.glsl", "--json", *BUDGET, "--probe", "hashes").stdout)["probes"]
+        self.assertEqual(probe["verdict"], "pass")
+
+    def test_hashed_bits_are_spread_evenly(self):
+        """Every channel of 128 x 128 cells: 16 bins, chi-squared below its 99.99 % quantile, and each axis uncorrelated."""
+        self.write("noise.glsl", """float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }
+void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.0); }
+""")
+        self.fix("noise.glsl", "--hashes", "--write")
+        raw = self.succeed("capture", "noise.glsl", "--size", "128x128", "-o", "-").stdout
+        values = [raw[i] for i in range(0, len(raw), len(raw) // (128 * 128))]
+        self.assertEqual(len(values), 128 * 128)
+        bins = [sum(value // 16 == k for value in values) for k in range(16)]
+        expected = [sum(round(255 * n / 4096) // 16 == k for n in range(4097)) / 4097 * len(values) for k in range(16)]
+        self.assertLess(sum((a - b) ** 2 / b for a, b in zip(bins, expected)), 45)
+        mean = sum(values) / len(values)
+        variance = sum((value - mean) ** 2 for value in values)
+        for step in (1, 128):
+            pairs = sum((a - mean) * (b - mean) for a, b in zip(values, values[step:]))
+            self.assertLess(abs(pairs / variance), 4 / 128)
+
     def test_without_write_the_file_stays(self):
         scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
         before = scene.read_text()

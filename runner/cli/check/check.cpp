@@ -22,6 +22,7 @@ struct CheckOptions {
     bool traced = false;
     bool mended = false;
     bool write = false;
+    bool hashes = false;
     bool list = false;
 };
 
@@ -53,7 +54,7 @@ Result<int> trace(const CheckOptions& options) {
 
 FixOptions fix_options(const CheckOptions& options) {
     const ProbesRequest& probes = options.probes;
-    return {probes.scene, probes.device, probes.budget, options.write, probes.json};
+    return {probes.scene, probes.device, probes.budget, options.write, probes.json, options.hashes};
 }
 
 } // namespace
@@ -95,6 +96,10 @@ void add_check(CLI::App& app, Action& chosen) {
         ->excludes("--probe")
         ->excludes("--output");
     command->add_flag("--write", options->write, "Writes the cures into the scene's files, one by one")
+        ->needs(fix);
+    command
+        ->add_flag("--hashes", options->hashes,
+                   "Hashes of large sines, too: the same numbers on every GPU, and another picture")
         ->needs(fix);
     add_trace_options(*command, options->trace);
     command->add_flag("--json", probes.json, "One JSON object on standard output");

@@ -36,6 +36,7 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
                   const Tell& tell) {
     const auto context = TRY(platform::HeadlessContext::create(options.device));
     lab::Mending mending;
+    mending.hashes = options.hashes;
     CuredFiles cured;
     std::vector<ChangedFile> files; // of the last cure that can be written
     mending.can_be_written = [&](std::span<const glsl::Cure> cures) {

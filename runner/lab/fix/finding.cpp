@@ -5,6 +5,7 @@
 #include "glsl/cure/domain_guards.hpp"
 #include "glsl/cure/initial_values.hpp"
 #include "glsl/cure/march_cures.hpp"
+#include "glsl/cure/whole_hashes.hpp"
 #include "lab/check/marching_pass.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -188,9 +189,26 @@ private:
     CurableFindings& found_;
 };
 
+/// By file; Common stands in several passes.
+void add_hashes(CurableFindings& found, const std::vector<PassText>& texts) {
+    for (const PassText& pass : texts)
+        for (glsl::Cure& cure : glsl::whole_hashes(*pass.text, pass.facts)) {
+            std::vector<std::string> places;
+            for (size_t i = 1; i < cure.wraps.size(); ++i) // the first is the function that hashes
+                places.push_back(
+                    fmt::format("{}:{}", cure.wraps[i].first.where.file, cure.wraps[i].first.where.line));
+            Finding finding{Finding::Kind::hash,
+                            "fract of a large sine gives other numbers on every GPU: " + listed(places),
+                            {},
+                            {std::move(cure)}};
+            if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
+                found.all.push_back(std::move(finding));
+        }
+}
+
 } // namespace
 
-Result<CurableFindings> find_curable(ProbeBench& bench) {
+Result<CurableFindings> find_curable(ProbeBench& bench, bool hashes) {
     const auto written = read_texts(bench, true), linked = read_texts(bench, false);
     if (!written || !linked)
         return CurableFindings{
@@ -198,6 +216,8 @@ Result<CurableFindings> find_curable(ProbeBench& bench) {
     CurableFindings found = TRY(Finder(bench, *linked).run());
     add_without_value(found, *written);
     TRY(RayFinder(bench, *written, found).run());
+    if (hashes)
+        add_hashes(found, *written);
     return found;
 }
 

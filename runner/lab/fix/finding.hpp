@@ -19,6 +19,7 @@ struct Finding {
         undefined,  ///< a function outside of its domain, and visible
         first_hit,  ///< rays that step over their first hit or miss it, by proof
         budget,     ///< rays that run out of steps
+        hash,       ///< random numbers from large sines
     };
     Kind kind = Kind::no_value;
     std::string sentence;              ///< what is wrong, and where
@@ -32,6 +33,7 @@ struct CurableFindings {
     std::string left_out{};         ///< why the text was not followed; empty: it was
 };
 
-Result<CurableFindings> find_curable(ProbeBench& bench);
+/// `hashes`: those, too, whose cure is another picture.
+Result<CurableFindings> find_curable(ProbeBench& bench, bool hashes);
 
 } // namespace tidemark::lab

@@ -21,7 +21,7 @@ public:
     Result<void> run() {
         for (int round = 0; round < k_most_rounds; ++round) {
             refused_.clear();
-            const CurableFindings found = TRY(find_curable(now_->bench()));
+            const CurableFindings found = TRY(find_curable(now_->bench(), mending_.hashes));
             if (!found.left_out.empty())
                 refused_[found.left_out] = "nothing was looked at";
             if (!TRY(mend_all(found)))

@@ -23,6 +23,7 @@ struct Remaining {
 };
 
 struct Mending {
+    bool hashes = false; ///< of large sines, too: their cure is another picture
     /// Whether the files can be written so; `cures` are all of them, the new one last.
     std::function<bool(std::span<const glsl::Cure> cures)> can_be_written;
     /// The last one of `cures` is new.

@@ -32,23 +32,6 @@ constexpr size_t k_most_steps = 6, k_fewest_rounds = 9;
 /// Moments that no search has seen, seconds behind those that it saw.
 constexpr double k_later[] = {2.7, 13.1, 47.3};
 
-Extent small_of(Extent extent) {
-    const int longer = std::max(extent.width, extent.height);
-    const auto side = [&](int length) { return std::max(1, length * k_small / longer); };
-    return longer <= k_small ? extent : Extent{side(extent.width), side(extent.height)};
-}
-
-std::vector<View> unseen(const std::vector<View>& views) {
-    std::vector<View> unseen;
-    for (const double later : k_later) {
-        View& view = unseen.emplace_back(views.back());
-        const double seconds = view.state.seconds() + later;
-        view.state = render::at_time(seconds);
-        view.name = fmt::format("t={:g}, not searched", seconds);
-    }
-    return unseen;
-}
-
 std::vector<glsl::Cure> changes_of(const std::vector<ChosenCut>& cuts) {
     std::vector<glsl::Cure> changes;
     for (const ChosenCut& cut : cuts)
@@ -65,7 +48,7 @@ public:
     }
 
     Result<Simplified> run() {
-        const Extent small = small_of(request_.extent);
+        const Extent small = small_of(request_.extent, k_small);
         CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] { return goes_on(k_looking); }));
         std::erase_if(places.cuts,
                       [&](const glsl::Cut& cut) { return !request_.can_be_written(cut.change); });
@@ -131,7 +114,8 @@ private:
 
     /// Of one round of one point at full size, guessed from a small picture.
     double seconds_a_round(CutBench& bench) const {
-        const double area = double(request_.extent.pixels()) / double(small_of(request_.extent).pixels());
+        const double area =
+            double(request_.extent.pixels()) / double(small_of(request_.extent, k_small).pixels());
         return bench.milliseconds() * 1e-3 * area * double(request_.views.size() + std::size(k_later));
     }
 
@@ -159,11 +143,14 @@ private:
         study.about = "What can be left out of the scene, held against the scene as it is.";
         study.extent = request_.extent;
         study.views = request_.views;
-        for (View& view : unseen(request_.views))
-            study.views.push_back(std::move(view));
+        for (const double later : k_later)
+            study.views.push_back(unseen(request_.views.back(), later));
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
         const Timing timing{2, 30, std::max(needed, k_timing * request_.seconds)};
-        return compare_scenes(scene_, scenes, study, timing, watch_, facts_);
+        Watch watch = watch_;
+        if (!watch_.keep_going()) // the search ended so: what it found is judged
+            watch.keep_going = [] { return true; };
+        return compare_scenes(scene_, scenes, study, timing, watch, facts_);
     }
 
     /// Of every view by itself: none is paid for by another.

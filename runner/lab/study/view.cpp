@@ -79,6 +79,20 @@ Result<std::vector<View>> parse_views(std::string_view text) {
     return views;
 }
 
+View unseen(const View& view, double seconds_later) {
+    View later = view;
+    const double seconds = view.state.seconds() + seconds_later;
+    later.state = render::at_time(seconds);
+    later.name = fmt::format("t={:g}, not searched", seconds);
+    return later;
+}
+
+Extent small_of(Extent extent, int longest) {
+    const int longer = std::max(extent.width, extent.height);
+    const auto side = [&](int length) { return std::max(1, length * longest / longer); };
+    return longer <= longest ? extent : Extent{side(extent.width), side(extent.height)};
+}
+
 std::vector<View> default_views() {
     return {{"t=1", render::at_time(1)}, {"t=10", render::at_time(10)}};
 }

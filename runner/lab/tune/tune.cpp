@@ -15,27 +15,12 @@ namespace {
 
 /// Of the longer side of the pictures that are searched.
 constexpr int k_small = 96;
+/// Behind the last of the moments that are searched, seconds.
+constexpr double k_later = 2.7;
 /// Parts of the seconds there are.
 constexpr double k_explore_timing = 0.25, k_last_timing = 0.3, k_proof = 0.05;
 /// Of each of the two studies, compiling and the truth included.
 constexpr double k_longest = 1.5;
-
-Extent small_of(Extent extent) {
-    const int longer = std::max(extent.width, extent.height);
-    if (longer <= k_small)
-        return extent;
-    const auto side = [&](int length) { return std::max(1, length * k_small / longer); };
-    return {side(extent.width), side(extent.height)};
-}
-
-/// A moment that no search has seen.
-View unseen(const std::vector<View>& views) {
-    View view = views.back();
-    const double seconds = view.state.seconds() + 2.7;
-    view.state = render::at_time(seconds);
-    view.name = fmt::format("t={:g}, not searched", seconds);
-    return view;
-}
 
 std::string cost_and_error(Measure measure, const WorkPrecision& point) {
     const TimeSummary& time = point.all.time();
@@ -57,7 +42,7 @@ public:
         Study last = study_of(found, request_.settings);
         last.extent = request_.extent;
         last.views = request_.views;
-        last.views.push_back(unseen(request_.views));
+        last.views.push_back(unseen(request_.views.back(), k_later));
         Tuned tuned{.findings = TRY(measure(std::move(last), k_last_timing, 30))};
         TRY(judge(tuned));
         return tuned;
@@ -88,7 +73,7 @@ private:
     Result<WorkPrecisionSet> explore() {
         for (;;) {
             Study study = study_of(single_values(request_.settings), request_.settings);
-            study.extent = small_of(request_.extent);
+            study.extent = small_of(request_.extent, k_small);
             study.views = request_.views;
             WorkPrecisionSet set = TRY(measure(std::move(study), k_explore_timing, 9)).set;
             const double own = error_by(request_.goal.measure, set.points.front().all);

@@ -1,0 +1,201 @@
+#include "glsl/cure/whole_hashes.hpp"
+
+#include "glsl/syntax/number.hpp"
+#include "glsl/syntax/types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace tidemark::glsl {
+namespace {
+
+/// A multiple of a sine from here on keeps nothing but its last digits.
+constexpr double k_large = 90;
+
+/// Of the bits of four floats, one after the other, each mixed as in the finaliser of MurmurHash3 (A.
+/// Appleby, public domain); -0 is made 0. What it gives is a multiple of 2^-24 below 1. `@` is its name.
+constexpr std::string_view k_hash =
+    "float @(vec4 p) { uvec4 b = floatBitsToUint(p + 0.0); uint n = 0u; for (int i = 0; i < 4; ++i) { "
+    "n = (n ^ b[i]) + 0x9e3779b9u; n = (n ^ (n >> 16)) * 0x85ebca6bu; n = (n ^ (n >> 13)) * 0xc2b2ae35u; "
+    "n ^= n >> 16; } return float(n >> 8) / 16777216.0; } ";
+
+std::string named(std::string_view pattern, std::string_view name) {
+    std::string text;
+    for (const char c : pattern)
+        text += c == '@' ? std::string(name) : std::string(1, c);
+    return text;
+}
+
+class HashFinder {
+public:
+    HashFinder(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts) {}
+
+    std::vector<Cure> run() {
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+            if (const NodeId angle = angle_of(id); angle != k_no_node)
+                add(id, angle);
+        std::vector<Cure> cures;
+        for (auto& [file, hashes] : files_)
+            cures.push_back(std::move(hashes.cure));
+        return cures;
+    }
+
+private:
+    struct FileHashes {
+        Cure cure{};
+        std::string name{};
+    };
+
+    NodeId bare(NodeId id) const {
+        while (tree_[id].kind == NodeKind::parenthesis)
+            id = tree_.child(id, 0);
+        return id;
+    }
+
+    bool is_call(NodeId id, std::initializer_list<std::string_view> names) const {
+        return tree_[id].kind == NodeKind::call && !facts_.function(called_name(text_, id)) &&
+               std::ranges::find(names, called_name(text_, id)) != names.end();
+    }
+
+    /// The x of `fract(sin(x) * 43758.5)`; k_no_node of any other node.
+    NodeId angle_of(NodeId id) const {
+        if (!is_call(id, {"fract"}))
+            return k_no_node;
+        const NodeId product = bare(tree_.child(id, 1));
+        if (tree_[product].kind != NodeKind::binary || text_.word_of(product) != "*")
+            return k_no_node;
+        const NodeId left = bare(tree_.child(product, 0)), right = bare(tree_.child(product, 1));
+        for (const auto& [sine, factor] : {std::pair(left, right), std::pair(right, left)})
+            if (is_call(sine, {"sin", "cos"}) && tree_[factor].kind == NodeKind::literal &&
+                number(text_.word_of(factor)).value_or(0) >= k_large)
+                return bare(tree_.child(sine, 1));
+        return k_no_node;
+    }
+
+    std::optional<std::string> words_of(NodeId id) const {
+        const auto tokens = written_for(text_, id, id);
+        return tokens ? said_again(text_, facts_, id, *tokens) : std::nullopt;
+    }
+
+    /// `vec4(p, 0.0, 1.0)` of `dot(p, vec2(12.9898, 78.233))`.
+    std::optional<std::string> four_of_dot(NodeId id, int seed) const {
+        const NodeId left = bare(tree_.child(id, 1)), right = bare(tree_.child(id, 2));
+        for (const auto& [vector, weights] : {std::pair(left, right), std::pair(right, left)}) {
+            const auto type =
+                value_type(tree_[weights].kind == NodeKind::call ? called_name(text_, weights) : "");
+            if (!type || !type->vector() || type->base != 'f')
+                continue;
+            const auto words = words_of(vector);
+            if (!words || (type->rows == 4 && seed > 0))
+                return std::nullopt;
+            std::string rest;
+            for (int i = type->rows; i < 4; ++i)
+                rest += i == 3 ? fmt::format(", {}.0", seed) : ", 0.0";
+            return fmt::format("vec4({}{})", *words, rest);
+        }
+        return std::nullopt;
+    }
+
+    /// Of one float by name, as the function around declares it, once.
+    bool is_float_name(NodeId id) const {
+        if (tree_[id].kind != NodeKind::name)
+            return false;
+        const NodeId function = tree_.around(id, NodeKind::function);
+        int declared = 0;
+        bool single = true;
+        for (NodeId each = 1; each < tree_.nodes.size(); ++each) {
+            const bool parameter = tree_[each].kind == NodeKind::parameter;
+            if ((!parameter && tree_[each].kind != NodeKind::declarator) ||
+                text_.word_of(each) != text_.word_of(id) ||
+                tree_.around(each, NodeKind::function) != function)
+                continue;
+            const NodeId type = tree_.child(parameter ? each : tree_[each].parent, 0);
+            single = single && type_name(text_, type) == "float" && dimensions(text_, type, each) == 0;
+            ++declared;
+        }
+        return function != k_no_node && declared == 1 && single;
+    }
+
+    /// What to hash, as four floats.
+    std::optional<std::string> four_of(NodeId angle, int seed) const {
+        if (is_call(angle, {"dot"}))
+            return four_of_dot(angle, seed);
+        return is_float_name(angle)
+                   ? std::optional(fmt::format("vec4({}, 0.0, 0.0, {}.0)", text_.word_of(angle), seed))
+                   : std::nullopt;
+    }
+
+    /// The whole call, by a hash of that name.
+    std::optional<std::string> instead_of(NodeId angle, const std::string& name) const {
+        if (!is_call(angle, {"vec2", "vec3", "vec4"})) {
+            const auto four = four_of(angle, 0);
+            return four ? std::optional(fmt::format("{}({})", name, *four)) : std::nullopt;
+        }
+        std::string parts;
+        int seed = 0;
+        for (const NodeId part : tree_.children(angle)) {
+            if (part == tree_.child(angle, 0))
+                continue;
+            const auto four = is_call(bare(part), {"dot"}) ? four_of(bare(part), seed) : std::nullopt;
+            if (!four)
+                return std::nullopt;
+            parts += fmt::format("{}{}({})", seed++ > 0 ? ", " : "", name, *four);
+        }
+        return fmt::format("{}({})", called_name(text_, angle), parts);
+    }
+
+    /// That no word of the text has.
+    std::string fresh_name() const {
+        for (size_t n = files_.size();; ++n) {
+            std::string name = n == 1 ? "hash_of_bits" : fmt::format("hash_of_bits{}", n);
+            if (std::ranges::none_of(text_.words(), [&](const Word& word) { return word.text == name; }))
+                return name;
+        }
+    }
+
+    void add(NodeId id, NodeId angle) {
+        const NodeId function = tree_.around(id, NodeKind::function);
+        const auto written = written_for(text_, id, id);
+        if (function == k_no_node || !written || text_.words()[tree_[function].begin].from_macro())
+            return;
+        const Word& first = text_.words()[tree_[function].begin];
+        const Wrap place = wrapped(text_, {first.spelled, first.spelled}, "", "");
+        const Wrap call = wrapped(text_, *written, "", "");
+        if (place.first.where.file != call.first.where.file)
+            return;
+        FileHashes& hashes = files_[call.first.where.file];
+        if (hashes.name.empty())
+            hashes.name = fresh_name();
+        const auto instead = instead_of(angle, hashes.name);
+        if (!instead)
+            return;
+        Cure& cure = hashes.cure;
+        if (cure.wraps.empty()) {
+            cure.wraps.push_back({place.first, place.last, named(k_hash, hashes.name), ""});
+            cure.reason =
+                "a hash of bits instead of a sine: the same numbers on every GPU, but others than now; it is "
+                "another picture";
+        }
+        cure.wraps.push_back({call.first, call.last, *instead, "", true});
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    std::map<std::string, FileHashes> files_{};
+};
+
+} // namespace
+
+std::vector<Cure> whole_hashes(const ParsedText& text, const TreeFacts& facts) {
+    std::vector<Cure> cures = HashFinder(text, facts).run();
+    std::erase_if(cures, [](const Cure& cure) { return cure.wraps.empty(); });
+    return cures;
+}
+
+} // namespace tidemark::glsl
