@@ -95,7 +95,7 @@ void FrameInParts::draw_part(const Part& ahead) {
 
 void FrameInParts::finish_part() {
     const double took = clock_() - under_way_->begun;
-    size_->drew(under_way_->part, drawing_->surface.extent().height, took * 1000);
+    size_->drew(under_way_->part, drawing_->surface.extent(), took * 1000);
     seconds_.back().seconds += took;
     under_way_.reset();
     if (cursor_.begins_pass()) // the next one

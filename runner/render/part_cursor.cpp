@@ -12,6 +12,13 @@ int whole_blocks(size_t pixels) {
     return std::max(int(pixels) / k_block_side, 1) * k_block_side;
 }
 
+/// So that no small rest stays behind the last one.
+int evenly(int columns, int most) {
+    const int parts = (columns + most - 1) / most;
+    const int blocks = (columns + parts * k_block_side - 1) / (parts * k_block_side);
+    return std::min(blocks * k_block_side, columns);
+}
+
 size_t pixels_of(const PassArea& area) {
     return area.extent.pixels() * size_t(area.faces);
 }
@@ -48,7 +55,7 @@ Rectangle PartCursor::cut(const Rectangle& rest, size_t pixels) const {
         area.extent.height = std::min(rows, rest.extent.height);
     }
     if (area.extent.pixels() > pixels)
-        area.extent.width = std::min(whole_blocks(pixels / size_t(area.extent.height)), rest.extent.width);
+        area.extent.width = evenly(rest.extent.width, whole_blocks(pixels / size_t(area.extent.height)));
     return area;
 }
 

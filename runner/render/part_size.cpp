@@ -35,7 +35,7 @@ size_t PartSize::known_pixels(const Part& ahead, const std::vector<double>& rows
     return k_most;
 }
 
-void PartSize::drew(const Part& part, int height, double milliseconds) {
+void PartSize::drew(const Part& part, Extent face, double milliseconds) {
     const auto pixels = double(part.area.extent.pixels());
     if (milliseconds >= k_telling_ms) {
         const double wanted = pixels * k_wanted_ms / milliseconds;
@@ -44,11 +44,10 @@ void PartSize::drew(const Part& part, int height, double milliseconds) {
         recent_ = std::min(size_t(k_growth_of_quick * double(recent_)), k_most);
     }
     std::vector<double>& rows = rows_[{part.pass, part.face}];
-    rows.resize(size_t(height));
-    for (int row = part.area.y; row < part.area.y + part.area.extent.height; ++row) {
-        double& took = rows[size_t(row)];
-        took = std::max(milliseconds / pixels, part.area.x > 0 ? took : 0.0);
-    }
+    rows.resize(size_t(face.height));
+    const double of_row = milliseconds / part.area.extent.height / face.width;
+    for (int row = part.area.y; row < part.area.y + part.area.extent.height; ++row)
+        rows[size_t(row)] = of_row + (part.area.x > 0 ? rows[size_t(row)] : 0);
 }
 
 } // namespace tidemark::render

@@ -16,8 +16,8 @@ public:
     /// Pixels of the next part, where it begins as `ahead` does. Of a picture about which nothing is known
     /// the first is small, and the next ones grow.
     size_t pixels(const Part& ahead) const;
-    /// That part took so long, in a face of that height.
-    void drew(const Part& part, int height, double milliseconds);
+    /// That part of a face of that size took so long.
+    void drew(const Part& part, Extent face, double milliseconds);
 
     /// The next frame may take another time than all before: it begins with small parts.
     void doubt() { recent_ = k_first; }
@@ -28,7 +28,7 @@ private:
     static constexpr size_t k_first = 256;
 
     size_t recent_ = k_first; ///< what the parts so far ask for
-    /// Milliseconds of a pixel in each row of a pass's face, when it was drawn last; 0: not yet.
+    /// Milliseconds of a pixel in each row of a pass's face, the mean when it was drawn last; 0: not yet.
     std::map<std::pair<size_t, int>, std::vector<double>> rows_;
 };
 

@@ -21,12 +21,18 @@ protected:
     static FrameInParts begin(Renderer& renderer, PartSize& size, int frame) {
         return {renderer, inputs_of_frame(frame, 60), size, ticking()};
     }
+    /// One part, drawn to its end.
+    static Result<bool> step(FrameInParts& frame) {
+        auto whole = frame.draw_for(0);
+        glFinish();
+        return whole;
+    }
     /// How many calls that took.
     static int draw_in_parts(Renderer& renderer, PartSize& size, int frame) {
         FrameInParts parts = begin(renderer, size, frame);
         int calls = 1;
         for (; true; ++calls) {
-            const auto whole = parts.draw_for(0);
+            const auto whole = step(parts);
             EXPECT_TRUE(whole) << to_string(whole.error());
             if (!whole || *whole)
                 return calls;
@@ -132,7 +138,7 @@ TEST_F(FrameInPartsTest, until_it_is_whole_the_last_frame_is_there) {
     double share = parts.share();
     EXPECT_EQ(share, 0);
     int calls = 0;
-    while (!*parts.draw_for(0)) {
+    while (!*step(parts)) {
         EXPECT_TRUE(content(drawn) == before);
         EXPECT_GE(parts.share(), share);
         share = parts.share();
@@ -141,7 +147,7 @@ TEST_F(FrameInPartsTest, until_it_is_whole_the_last_frame_is_there) {
     EXPECT_GT(calls, 5);
     EXPECT_FALSE(content(drawn) == before);
     EXPECT_EQ(parts.share(), 1);
-    EXPECT_TRUE(*parts.draw_for(0)) << "it stays whole";
+    EXPECT_TRUE(*step(parts)) << "it stays whole";
     EXPECT_EQ(drawn.passes_drawn(), 2 * drawn.plan().passes.size());
 }
 
@@ -159,7 +165,7 @@ TEST_F(FrameInPartsTest, one_that_is_given_up_leaves_no_trace_wherever_that_is) 
         {
             FrameInParts parts = begin(drawn, size, 7);
             for (int call = 0; call < calls; ++call)
-                if (*parts.draw_for(0))
+                if (*step(parts))
                     break;
             if (parts.share() == 1)
                 break;
@@ -204,11 +210,11 @@ TEST_F(FrameInPartsTest, it_begins_anew_where_its_renderer_was_changed) {
             each->draw(inputs_of_frame(0, 60));
         FrameInParts parts = begin(drawn, size, 1);
         for (int call = 0; call < 12; ++call)
-            ASSERT_FALSE(*parts.draw_for(0));
+            ASSERT_FALSE(*step(parts));
         change(whole);
         change(drawn);
         whole.draw(inputs_of_frame(1, 60));
-        while (!*parts.draw_for(0)) {
+        while (!*step(parts)) {
         }
         EXPECT_TRUE(content(drawn) == content(whole));
     }
@@ -218,7 +224,7 @@ TEST_F(FrameInPartsTest, says_what_each_pass_took) {
     Renderer drawn = renderer(feedback(), k_extent);
     PartSize size;
     FrameInParts parts = begin(drawn, size, 0);
-    while (!*parts.draw_for(0)) {
+    while (!*step(parts)) {
     }
     std::vector<size_t> planned;
     for (const PlannedPass& pass : drawn.plan().passes)

@@ -64,17 +64,23 @@ TEST(PartCursorTest, large_ones_are_whole_rows_up_to_a_multiple_of_64) {
     PartCursor cursor({{0, {100, 300}, 1}});
     EXPECT_EQ(cursor.take(1000)->area, (Rectangle{0, 0, {100, 8}}));
     EXPECT_EQ(cursor.take(15'000)->area, (Rectangle{0, 8, {100, 120}}));
-    EXPECT_EQ(cursor.take(100)->area, (Rectangle{0, 128, {24, 4}}));
-    EXPECT_EQ(cursor.take(100'000)->area, (Rectangle{24, 128, {76, 4}})) << "the rest of those rows";
+    EXPECT_EQ(cursor.take(100)->area, (Rectangle{0, 128, {20, 4}}));
+    EXPECT_EQ(cursor.take(100'000)->area, (Rectangle{20, 128, {80, 4}})) << "the rest of those rows";
     EXPECT_EQ(cursor.take(100'000)->area, (Rectangle{0, 132, {100, 168}}));
     EXPECT_EQ(cursor.take(100'000), std::nullopt);
+}
+
+TEST(PartCursorTest, columns_are_shared_out_evenly) {
+    PartCursor cursor({{0, {100, 8}, 1}});
+    for (const Rectangle& area : {Rectangle{0, 0, {52, 4}}, {52, 0, {48, 4}}, {0, 4, {52, 4}}})
+        EXPECT_EQ(cursor.take(390)->area, area);
 }
 
 TEST(PartCursorTest, what_is_ahead_is_the_largest_part) {
     PartCursor cursor({{2, {100, 50}, 1}});
     EXPECT_EQ(cursor.ahead(), (Part{2, 0, {0, 0, {100, 50}}}));
     cursor.take(40);
-    EXPECT_EQ(cursor.ahead(), (Part{2, 0, {8, 0, {92, 4}}}));
+    EXPECT_EQ(cursor.ahead(), (Part{2, 0, {8, 0, {92, 4}}})) << "100 columns in 13 parts of 8 at most";
 }
 
 TEST(PartCursorTest, a_pass_is_left_out_and_counts_as_done) {

@@ -27,7 +27,7 @@ std::vector<double> draw(PartSize& size, const Cost& of_pixel) {
     while (const auto ahead = cursor.ahead()) {
         const Part part = *cursor.take(size.pixels(*ahead));
         took.push_back(cost_of(part, of_pixel));
-        size.drew(part, k_extent.height, took.back());
+        size.drew(part, k_extent, took.back());
     }
     return took;
 }
@@ -52,7 +52,7 @@ TEST(PartSizeTest, even_pixels_come_in_parts_of_about_25_milliseconds) {
 TEST(PartSizeTest, no_part_is_smaller_than_a_block) {
     PartSize size;
     const Part block{0, 0, {0, 0, {4, 4}}};
-    size.drew(block, 360, 5000);
+    size.drew(block, k_extent, 5000);
     EXPECT_EQ(size.pixels({0, 0, {4, 0, {636, 4}}}), 16u);
 }
 
@@ -83,16 +83,16 @@ TEST(PartSizeTest, doubt_begins_with_small_parts) {
 
 TEST(PartSizeTest, what_is_left_over_of_a_row_says_nothing_of_the_next_rows) {
     PartSize size;
-    size.drew({0, 0, {0, 0, {640, 64}}}, 360, 2);
+    size.drew({0, 0, {0, 0, {640, 64}}}, k_extent, 2);
     const size_t before = size.pixels({0, 0, {0, 64, {640, 296}}});
-    size.drew({0, 0, {636, 64, {4, 4}}}, 360, 0.3);
+    size.drew({0, 0, {636, 64, {4, 4}}}, k_extent, 0.3);
     EXPECT_EQ(size.pixels({0, 0, {0, 68, {640, 292}}}), before);
 }
 
 TEST(PartSizeTest, another_height_forgets_no_more_than_it_must) {
     PartSize size;
-    size.drew({0, 0, {0, 0, {640, 100}}}, 100, 6400);
-    size.drew({0, 0, {0, 0, {320, 8}}}, 50, 1);
+    size.drew({0, 0, {0, 0, {640, 100}}}, {640, 100}, 6400);
+    size.drew({0, 0, {0, 0, {320, 8}}}, {320, 50}, 1);
     EXPECT_LE(size.pixels({0, 0, {0, 8, {320, 42}}}), 320u) << "the rows that both have";
 }
 
