@@ -41,7 +41,7 @@ Viewer::Picture Viewer::read_picture() const {
 }
 
 void Viewer::save_picture() {
-    if (!stage_)
+    if (!stage_ || !has_frame_)
         return;
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
@@ -57,7 +57,7 @@ void Viewer::save_picture() {
 /// The rate of the window's own clock is nobody's wish, and the date is left to the capture unless somebody
 /// gave one.
 void Viewer::copy_moment() {
-    if (!stage_)
+    if (!stage_ || !has_frame_)
         return;
     Moment copied = moment();
     render::FrameState& state = copied.sequence.state;
@@ -69,7 +69,7 @@ void Viewer::copy_moment() {
 }
 
 void Viewer::keep_moment() {
-    if (!stage_)
+    if (!stage_ || !has_frame_)
         return;
     views_.push_back(moment());
     stale_overlay_ = true;

@@ -44,7 +44,8 @@ void Viewer::toggle_help() {
 
 /// It is drawn without a new frame of the scene, which brings it along while the scene moves.
 bool Viewer::overlay_due() const {
-    return (stale_overlay_ || screen_->wants_frame()) && !moving();
+    return (stale_overlay_ || screen_->wants_frame()) && (making_ || !moving()) &&
+           !driver_is_held(now_seconds());
 }
 
 live::Model Viewer::overlay_model() {
@@ -55,7 +56,10 @@ live::Model Viewer::overlay_model() {
         defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
     if (model.controls) {
         const render::Renderer& renderer = stage_->renderer();
-        model.knobs = knob_fields(renderer.scene(), shown_.knobs);
+        render::FrameState turned = shown_;
+        if (making_ && !replay_)
+            controls_.fill(turned); // which no frame shows yet
+        model.knobs = knob_fields(renderer.scene(), turned.knobs);
         if (inputs_ && inputs_->has_midi())
             add_controllers(model.knobs, controllers_);
         model.definitions = *defined_;

@@ -28,6 +28,8 @@ void Viewer::seek(double seconds, double now) {
     const int frame = render::frame_at(seconds, fps);
     stale_ = true;
     given_up_ = false;
+    if (has_feedback())
+        drop_frame(); // else it ends, so that something is seen while somebody drags
     clock_.seek(seconds, frame, now);
     forget_what_follows();
     if (!has_feedback())
@@ -94,7 +96,7 @@ void Viewer::carry_out(const live::SetLoop& command) {
 }
 
 void Viewer::go_round(double now) {
-    if (!loop_.from || !loop_.to || *loop_.from >= *loop_.to || !moving() || recording())
+    if (!loop_.from || !loop_.to || *loop_.from >= *loop_.to || !moving() || making_ || recording())
         return;
     const double time = clock_.time(now);
     const bool back = clock_.speed() < 0;
