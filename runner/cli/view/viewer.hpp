@@ -128,6 +128,7 @@ private:
     Moment moment() const;
     image::PictureFormat format_of_picture() const;
     Picture read_picture() const;
+    bool has_frame() const;
     void save_picture();
     void copy_moment();
     void keep_moment();
@@ -241,6 +242,7 @@ private:
     std::optional<Making> making_;                         ///< none: nothing is half drawn
     std::optional<render::FrameInParts::UnderWay> ending_; ///< of a frame that was given up
     std::vector<platform::InputEvent> events_held_;        ///< that wait until the driver is free
+    double clock_shown_at_ = 0;                            ///< the one of a frame that is drawn for long
     bool parts_fail_ = false;                              ///< there is no memory for them
     bool has_frame_ = false;                               ///< of the text on show
     Controls controls_;

@@ -18,6 +18,8 @@ constexpr double k_turn_seconds = 0.03;
 /// A frame that is drawn for longer is one that people may want to be rid of, and so is a part.
 constexpr double k_long_seconds = 1;
 constexpr double k_too_long_seconds = 2;
+/// The clock over the picture is no older.
+constexpr double k_clock_seconds = 0.25;
 /// So long drawing goes unmentioned.
 constexpr double k_short_seconds = 0.3;
 
@@ -80,6 +82,7 @@ void Viewer::carry_on(double now) {
     if (*whole)
         return frame_is_made(stage_->renderer().passes_drawn() != before);
     say_what_holds(now);
+    stale_overlay_ |= draws_for_long(now) && now - clock_shown_at_ > k_clock_seconds;
     if (overlay_due())
         present(false);
 }
@@ -182,7 +185,7 @@ std::string Viewer::drawing_words(double now) const {
                    : "";
     }
     const double seconds = now - making_->begun;
-    if (seconds < k_short_seconds)
+    if (seconds < k_short_seconds && has_frame_)
         return "";
     return fmt::format("drawing {:.1f} s, {:.0f} %{}", seconds, 100 * making_->frame.share(),
                        seconds > k_long_seconds ? ", Esc gives up" : "");

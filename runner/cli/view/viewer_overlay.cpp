@@ -52,6 +52,10 @@ live::Model Viewer::overlay_model() {
     live::Model model{.controls = controls_open_ && stage_,
                       .errors = errors_.fields().empty() ? origin_.fields() : errors_.fields(),
                       .magnifier = magnifier_field()};
+    if (const double now = now_seconds(); draws_for_long(now)) {
+        model.clock = drawing_words(now);
+        clock_shown_at_ = now;
+    }
     if (model.controls && !defined_)
         defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
     if (model.controls) {
