@@ -75,9 +75,12 @@ class SlowFrame(LiveTest):
         view.key("minus")  # it begins anew, a quarter as large
         view.wait_for_title(r" - drawing .*, scale 1/2\Z")
         view.key("s")
+        view.wait_for_words("^no frame is drawn yet: the first one is saved$")
+        view.key("c")
         view.wait_for_words("^no frame is drawn yet$")
         view.key("space")
         self.wait_for_the_paused_frame(view)
+        view.wait_for_words(r"^saving a-\d+\.png$")
         self.assertEqual(self.expect_picture_of_capture(view).width, 160)
 
     def test_the_clock_goes_on_in_the_title(self):
@@ -127,7 +130,7 @@ class SlowFrame(LiveTest):
                              "    c = vec4(p.y > 80.0 ? slow(p.x) : 0.0);\n}\n")
         view = View(self.screen, self.folder, "a.glsl", *SIZE, "--plain", first_title=" - drawing ")
         self.addCleanup(view.close)
-        view.wait_for_words(r"^a\.glsl: \d+x\d+ pixels of Image from \d+,80 on take more than 2 s: a very long loop, or one "
+        view.wait_for_words(r"^a\.glsl: \d+x\d+ pixels of Image from \d+,\d+ on take more than 2 s: a very long loop, or one "
                             r"that never ends; Esc gives the frame up, - draws smaller$")
         view.wait_for_title(r" - drawing [3-9]\.\d s, ")
         view.key("Escape")

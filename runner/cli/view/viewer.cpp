@@ -171,7 +171,11 @@ Result<void> Viewer::finish() {
 bool Viewer::wants_frame(double now) const {
     if (!screen_->is_watched())
         return false;
-    if (goes_on() || overlay_due())
+    if (goes_on())
+        return true;
+    if (driver_is_held(now))
+        return false;
+    if (overlay_due())
         return true;
     if (making_ || waits_for_better() || (slow_ && now < next_draw_))
         return false;
@@ -185,14 +189,18 @@ bool Viewer::moving() const {
 
 double Viewer::seconds_to_sleep(double now) const {
     double until = std::numeric_limits<double>::infinity();
+    const bool held = driver_is_held(now);
     const bool watched = screen_->is_watched();
-    if ((watched && ((stale_ && !slow_ && !making_) || goes_on() || overlay_due())) || stepping_)
+    if ((watched && goes_on()) || stepping_)
         return 0;
-    if (watched && (stale_ || moving()) && !making_ && !waits_for_better())
+    if (watched && !held && ((stale_ && !slow_ && !making_) || overlay_due()))
+        return 0;
+    if (watched && !held && (stale_ || moving()) && !making_ && !waits_for_better())
         until = next_draw_;
     if (scene_.building_since() || ending_)
         until = std::min(until, now + k_title_seconds);
-    until = std::min(until, finite_.due());
+    if (!held)
+        until = std::min(until, finite_.due());
     if (const auto wake = scene_.wake_at())
         until = std::min(until, *wake);
     return std::max(0.0, until - now);
@@ -270,6 +278,7 @@ void Viewer::obey(Key key, double now) {
     case Key::home:
         if (stage_)
             stage_->renderer().reset();
+        has_frame_ = false;
         clock_.restart(now);
         forget_what_follows();
         break;
@@ -370,7 +379,6 @@ Result<void> Viewer::swap_in(Stage fresh) {
     part_size_ = {};
     if (stage_)
         glFinish(); // what it drew is there to be taken over
-    stepping_.reset();
     forget_looking();
     costs_.forget();
     if (adaptive_)

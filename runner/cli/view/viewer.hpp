@@ -244,7 +244,8 @@ private:
     std::vector<platform::InputEvent> events_held_;        ///< that wait until the driver is free
     double clock_shown_at_ = 0;                            ///< the one of a frame that is drawn for long
     bool parts_fail_ = false;                              ///< there is no memory for them
-    bool has_frame_ = false;                               ///< of the text on show
+    bool save_due_ = false;                                ///< the next frame is to be saved
+    bool has_frame_ = false; ///< of the text on show, and nothing began anew since
     Controls controls_;
     render::RenderScale scale_;
     std::optional<render::AdaptiveScale> adaptive_; ///< none: the scale stays
@@ -272,14 +273,14 @@ private:
     std::optional<render::ShownFloats> floats_; ///< of the stage, when somebody looks
     std::optional<render::NumberMarks> marks_;  ///< likewise
     bool marks_shown_ = false;
-    std::optional<Frozen> frozen_;          ///< instead of the frames that follow it
-    std::unique_ptr<OriginSearch> search_;  ///< while one is under way
-    ErrorBoard origin_;                     ///< what it found
-    std::optional<SteppingThere> stepping_; ///< on the way to a frame
-    live::SetLoop loop_;                    ///< of time
-    std::vector<Moment> views_;             ///< that somebody kept
-    std::optional<double> going_to_;        ///< iTime of the view that the next Stage shows
-    std::optional<size_t> large_;           ///< of the pictures in the overlay
+    std::optional<Frozen> frozen_;            ///< instead of the frames that follow it
+    std::unique_ptr<OriginSearch> search_;    ///< while one is under way
+    ErrorBoard origin_;                       ///< what it found
+    std::unique_ptr<SteppingThere> stepping_; ///< on the way to a frame
+    live::SetLoop loop_;                      ///< of time
+    std::vector<Moment> views_;               ///< that somebody kept
+    std::optional<double> going_to_;          ///< iTime of the view that the next Stage shows
+    std::optional<size_t> large_;             ///< of the pictures in the overlay
     std::optional<std::vector<live::DefinitionField>>
         defined_;                ///< by the scene on show; none: not looked yet
     bool controls_open_ = false; ///< in the overlay

@@ -114,16 +114,20 @@ void Viewer::frame_is_drawn(const render::FrameState& state, bool drawn, bool wa
         clock_.rest();
     if (reloaded_)
         report_reload();
+    if (std::exchange(save_due_, false))
+        save_picture();
 }
 
-/// What is half drawn is not wanted any more: the next frame has its number.
+/// What is half drawn, or on its way, is not wanted any more: the next frame has its number.
 void Viewer::drop_frame() {
-    if (!making_)
-        return;
-    if (auto at = render::FrameInParts::give_up(std::move(making_->frame)))
+    auto at = stepping_ ? stepping_->give_up()
+              : making_ ? render::FrameInParts::give_up(std::move(making_->frame))
+                        : std::nullopt;
+    if (at)
         ending_ = std::move(at);
-    making_.reset();
-    clock_.give_frame_back();
+    if (std::exchange(making_, std::nullopt))
+        clock_.give_frame_back();
+    stepping_.reset();
 }
 
 void Viewer::give_frames_up(double now) {
@@ -160,8 +164,10 @@ bool Viewer::draws_for_long(double now) const {
     return making_ && now - making_->begun > k_long_seconds;
 }
 
-/// What the driver is drawing, for this frame or for one that was given up.
+/// What the driver is drawing, for this frame, for one that leads to another, or for one that was given up.
 const std::optional<render::FrameInParts::UnderWay>& Viewer::driver_at() const {
+    if (stepping_ && stepping_->frame())
+        return stepping_->frame()->under_way();
     return making_ ? making_->frame.under_way() : ending_;
 }
 

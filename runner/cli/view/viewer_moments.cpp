@@ -48,8 +48,10 @@ bool Viewer::has_frame() const {
 }
 
 void Viewer::save_picture() {
-    if (!has_frame())
-        return;
+    if (!has_frame_ && !frozen_) {
+        save_due_ = true;
+        return say("no frame is drawn yet: the first one is saved");
+    }
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
     Picture picture = frozen_ ? frozen_->picture : read_picture();

@@ -57,7 +57,7 @@ bool Viewer::fit_drawing() {
     stale_ = true;
     if (!stage_)
         return true;
-    if (drawn_extent() != stage_->renderer().extent())
+    if (making_ && drawn_extent() != stage_->renderer().extent())
         drop_frame();
     stale_overlay_ = true; // the last picture, until there is one of that size
     const auto resized = stage_->renderer().resize(drawn_extent());

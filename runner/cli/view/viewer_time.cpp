@@ -34,6 +34,7 @@ void Viewer::seek(double seconds, double now) {
     forget_what_follows();
     if (!has_feedback())
         return;
+    has_frame_ = false;
     if (frame == 0)
         return stage_->renderer().reset();
     render::FrameState state = shown_;
@@ -47,7 +48,8 @@ void Viewer::seek(double seconds, double now) {
             replay->fill(seen);
         return seen;
     };
-    stepping_.emplace(stage_->renderer(), states, frame - 1, seconds);
+    stepping_ =
+        std::make_unique<SteppingThere>(stage_->renderer(), pace_, part_size_, states, frame - 1, seconds);
 }
 
 /// A few frames at a time, and the bar between. Time goes on from there.
@@ -78,8 +80,9 @@ void Viewer::rest_unwatched(double now) {
 void Viewer::carry_out(const live::GiveUpSeek&) {
     if (!stepping_)
         return;
-    const int next = stepping_->where().frame + 1;
-    stepping_.reset();
+    // A frame that is half drawn was never drawn.
+    const int next = stepping_->where().frame + (stepping_->frame() ? 0 : 1);
+    drop_frame();
     const double now = now_seconds();
     clock_.seek(next / settings_.frames.state.fps, next, now);
     if (!clock_.paused())
