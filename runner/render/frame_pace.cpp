@@ -10,11 +10,13 @@ constexpr double k_whole_again_seconds = 0.03;
 
 } // namespace
 
+std::optional<double> FramePace::expected(Extent extent) const {
+    return seconds_of_pixel_ ? std::optional(*seconds_of_pixel_ * double(extent.pixels())) : std::nullopt;
+}
+
 FramePace::Way FramePace::way(Extent extent) const {
-    if (!seconds_of_pixel_)
-        return Way::in_parts;
     const double longest = last_ == Way::whole ? k_whole_seconds : k_whole_again_seconds;
-    return *seconds_of_pixel_ * double(extent.pixels()) < longest ? Way::whole : Way::in_parts;
+    return expected(extent).value_or(longest) < longest ? Way::whole : Way::in_parts;
 }
 
 void FramePace::took(Extent extent, Way way, double seconds) {

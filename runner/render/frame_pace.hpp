@@ -12,6 +12,8 @@ class FramePace {
 public:
     enum class Way { whole, in_parts };
 
+    /// What the next frame of that size should take, in seconds; nothing: not known.
+    std::optional<double> expected(Extent extent) const;
     /// For the next frame, of that size. In parts where nothing is known.
     Way way(Extent extent) const;
     /// A frame of that size was drawn, in that way, in so many seconds.

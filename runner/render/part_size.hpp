@@ -4,6 +4,7 @@
 
 #include "render/part_cursor.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -19,8 +20,8 @@ public:
     /// That part of a face of that size took so long.
     void drew(const Part& part, Extent face, double milliseconds);
 
-    /// The next frame may take another time than all before: it begins with small parts.
-    void doubt() { recent_ = k_first; }
+    /// The next frame may take another time than all before: it begins with a part of so many pixels at most.
+    void doubt(size_t pixels) { recent_ = std::min(recent_, std::max(pixels, k_first)); }
 
 private:
     size_t known_pixels(const Part& ahead, const std::vector<double>& rows) const;

@@ -402,8 +402,12 @@ Result<void> Viewer::swap_in(Stage fresh) {
     return {};
 }
 
-/// Only what moves: a picture that stands still is not drawn anyway.
+/// Only what moves: a picture that stands still is not drawn anyway. And no slow frames: a trial draws them
+/// whole, and the driver does nothing else meanwhile.
 void Viewer::settle_after_rest(double now) {
+    constexpr double k_longest_trial_frame = 0.25;
+    if (pace_.expected(drawn_extent()).value_or(0) > k_longest_trial_frame)
+        return;
     if (settings_.plain || settled_ || !moving() || scene_.building_since() || scene_.failure() ||
         knobs_may_turn())
         return;

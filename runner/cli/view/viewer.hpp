@@ -213,6 +213,7 @@ private:
     void drop_frame();
     void give_frames_up(double now);
     void say_what_holds(double now);
+    void doubt_pace();
     bool goes_on() const { return making_ && !waits_for_better(); }
     bool draws_for_long(double now) const;
     const std::optional<render::FrameInParts::UnderWay>& driver_at() const;

@@ -160,6 +160,13 @@ void Viewer::say_what_holds(double now) {
                     k_too_long_seconds));
 }
 
+/// Another place or another setting may take another time: a part of the frame tells.
+void Viewer::doubt_pace() {
+    constexpr size_t k_first_parts = 16;
+    pace_.doubt();
+    part_size_.doubt(drawn_extent().pixels() / k_first_parts);
+}
+
 bool Viewer::draws_for_long(double now) const {
     return making_ && now - making_->begun > k_long_seconds;
 }

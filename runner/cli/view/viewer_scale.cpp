@@ -38,6 +38,8 @@ void Viewer::control(const ControlEvent& event) {
         return;
     touched_at_ = now_seconds();
     stale_ = true;
+    if (std::holds_alternative<KnobTurned>(event))
+        doubt_pace();
     if (recording())
         replay_->note(clock_.next_frame_number(), seen);
 }

@@ -31,6 +31,7 @@ void Viewer::seek(double seconds, double now) {
     if (has_feedback())
         drop_frame(); // else it ends, so that something is seen while somebody drags
     clock_.seek(seconds, frame, now);
+    doubt_pace();
     forget_what_follows();
     if (!has_feedback())
         return;

@@ -11,7 +11,9 @@ constexpr Extent k_extent{100, 100};
 TEST(FramePaceTest, what_nobody_knows_is_drawn_in_parts) {
     FramePace pace;
     EXPECT_EQ(pace.way(k_extent), Way::in_parts);
+    EXPECT_EQ(pace.expected(k_extent), std::nullopt);
     pace.took(k_extent, Way::in_parts, 0.001);
+    EXPECT_DOUBLE_EQ(*pace.expected({200, 100}), 0.002);
     EXPECT_EQ(pace.way(k_extent), Way::whole);
     pace.doubt();
     EXPECT_EQ(pace.way(k_extent), Way::in_parts);

@@ -74,11 +74,16 @@ TEST(PartSizeTest, a_frame_that_gets_slow_everywhere_is_felt_in_its_first_part_a
     EXPECT_EQ(std::ranges::count_if(took, [](double ms) { return ms > 50; }), 1);
 }
 
-TEST(PartSizeTest, doubt_begins_with_small_parts) {
+TEST(PartSizeTest, doubt_begins_with_a_small_part) {
     PartSize size;
-    draw(size, [](int) { return 1e-4; });
-    size.doubt();
-    EXPECT_LE(std::ranges::max(draw(size, [](int) { return 1e-2; })), 80);
+    draw(size, [](int) { return 1e-5; });
+    size.doubt(k_extent.pixels() / 16);
+    EXPECT_LE(draw(size, [](int) { return 1e-5; }).size(), 4u) << "few where it was in vain";
+    size.doubt(k_extent.pixels() / 16);
+    const auto took = draw(size, [](int) { return 1e-3; });
+    EXPECT_LE(std::ranges::max(took), 20 + 1e-3 * double(k_extent.pixels()) / 16);
+    size.doubt(0);
+    EXPECT_EQ(size.pixels({0, 0, {0, 0, k_extent}}), 256u);
 }
 
 TEST(PartSizeTest, what_is_left_over_of_a_row_says_nothing_of_the_next_rows) {
