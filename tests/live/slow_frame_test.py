@@ -2,7 +2,7 @@
 import json
 import re
 
-from support import png, probe
+from support import osc, png, probe
 from support.live import LiveTest, View, main
 
 SIZE = ("--size", "320x160")
@@ -109,12 +109,16 @@ class SlowFrame(LiveTest):
         self.assertEqual(self.expect_picture_of_capture(view).width, 200)
         self.assertEqual(view.told(SMALL), {"size": 200})
 
-    def test_a_frame_that_is_given_up_is_none(self):
-        """Of a scene that counts its frames: in its buffer, and by the window."""
+    def start_counting(self, *options: str) -> View:
+        """A scene that counts its frames: in its buffer, and by the window."""
         self.write("s/buffer_a.glsl", COUNT)
         self.write("s/image.glsl", slow(self.measured(), COUNTED, '#iChannel0 "buffer_a.glsl"\n'))
-        view = View(self.screen, self.folder, "s", *SIZE, "--plain", first_title=" - drawing ")
+        view = View(self.screen, self.folder, "s", *SIZE, "--plain", *options, first_title=" - drawing ")
         self.addCleanup(view.close)
+        return view
+
+    def test_a_frame_that_is_given_up_is_none(self):
+        view = self.start_counting()
         self.wait_for_a_frame(view)
         view.wait_for_title(", Esc gives up")
         view.key("Escape")
@@ -123,6 +127,20 @@ class SlowFrame(LiveTest):
         view.key("space")
         self.wait_for_a_frame(view)
         self.assertEqual(view.told(COUNTED), {"count": 2, "frame": 1})
+
+    def test_frames_that_lead_to_a_moment(self):
+        view = self.start_counting("--osc", "0")
+        client = osc.Client(int(view.wait_for_words(r"^OSC: listening at \S+:(\d+)$")[1]))
+        self.addCleanup(client.close)
+        self.wait_for_a_frame(view)
+        client.send("/time", 1000.0)
+        view.wait_for_title(r" - stepping to frame 59999, Esc gives up\Z")
+        view.key("h")
+        view.wait_for_words("full screen; help")
+        view.key("Escape")
+        self.wait_for_the_paused_frame(view)
+        told = view.told(COUNTED)
+        self.assertEqual(told["count"], told["frame"] + 1)
 
     def test_a_loop_that_never_ends(self):
         """Or as good as never: not in the small picture that is tried out in another process first."""
