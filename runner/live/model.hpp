@@ -37,10 +37,13 @@ struct Model {
     std::string help_footer{};
 
     std::optional<MagnifierField> magnifier{};
+    std::string clock{}; ///< of a frame that is drawn for long; empty: none is
 
     /// Which panels are open.
-    using Panels = std::array<bool, 4>;
-    Panels panels() const { return {controls, !errors.empty(), !help.empty(), magnifier.has_value()}; }
+    using Panels = std::array<bool, 5>;
+    Panels panels() const {
+        return {controls, !errors.empty(), !help.empty(), magnifier.has_value(), !clock.empty()};
+    }
 };
 
 } // namespace tidemark::live

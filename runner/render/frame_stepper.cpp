@@ -32,7 +32,13 @@ FrameSteps FrameStepper::step(int end, int last, const MayDraw& may_draw) {
         steps.complete = !may_draw || may_draw(*next_, last);
         if (!steps.complete)
             break;
-        renderer_.draw(inputs_of(states_(*next_)));
+        const FrameInputs inputs = inputs_of(states_(*next_));
+        if (draw_frame_)
+            steps.complete = draw_frame_(inputs);
+        else
+            renderer_.draw(inputs);
+        if (!steps.complete)
+            break;
         ++steps.frames;
     }
     steps.passes = renderer_.passes_drawn() - before;

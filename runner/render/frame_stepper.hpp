@@ -31,6 +31,11 @@ public:
         : FrameStepper(
               renderer, [state](int frame) { return state.at_frame(frame); }, first) {}
 
+    /// Draws a frame; false: not all of it yet, and none is counted. It is asked for again then.
+    using DrawFrame = std::function<bool(const FrameInputs&)>;
+    /// Instead of by the renderer, whole.
+    void draw_by(DrawFrame draw) { draw_frame_ = std::move(draw); }
+
     FrameSteps draw(int frame, const MayDraw& may_draw = {});
     /// All that `draw` draws but the frame itself: buffers hold what it would see.
     FrameSteps lead_to(int frame, const MayDraw& may_draw = {});
@@ -45,6 +50,7 @@ private:
     Renderer& renderer_;
     FrameStates states_;
     int first_;
+    DrawFrame draw_frame_{};
     std::optional<int> next_{}; ///< the frame that the buffers are ready for; none: they are not
 };
 

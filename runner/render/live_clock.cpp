@@ -66,6 +66,11 @@ FrameState LiveClock::next_frame(double now) {
     return state;
 }
 
+void LiveClock::give_frame_back() {
+    next_frame_ = std::max(0, next_frame_ - 1);
+    fresh_ = true;
+}
+
 void LiveClock::measure_rate(double now) {
     if (fresh_) {
         window_start_ = now;

@@ -37,6 +37,8 @@ public:
 
     /// The frame to draw now. Counts it.
     FrameState next_frame(double now);
+    /// The frame that `next_frame` gave last is not drawn: its number is the next one's.
+    void give_frame_back();
     /// iTime at that moment.
     double time(double now) const { return time_at(now); }
     int next_frame_number() const { return next_frame_; }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace tidemark::render {
 
@@ -47,6 +48,29 @@ void PassTarget::flip() {
     latest_ = next_index();
     ++edition_;
     gl::make_mipmaps(latest().texture);
+}
+
+std::optional<gl::RenderTarget> PassTarget::make_apart(bool keeps) const {
+    const gl::Texture& like = next().texture;
+    const bool cube = like.target == GL_TEXTURE_CUBE_MAP;
+    auto apart = gl::make_render_target(
+        cube ? gl::make_cube_texture(like.extent.width, like.internal_format, like.levels)
+             : gl::make_texture(like.extent, like.internal_format, like.levels));
+    if (apart && keeps)
+        gl::copy_overlap(next(), *apart);
+    return apart;
+}
+
+void PassTarget::take_over(gl::RenderTarget& apart) {
+    std::swap(surfaces_[next_index()], apart);
+    latest_ = next_index();
+    ++edition_;
+}
+
+void PassTarget::take_back(gl::RenderTarget& apart) {
+    latest_ = next_index();
+    std::swap(surfaces_[next_index()], apart);
+    --edition_;
 }
 
 void PassTarget::clear() {

@@ -7,6 +7,7 @@
 #include "render/frame_plan.hpp"
 #include "render/last_drawing.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace tidemark::render {
@@ -28,6 +29,14 @@ public:
     const gl::RenderTarget& next() const { return surfaces_[next_index()]; }
     /// At once after drawing, so that passes later in the frame see it. Makes the mipmaps.
     void flip();
+
+    /// A surface to draw the next picture into while all of its own stay as they are; where pixels are
+    /// discarded (`keeps`) it begins as `next` is. Nothing where the driver has no memory for it.
+    std::optional<gl::RenderTarget> make_apart(bool keeps) const;
+    /// `apart`, with its mipmaps, becomes the latest and takes the place of `next`, whose surface it gets.
+    void take_over(gl::RenderTarget& apart);
+    /// All is again as it was before `take_over`, `apart` too.
+    void take_back(gl::RenderTarget& apart);
 
     void clear();
     size_t bytes() const;

@@ -112,10 +112,12 @@ Result<void> Renderer::resize(Extent extent) {
         if (!has_own_size(planned.pass))
             passes_[planned.pass].target = std::move(fresh[planned.pass]);
     extent_ = extent;
+    ++changes_;
     return {};
 }
 
 void Renderer::reset() {
+    ++changes_;
     for (const PlannedPass& planned : plan().passes)
         passes_[planned.pass].target.clear();
 }
@@ -142,12 +144,14 @@ bool Renderer::restore(const BufferState& state) {
     }
     if (targets.size() != state.size())
         return false;
+    ++changes_;
     for (size_t i = 0; i < targets.size(); ++i)
         targets[i]->restore(state[i].textures);
     return true;
 }
 
 void Renderer::continue_from(const Renderer& before) {
+    ++changes_;
     for (const PlannedPass& planned : plan().passes)
         for (const PlannedPass& known : before.plan().passes) {
             const scene::Pass& pass = scene().passes[planned.pass];
@@ -176,6 +180,7 @@ void Renderer::warm_up(const FrameInputs& inputs) {
 void Renderer::draw(const FrameInputs& inputs, std::vector<PassTimer>* timers) {
     const Doing drawing = doing(k_drawing, scene());
     draws_in_frame_ = 0;
+    ++changes_;
     textures_.update(inputs);
     for (const PlannedPass& planned : plan().passes) {
         if (is_tiled(planned.pass))
@@ -263,6 +268,7 @@ const gl::Texture* Renderer::texture_at(size_t pass, int unit) const {
 
 /// The passes in front of that one.
 void Renderer::draw_before(size_t pass, const FrameInputs& inputs) {
+    ++changes_;
     textures_.update(inputs);
     for (const PlannedPass& planned : plan().passes) {
         if (planned.pass == pass)
@@ -293,9 +299,10 @@ bool Renderer::follows_clock() const {
            });
 }
 
-void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
+/// What the pass is to be drawn from; none: its target holds what would come of that.
+std::optional<PassInputs> Renderer::changed_inputs(size_t index, const FrameInputs& inputs) const {
     const auto& [linked, uniforms] = compiled_[index];
-    DrawnPass& pass = passes_[index];
+    const DrawnPass& pass = passes_[index];
     const gl::RenderTarget& into = pass.target.next();
     PassInputs reads{uniforms_of(index, uniforms, inputs, into.extent()), {}};
     for (const BoundChannel& channel : pass.channels)
@@ -303,20 +310,36 @@ void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
     if (linked.discards && &into != &pass.target.latest()) // else what is discarded stays as it is shown
         reads.channels.push_back(pass.target.generation());
     if (!compiled_.options().extras.unchanged && pass.drawn.holds(reads, pass.target.generation()))
-        return;
-    uniforms.upload(linked.program, reads.uniforms);
+        return std::nullopt;
+    return reads;
+}
+
+/// The program of a pass has its uniforms and textures.
+void Renderer::prepare(size_t index, const UniformValues& uniforms) const {
+    compiled_[index].uniforms.upload(compiled_[index].linked.program, uniforms);
     bind_textures(index);
-    const int faces = is_cube(index) ? 6 : 1;
-    for (int face = 0; face < faces; ++face) {
-        if (is_cube(index))
-            gl::select_face(into, face);
-        set_face(linked.program, face);
-        draw_face(linked.program, into, into.extent());
-    }
+}
+
+/// Of a pass that is prepared; as far as the scissor box allows.
+void Renderer::draw_face(size_t index, int face, const gl::RenderTarget& into) const {
+    if (is_cube(index))
+        gl::select_face(into, face);
+    set_face(program(index), face);
+    draw_face(program(index), into, into.extent());
+}
+
+void Renderer::draw_pass(size_t index, const FrameInputs& inputs) {
+    auto reads = changed_inputs(index, inputs);
+    if (!reads)
+        return;
+    DrawnPass& pass = passes_[index];
+    prepare(index, reads->uniforms);
+    for (int face = 0; face < faces_of(index); ++face)
+        draw_face(index, face, pass.target.next());
     pass.target.flip();
-    pass.drawn.drew(std::move(reads), pass.target.generation());
+    pass.drawn.drew(*std::move(reads), pass.target.generation());
     ++passes_drawn_;
-    draws_in_frame_ += size_t(faces);
+    draws_in_frame_ += size_t(faces_of(index));
 }
 
 void Renderer::draw_substitute(size_t pass, const gl::Program& program, const FrameInputs& inputs,

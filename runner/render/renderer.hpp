@@ -98,7 +98,10 @@ public:
     image::Image read_back(size_t pass) const;
 
     /// Other values for the scene's knobs, in their order, from the next frame on.
-    void turn(std::vector<scene::Knob> knobs) { compiled_.turn(std::move(knobs)); }
+    void turn(std::vector<scene::Knob> knobs) {
+        compiled_.turn(std::move(knobs));
+        ++changes_;
+    }
 
     /// The last picture of any pass in the plan, in floats.
     image::Image read_floats(size_t pass, int face = 0) const;
@@ -138,7 +141,8 @@ public:
     const gl::Texture* texture_at(size_t pass, int unit) const;
 
 private:
-    friend class PassPreview; ///< goes on into a frame, and no further
+    friend class PassPreview;  ///< goes on into a frame, and no further
+    friend class FrameInParts; ///< draws passes apart, and leaves their pictures when all are whole
     /// What is drawn of a pass, and what it is drawn from.
     struct DrawnPass {
         std::vector<BoundChannel> channels;
@@ -155,6 +159,10 @@ private:
     bool has_own_size(size_t pass) const;
 
     void draw_pass(size_t pass, const FrameInputs& inputs);
+    std::optional<PassInputs> changed_inputs(size_t pass, const FrameInputs& inputs) const;
+    void prepare(size_t pass, const UniformValues& uniforms) const;
+    void draw_face(size_t pass, int face, const gl::RenderTarget& into) const;
+    int faces_of(size_t pass) const { return is_cube(pass) ? 6 : 1; }
     void draw_before(size_t pass, const FrameInputs& inputs);
     void draw_substitute(size_t pass, const gl::Program& program, const FrameInputs& inputs,
                          const gl::RenderTarget& into, int face) const;
@@ -172,6 +180,7 @@ private:
     ChannelTextures textures_;
     std::vector<DrawnPass> passes_; ///< one for each of the scene's
     size_t passes_drawn_ = 0;
+    size_t changes_ = 0;        ///< of its pictures, of whatever kind
     size_t draws_in_frame_ = 0; ///< the last one
 };
 

@@ -59,6 +59,25 @@ TEST_F(FrameStepperTest, it_is_stopped_between_two_frames) {
     EXPECT_EQ(steps.frames, 2);
 }
 
+TEST_F(FrameStepperTest, a_frame_that_is_drawn_in_parts_is_asked_for_until_it_is_whole) {
+    Renderer drawing = counting();
+    FrameStepper stepper(drawing, FrameState{});
+    std::vector<int> asked;
+    stepper.draw_by([&](const FrameInputs& inputs) {
+        asked.push_back(inputs.frame);
+        if (asked.size() % 2 == 1)
+            return false;
+        drawing.draw(inputs);
+        return true;
+    });
+    int calls = 1;
+    for (; !stepper.draw(2).complete; ++calls)
+        EXPECT_EQ(asked.size() % 2, 1u);
+    EXPECT_EQ(asked, (std::vector<int>{0, 0, 1, 1, 2, 2}));
+    EXPECT_EQ(calls, 4);
+    EXPECT_EQ(count(drawing), 3);
+}
+
 TEST_F(FrameStepperTest, nothing_goes_on_from_half_a_frame) {
     Renderer drawing = counting();
     FrameStepper stepper(drawing, FrameState{});

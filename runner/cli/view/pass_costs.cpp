@@ -1,9 +1,11 @@
 #include "cli/view/pass_costs.hpp"
 
+#include <utility>
+
 namespace tidemark::cli {
 
 std::vector<render::PassTimer>* PassCosts::next_frame() {
-    frame_before_.reset();
+    frame_before_ = std::exchange(in_parts_, std::nullopt);
     for (const render::PassTimer& timer : timers_)
         if (const auto took = timer.time.milliseconds(); took) {
             milliseconds_[timer.pass] = *took;
@@ -13,7 +15,13 @@ std::vector<render::PassTimer>* PassCosts::next_frame() {
     return &timers_;
 }
 
+void PassCosts::took(size_t pass, double milliseconds) {
+    milliseconds_[pass] = milliseconds;
+    in_parts_ = in_parts_.value_or(0) + milliseconds;
+}
+
 void PassCosts::forget() {
+    in_parts_.reset();
     timers_.clear();
     milliseconds_.clear();
     frame_before_.reset();

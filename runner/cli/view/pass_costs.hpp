@@ -13,6 +13,8 @@ class PassCosts {
 public:
     /// For the next frame. Takes what the timers of the frame before say, which is drawn by now.
     std::vector<render::PassTimer>* next_frame();
+    /// A pass of the frame before was drawn in parts: no timer knows them.
+    void took(size_t pass, double milliseconds);
     void forget();
     /// Milliseconds, when it was drawn last.
     std::optional<double> of(size_t pass) const;
@@ -23,6 +25,7 @@ private:
     std::vector<render::PassTimer> timers_;
     std::map<size_t, double> milliseconds_;
     std::optional<double> frame_before_;
+    std::optional<double> in_parts_; ///< of the frame that is the one before next
 };
 
 } // namespace tidemark::cli

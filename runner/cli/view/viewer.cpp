@@ -110,33 +110,51 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
 
 /// First to what was done while a frame held the window: it was meant for what people saw then.
 void Viewer::listen() {
-    const auto handle_all = [this](const std::vector<platform::InputEvent>& events) {
-        for (const platform::InputEvent& event : events) {
-            stale_overlay_ |= magnifier_.follow(event);
-            if (!screen_->take(event))
-                std::visit([this](const auto& happened) { handle(happened); }, event);
-            obey_overlay();
-        }
-        obey_overlay();
-    };
     double now = now_seconds();
     held_seconds_ = now - listened_at_;
     of_the_hold_ = held_seconds_ > k_hold_seconds;
-    if (std::exchange(drew_, false))
+    if (std::exchange(drew_, false)) {
         slow_ = of_the_hold_;
+        pace_.took(drawn_extent(), render::FramePace::Way::whole, held_seconds_);
+    }
+    if (ending_ && ending_->end.wait(0))
+        ending_.reset();
     if (of_the_hold_) {
-        handle_all(screen_->wait(0));
+        handle_all(screen_->wait(0), now);
         next_draw_ = std::max(next_draw_, now + k_breath_seconds);
         now = now_seconds();
     }
     of_the_hold_ = false;
-    handle_all(screen_->wait(closing_ ? 0 : seconds_to_sleep(now)));
+    handle_all(screen_->wait(closing_ ? 0 : seconds_to_sleep(now)), now);
     listened_at_ = now_seconds();
+}
+
+/// What needs the driver waits while that is held by a part of a frame; there is always a way out.
+void Viewer::handle_all(const std::vector<platform::InputEvent>& events, double now) {
+    const bool held = driver_is_held(now);
+    std::vector<platform::InputEvent> happened;
+    if (!held)
+        happened = std::exchange(events_held_, {});
+    happened.insert(happened.end(), events.begin(), events.end());
+    for (const platform::InputEvent& event : happened) {
+        const auto* key = std::get_if<platform::KeyPressed>(&event);
+        const bool leads_out =
+            std::holds_alternative<platform::CloseRequested>(event) || (key && key->key == Key::escape);
+        if (held && !leads_out) {
+            events_held_.push_back(event);
+            continue;
+        }
+        stale_overlay_ |= magnifier_.follow(event);
+        if (!screen_->take(event))
+            std::visit([this](const auto& it) { handle(it); }, event);
+        obey_overlay();
+    }
+    obey_overlay();
 }
 
 /// Nobody wants another frame that holds the window when its mended successor is nearly there.
 bool Viewer::waits_for_better() const {
-    return slow_ && scene_.building_since();
+    return scene_.building_since() && (slow_ || draws_for_long(now_seconds()));
 }
 
 Result<void> Viewer::finish() {
@@ -153,9 +171,13 @@ Result<void> Viewer::finish() {
 bool Viewer::wants_frame(double now) const {
     if (!screen_->is_watched())
         return false;
+    if (goes_on())
+        return true;
+    if (driver_is_held(now))
+        return false;
     if (overlay_due())
         return true;
-    if (waits_for_better() || (slow_ && now < next_draw_))
+    if (making_ || waits_for_better() || (slow_ && now < next_draw_))
         return false;
     return stale_ || (moving() && now >= next_draw_);
 }
@@ -167,49 +189,21 @@ bool Viewer::moving() const {
 
 double Viewer::seconds_to_sleep(double now) const {
     double until = std::numeric_limits<double>::infinity();
+    const bool held = driver_is_held(now);
     const bool watched = screen_->is_watched();
-    if ((watched && ((stale_ && !slow_) || overlay_due())) || stepping_)
+    if ((watched && goes_on()) || stepping_)
         return 0;
-    if (watched && (stale_ || moving()) && !waits_for_better())
+    if (watched && !held && ((stale_ && !slow_ && !making_) || overlay_due()))
+        return 0;
+    if (watched && !held && (stale_ || moving()) && !making_ && !waits_for_better())
         until = next_draw_;
-    if (scene_.building_since())
+    if (scene_.building_since() || ending_)
         until = std::min(until, now + k_title_seconds);
-    until = std::min(until, finite_.due());
+    if (!held)
+        until = std::min(until, finite_.due());
     if (const auto wake = scene_.wake_at())
         until = std::min(until, *wake);
     return std::max(0.0, until - now);
-}
-
-void Viewer::draw(double now) {
-    const bool due = stale_ || (moving() && now >= next_draw_);
-    const bool stale = std::exchange(stale_, false);
-    if (!stage_ || given_up_ || stepping_ || !due)
-        return present(false);
-    render::Renderer& renderer = stage_->renderer();
-    next_draw_ = std::max(next_draw_ + 1 / settings_.frames.state.fps, now);
-    shown_ = clock_.next_frame(now);
-    shown_.date = settings_.date ? *settings_.date : render::later(render::local_date(), -shown_.seconds());
-    std::vector<render::PassTimer>* timers = time_next_frame();
-    shown_.extent = renderer.extent();
-    if (replay_)
-        replay_->fill(shown_);
-    else
-        controls_.fill(shown_);
-    const size_t drawn_before = renderer.passes_drawn();
-    drew_ = true;
-    renderer.draw(heard_inputs(), timers);
-    const bool drawn = renderer.passes_drawn() != drawn_before;
-    if (drawn || stale || stale_overlay_ || screen_->wants_frame())
-        present(drawn);
-    controls_.frame_drawn();
-    if (drawn)
-        finite_.frame_drawn();
-    // Frames are counted on where somebody writes their numbers down, or reads them.
-    at_rest_ = !drawn && !renderer.follows_clock() && !replay_;
-    if (at_rest_)
-        clock_.rest();
-    if (reloaded_)
-        report_reload();
 }
 
 /// The picture as it was drawn last, and what lies over it.
@@ -230,7 +224,7 @@ ShownMoment Viewer::shown_moment() const {
 
 /// Said once of a text: a window shows them as what it likes.
 void Viewer::look_for_numbers(double now) {
-    if (!stage_ || now < finite_.due())
+    if (!stage_ || now < finite_.due() || driver_is_held(now))
         return;
     if (const size_t count = finite_.look(stage_->renderer(), now); count > 0)
         say(fmt::format("warning: {} not finite; where from: {}",
@@ -265,7 +259,11 @@ void Viewer::obey(Key key, double now) {
     const bool moves_time = key == Key::left || key == Key::right || key == Key::space || key == Key::home;
     if (stepping_ && moves_time)
         carry_out(live::GiveUpSeek{});
-    if (given_up_ && moves_time) {
+    const bool resizes =
+        key == Key::minus || key == Key::equal || key == Key::keypad_subtract || key == Key::keypad_add;
+    if (moves_time)
+        drop_frame();
+    if (given_up_ && (moves_time || resizes)) {
         given_up_ = false;
         if (key == Key::space && !clock_.paused())
             return;
@@ -280,6 +278,7 @@ void Viewer::obey(Key key, double now) {
     case Key::home:
         if (stage_)
             stage_->renderer().reset();
+        has_frame_ = false;
         clock_.restart(now);
         forget_what_follows();
         break;
@@ -312,14 +311,8 @@ void Viewer::escape(double now) {
         return carry_out(live::GiveUpSeek{});
     if (given_up_ && now - given_up_at_ < k_hold_seconds)
         return; // pressed again, for the same frame
-    if (stage_ && (of_the_hold_ || (slow_ && moving()))) {
-        given_up_ = true;
-        given_up_at_ = now;
-        clock_.rest();
-        say(fmt::format(
-            "{}: given up, a frame takes {:.1f} s: it goes on when a file of it is saved, or with "
-            "space; Esc quits",
-            settings_.scene.path.string(), held_seconds_));
+    if (stage_ && (of_the_hold_ || draws_for_long(now) || (slow_ && (moving() || making_)))) {
+        give_frames_up(now);
     } else if (stage_ && compiles_for_long(now)) {
         scene_.give_up();
     } else {
@@ -363,7 +356,7 @@ Result<void> Viewer::show(Stage fresh, double now) {
     controls_.release(stage_->renderer().scene().knobs);
     reloaded_ = scene_.take_times();
     settled_ = false;
-    given_up_ = slow_ = false;
+    given_up_ = slow_ = has_frame_ = false;
     finite_.begin_anew();
     stale_ = true;
     touched_at_ = now;
@@ -379,9 +372,13 @@ Result<void> Viewer::show(Stage fresh, double now) {
 /// What was on show before goes, its buffers' content stays: as on the site, a text that is changed goes on
 /// from where it was.
 Result<void> Viewer::swap_in(Stage fresh) {
+    drop_frame();
+    ending_.reset();
+    parts_fail_ = false;
+    pace_.doubt();
+    part_size_ = {};
     if (stage_)
         glFinish(); // what it drew is there to be taken over
-    stepping_.reset();
     forget_looking();
     costs_.forget();
     if (adaptive_)
@@ -405,8 +402,12 @@ Result<void> Viewer::swap_in(Stage fresh) {
     return {};
 }
 
-/// Only what moves: a picture that stands still is not drawn anyway.
+/// Only what moves: a picture that stands still is not drawn anyway. And no slow frames: a trial draws them
+/// whole, and the driver does nothing else meanwhile.
 void Viewer::settle_after_rest(double now) {
+    constexpr double k_longest_trial_frame = 0.25;
+    if (pace_.expected(drawn_extent()).value_or(0) > k_longest_trial_frame)
+        return;
     if (settings_.plain || settled_ || !moving() || scene_.building_since() || scene_.failure() ||
         knobs_may_turn())
         return;

@@ -24,8 +24,11 @@
 #include "cli/view/wall_clock.hpp"
 #include "cli/view/window_keys.hpp"
 #include "render/adaptive_scale.hpp"
+#include "render/frame_in_parts.hpp"
+#include "render/frame_pace.hpp"
 #include "render/live_clock.hpp"
 #include "render/number_marks.hpp"
+#include "render/part_size.hpp"
 #include "render/render_scale.hpp"
 
 #include <filesystem>
@@ -63,7 +66,7 @@ public:
     void wake() const { screen_->wake(); }
 
     /// A thread is at work in the driver, which cannot be stopped: whoever wants to end must end the process.
-    bool busy() const { return scene_.busy() || sound_->busy(); }
+    bool busy() const { return scene_.busy() || sound_->busy() || driver_is_at_work(); }
 
 private:
     /// As it is saved: with all that draws it again.
@@ -78,6 +81,14 @@ private:
         Picture picture;
         Moment moment;
     };
+    /// A frame that is drawn in parts.
+    struct Making {
+        render::FrameState state;
+        render::FrameInParts frame;
+        double begun;
+        bool wanted;       ///< somebody did something that it shows
+        bool said = false; ///< that it may never end
+    };
     Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scene);
     bool recording() const { return !settings_.record.empty(); }
     render::LiveClock clock_from(double now) const;
@@ -91,10 +102,11 @@ private:
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
+    void handle_all(const std::vector<platform::InputEvent>& events, double now);
     void escape(double now);
     void forget_what_follows();
     void handle(const platform::TextTyped&) {}
-    void handle(const platform::RedrawNeeded&) { stale_ = true; }
+    void handle(const platform::RedrawNeeded&) { stale_ = stale_overlay_ = true; }
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
 
@@ -116,6 +128,7 @@ private:
     Moment moment() const;
     image::PictureFormat format_of_picture() const;
     Picture read_picture() const;
+    bool has_frame() const;
     void save_picture();
     void copy_moment();
     void keep_moment();
@@ -159,7 +172,8 @@ private:
     // Live inputs: viewer_inputs.cpp
     Result<void> open_inputs();
     void take_inputs();
-    render::FrameInputs heard_inputs();
+    render::FrameInputs heard_inputs(const render::FrameState& state);
+    render::FrameInputs inputs_at(const render::FrameState& state) const;
     render::FrameInputs inputs_on_show() const;
     std::vector<scene::Knob> turned_knobs() const;
     void carry_out(const live::SetPlaying& command);
@@ -188,7 +202,24 @@ private:
     bool compiles_for_long(double now) const;
     void show_title(double now);
 
+    // Frames, whole or in parts: viewer_drawing.cpp
     void draw(double now);
+    render::FrameState next_state(double now);
+    void draw_whole(const render::FrameState& state, bool wanted, std::vector<render::PassTimer>* timers);
+    void begin_frame(const render::FrameState& state, bool wanted, double now);
+    void carry_on(double now);
+    void frame_is_made(bool drawn);
+    void frame_is_drawn(const render::FrameState& state, bool drawn, bool wanted);
+    void drop_frame();
+    void give_frames_up(double now);
+    void say_what_holds(double now);
+    void doubt_pace();
+    bool goes_on() const { return making_ && !waits_for_better(); }
+    bool draws_for_long(double now) const;
+    const std::optional<render::FrameInParts::UnderWay>& driver_at() const;
+    bool driver_is_at_work() const;
+    bool driver_is_held(double now) const;
+    std::string drawing_words(double now) const;
     void present(bool fresh);
     ShownMoment shown_moment() const;
     void look_for_numbers(double now);
@@ -207,6 +238,15 @@ private:
     std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;
+    render::FramePace pace_;
+    render::PartSize part_size_;
+    std::optional<Making> making_;                         ///< none: nothing is half drawn
+    std::optional<render::FrameInParts::UnderWay> ending_; ///< of a frame that was given up
+    std::vector<platform::InputEvent> events_held_;        ///< that wait until the driver is free
+    double clock_shown_at_ = 0;                            ///< the one of a frame that is drawn for long
+    bool parts_fail_ = false;                              ///< there is no memory for them
+    bool save_due_ = false;                                ///< the next frame is to be saved
+    bool has_frame_ = false; ///< of the text on show, and nothing began anew since
     Controls controls_;
     render::RenderScale scale_;
     std::optional<render::AdaptiveScale> adaptive_; ///< none: the scale stays
@@ -234,14 +274,14 @@ private:
     std::optional<render::ShownFloats> floats_; ///< of the stage, when somebody looks
     std::optional<render::NumberMarks> marks_;  ///< likewise
     bool marks_shown_ = false;
-    std::optional<Frozen> frozen_;          ///< instead of the frames that follow it
-    std::unique_ptr<OriginSearch> search_;  ///< while one is under way
-    ErrorBoard origin_;                     ///< what it found
-    std::optional<SteppingThere> stepping_; ///< on the way to a frame
-    live::SetLoop loop_;                    ///< of time
-    std::vector<Moment> views_;             ///< that somebody kept
-    std::optional<double> going_to_;        ///< iTime of the view that the next Stage shows
-    std::optional<size_t> large_;           ///< of the pictures in the overlay
+    std::optional<Frozen> frozen_;            ///< instead of the frames that follow it
+    std::unique_ptr<OriginSearch> search_;    ///< while one is under way
+    ErrorBoard origin_;                       ///< what it found
+    std::unique_ptr<SteppingThere> stepping_; ///< on the way to a frame
+    live::SetLoop loop_;                      ///< of time
+    std::vector<Moment> views_;               ///< that somebody kept
+    std::optional<double> going_to_;          ///< iTime of the view that the next Stage shows
+    std::optional<size_t> large_;             ///< of the pictures in the overlay
     std::optional<std::vector<live::DefinitionField>>
         defined_;                ///< by the scene on show; none: not looked yet
     bool controls_open_ = false; ///< in the overlay

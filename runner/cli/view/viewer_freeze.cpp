@@ -8,7 +8,7 @@
 namespace tidemark::cli {
 
 void Viewer::toggle_freeze() {
-    if (!stage_)
+    if (!has_frame())
         return;
     stale_overlay_ = true;
     if (std::exchange(frozen_, std::nullopt))

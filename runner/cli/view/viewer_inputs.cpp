@@ -23,18 +23,22 @@ void Viewer::take_inputs() {
 }
 
 /// For the frame that is drawn now.
-render::FrameInputs Viewer::heard_inputs() {
+render::FrameInputs Viewer::heard_inputs(const render::FrameState& state) {
     if (inputs_)
         inputs_->hear();
-    return inputs_on_show();
+    return inputs_at(state);
 }
 
-/// Of the frame on show, with what it heard.
-render::FrameInputs Viewer::inputs_on_show() const {
-    render::FrameInputs inputs = inputs_of(shown_);
+/// Of a frame, with what it heard.
+render::FrameInputs Viewer::inputs_at(const render::FrameState& state) const {
+    render::FrameInputs inputs = inputs_of(state);
     if (inputs_)
         inputs.live = inputs_->media();
     return inputs;
+}
+
+render::FrameInputs Viewer::inputs_on_show() const {
+    return inputs_at(shown_);
 }
 
 /// As they were turned last, which no frame may have shown yet.

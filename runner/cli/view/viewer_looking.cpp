@@ -31,9 +31,9 @@ std::optional<live::MagnifierField> Viewer::magnifier_field() {
     return magnifier_.field(stage_->renderer(), inputs_on_show(), screen_->extent(), floats());
 }
 
-/// What the marks are drawn from, while there are any.
+/// What the marks are drawn from, while there are any: Image once more, and whole.
 const gl::Texture* Viewer::marked_picture() {
-    if (!marks_shown_ || !stage_ || stepping_ || frozen_ ||
+    if (!marks_shown_ || !stage_ || stepping_ || frozen_ || making_ || slow_ ||
         stage_->renderer().target().texture.target != GL_TEXTURE_2D)
         return nullptr;
     if (!marks_) {

@@ -40,9 +40,18 @@ Viewer::Picture Viewer::read_picture() const {
     return picture;
 }
 
+/// Of the text as it is: else there is no moment.
+bool Viewer::has_frame() const {
+    if (!has_frame_ && !frozen_)
+        say("no frame is drawn yet");
+    return has_frame_ || frozen_;
+}
+
 void Viewer::save_picture() {
-    if (!stage_)
-        return;
+    if (!has_frame_ && !frozen_) {
+        save_due_ = true;
+        return say("no frame is drawn yet: the first one is saved");
+    }
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
     Picture picture = frozen_ ? frozen_->picture : read_picture();
@@ -57,7 +66,7 @@ void Viewer::save_picture() {
 /// The rate of the window's own clock is nobody's wish, and the date is left to the capture unless somebody
 /// gave one.
 void Viewer::copy_moment() {
-    if (!stage_)
+    if (!has_frame())
         return;
     Moment copied = moment();
     render::FrameState& state = copied.sequence.state;
@@ -69,7 +78,7 @@ void Viewer::copy_moment() {
 }
 
 void Viewer::keep_moment() {
-    if (!stage_)
+    if (!has_frame())
         return;
     views_.push_back(moment());
     stale_overlay_ = true;

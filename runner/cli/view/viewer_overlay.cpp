@@ -44,18 +44,26 @@ void Viewer::toggle_help() {
 
 /// It is drawn without a new frame of the scene, which brings it along while the scene moves.
 bool Viewer::overlay_due() const {
-    return (stale_overlay_ || screen_->wants_frame()) && !moving();
+    return (stale_overlay_ || screen_->wants_frame()) && (making_ || !moving()) &&
+           !driver_is_held(now_seconds());
 }
 
 live::Model Viewer::overlay_model() {
     live::Model model{.controls = controls_open_ && stage_,
                       .errors = errors_.fields().empty() ? origin_.fields() : errors_.fields(),
                       .magnifier = magnifier_field()};
+    if (const double now = now_seconds(); draws_for_long(now)) {
+        model.clock = drawing_words(now);
+        clock_shown_at_ = now;
+    }
     if (model.controls && !defined_)
         defined_ = definition_fields(stage_->renderer().scene(), scene_.request());
     if (model.controls) {
         const render::Renderer& renderer = stage_->renderer();
-        model.knobs = knob_fields(renderer.scene(), shown_.knobs);
+        render::FrameState turned = shown_;
+        if (making_ && !replay_)
+            controls_.fill(turned); // which no frame shows yet
+        model.knobs = knob_fields(renderer.scene(), turned.knobs);
         if (inputs_ && inputs_->has_midi())
             add_controllers(model.knobs, controllers_);
         model.definitions = *defined_;

@@ -38,6 +38,8 @@ void Viewer::control(const ControlEvent& event) {
         return;
     touched_at_ = now_seconds();
     stale_ = true;
+    if (std::holds_alternative<KnobTurned>(event))
+        doubt_pace();
     if (recording())
         replay_->note(clock_.next_frame_number(), seen);
 }
@@ -57,6 +59,9 @@ bool Viewer::fit_drawing() {
     stale_ = true;
     if (!stage_)
         return true;
+    if (making_ && drawn_extent() != stage_->renderer().extent())
+        drop_frame();
+    stale_overlay_ = true; // the last picture, until there is one of that size
     const auto resized = stage_->renderer().resize(drawn_extent());
     if (!resized)
         say(to_string(resized.error()));

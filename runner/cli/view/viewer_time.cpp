@@ -28,10 +28,14 @@ void Viewer::seek(double seconds, double now) {
     const int frame = render::frame_at(seconds, fps);
     stale_ = true;
     given_up_ = false;
+    if (has_feedback())
+        drop_frame(); // else it ends, so that something is seen while somebody drags
     clock_.seek(seconds, frame, now);
+    doubt_pace();
     forget_what_follows();
     if (!has_feedback())
         return;
+    has_frame_ = false;
     if (frame == 0)
         return stage_->renderer().reset();
     render::FrameState state = shown_;
@@ -45,7 +49,8 @@ void Viewer::seek(double seconds, double now) {
             replay->fill(seen);
         return seen;
     };
-    stepping_.emplace(stage_->renderer(), states, frame - 1, seconds);
+    stepping_ =
+        std::make_unique<SteppingThere>(stage_->renderer(), pace_, part_size_, states, frame - 1, seconds);
 }
 
 /// A few frames at a time, and the bar between. Time goes on from there.
@@ -76,8 +81,9 @@ void Viewer::rest_unwatched(double now) {
 void Viewer::carry_out(const live::GiveUpSeek&) {
     if (!stepping_)
         return;
-    const int next = stepping_->where().frame + 1;
-    stepping_.reset();
+    // A frame that is half drawn was never drawn.
+    const int next = stepping_->where().frame + (stepping_->frame() ? 0 : 1);
+    drop_frame();
     const double now = now_seconds();
     clock_.seek(next / settings_.frames.state.fps, next, now);
     if (!clock_.paused())
@@ -94,7 +100,7 @@ void Viewer::carry_out(const live::SetLoop& command) {
 }
 
 void Viewer::go_round(double now) {
-    if (!loop_.from || !loop_.to || *loop_.from >= *loop_.to || !moving() || recording())
+    if (!loop_.from || !loop_.to || *loop_.from >= *loop_.to || !moving() || making_ || recording())
         return;
     const double time = clock_.time(now);
     const bool back = clock_.speed() < 0;

@@ -31,6 +31,8 @@ void Viewer::show_title(double now) {
                         : clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.seconds())
                         : at_rest_        ? "still"
                                           : fmt::format("{:.0f} fps", clock_.frame_rate());
+    if (const std::string words = drawing_words(now); !words.empty())
+        state = words;
     if (scale_ != render::RenderScale())
         state += fmt::format(", scale {}", scale_.name());
     if (frozen_)

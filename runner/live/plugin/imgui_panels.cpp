@@ -1,5 +1,6 @@
 #include "live/plugin/imgui_panels.hpp"
 
+#include "live/plugin/clock_panel.hpp"
 #include "live/plugin/controls_panel.hpp"
 #include "live/plugin/error_panel.hpp"
 #include "live/plugin/help_panel.hpp"
@@ -103,6 +104,8 @@ void ImGuiPanels::run() {
         draw_help(model_, surface_);
     if (model_.magnifier)
         draw_magnifier(*model_.magnifier, surface_);
+    if (!model_.clock.empty())
+        draw_clock(model_.clock, surface_);
     ImGui::Render();
 }
 

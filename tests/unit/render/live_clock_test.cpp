@@ -196,5 +196,21 @@ TEST(LiveClock, runs_at_another_speed_and_back_to_0) {
     EXPECT_EQ(clock.time(1010), 0);
 }
 
+TEST(LiveClockTest, a_frame_that_is_given_back_was_none) {
+    LiveClock clock(0);
+    clock.next_frame(0);
+    clock.next_frame(1);
+    clock.give_frame_back();
+    EXPECT_EQ(clock.next_frame_number(), 1);
+    const FrameState next = clock.next_frame(3);
+    EXPECT_EQ(next.frame, 1);
+    EXPECT_EQ(next.seconds(), 3);
+    EXPECT_EQ(next.time_delta, 1 / 60.0) << "as behind a rest";
+    LiveClock counted(0, 10);
+    counted.next_frame(0);
+    counted.give_frame_back();
+    EXPECT_EQ(counted.next_frame(0).seconds(), 0);
+}
+
 } // namespace
 } // namespace tidemark::render

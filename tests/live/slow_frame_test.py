@@ -1,0 +1,163 @@
+"""Frames of some seconds are drawn in parts: the window answers meanwhile, and what comes of it is `capture`'s picture."""
+import json
+import re
+
+from support import osc, png, probe
+from support.live import LiveTest, View, main
+
+SIZE = ("--size", "320x160")
+FRAME_SECONDS = 5
+SMALL = {"size": "iResolution.x"}
+COUNTED = {"count": "texelFetch(iChannel0, ivec2(0), 0).r", "frame": "float(iFrame)"}
+COUNT = '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }\n'
+
+
+def slow_function(rounds: int, lines: int = 30) -> str:
+    """llvmpipe leaves its loops after 65,536 rounds, so that each of them takes its time, in every pixel."""
+    return (f"float slow(float s) {{\n    for (int i = 0; i < {rounds}; ++i) {{\n"
+            + "        s = fract(sin(s + iTime) * 4371.0);\n" * lines + "    }\n    return s;\n}\n")
+
+
+def slow(rounds: int, values: dict[str, str], before: str = "") -> str:
+    text = probe.shader(values, before + slow_function(rounds))
+    assert "0.0, 1.0);\n}" in text
+    return text.replace("0.0, 1.0);\n}", "slow(at.x + at.y), 1.0);\n}")
+
+
+class SlowFrame(LiveTest):
+    rounds = 0
+
+    def measured(self) -> int:
+        """So many that this machine, as busy as it is, takes some seconds for a frame."""
+        rounds = 2
+        while not SlowFrame.rounds:
+            self.write("measure.glsl", slow(rounds, SMALL))
+            done = self.succeed("capture", "measure.glsl", *SIZE, "-o", "measure.png", "--json")
+            seconds = json.loads(done.stdout)["frames"][0]["milliseconds"] / 1000
+            if seconds > 0.3:
+                SlowFrame.rounds = int(rounds * FRAME_SECONDS / seconds)
+            rounds *= 4
+        return SlowFrame.rounds
+
+    def start(self, values: dict[str, str] = SMALL, *options: str) -> View:
+        """With its first frame under way."""
+        self.write("a.glsl", slow(self.measured(), values))
+        view = View(self.screen, self.folder, "a.glsl", *SIZE, "--plain", *options, first_title=" - drawing ")
+        self.addCleanup(view.close)
+        return view
+
+    def wait_for_a_frame(self, view: View) -> None:
+        """The next frame's clock begins anew."""
+        shares = [0.0]
+
+        def begins_anew(title: re.Match) -> bool:
+            shares.append(float(title[1]))
+            return shares[-1] < shares[-2]
+
+        while not begins_anew(view.wait_for_title(r" drawing \d+\.\d s, (\d+) %")):
+            pass
+
+    def wait_for_the_paused_frame(self, view: View) -> None:
+        view.wait_for_title(" - drawing ")
+        view.wait_for_title(r" - paused at ")
+
+    def expect_picture_of_capture(self, view: View) -> png.Picture:
+        saved = view.save()
+        self.succeed("capture", "--like", saved.name, "-o", "again.png")
+        picture = png.read(saved)
+        self.assertEqual(picture.rows, png.read(self.folder / "again.png").rows)
+        return picture
+
+    def test_keys_are_answered_while_the_first_frame_is_drawn(self):
+        view = self.start()
+        view.key("h")
+        view.wait_for_words("full screen; help")
+        view.key("minus")  # it begins anew, a quarter as large
+        view.wait_for_title(r" - drawing .*, scale 1/2\Z")
+        view.key("s")
+        view.wait_for_words("^no frame is drawn yet: the first one is saved$")
+        view.key("c")
+        view.wait_for_words("^no frame is drawn yet$")
+        view.key("space")
+        self.wait_for_the_paused_frame(view)
+        view.wait_for_words(r"^saving a-\d+\.png$")
+        self.assertEqual(self.expect_picture_of_capture(view).width, 160)
+
+    def test_the_clock_goes_on_in_the_title(self):
+        view = self.start()
+        earlier = view.wait_for_title(r"\Aa - tidemark - drawing (\d+\.\d) s, \d+ %")
+        later = view.wait_for_title(r"\Aa - tidemark - drawing (\d+\.\d) s, \d+ %, Esc gives up\Z")
+        self.assertGreater(float(later[1]), float(earlier[1]))
+
+    def test_escape_gives_up_and_the_window_stays(self):
+        view = self.start()
+        view.wait_for_title(", Esc gives up")
+        self.screen.xdotool("key", "Escape", "Escape", "Escape")
+        view.wait_for_words(r"^a\.glsl: given up, after \d+\.\d s, \d+ % drawn: it goes on with space, smaller with -, or "
+                            r"when a file of it is saved; Esc again closes the window$")
+        view.wait_for_title(r"\Aa - tidemark - given up, space goes on\Z")
+        view.key("minus")
+        view.wait_for_title(r" - drawing .*, scale 1/2\Z")
+        self.wait_for_a_frame(view)
+        self.assertEqual(self.expect_picture_of_capture(view).width, 160)
+
+    def test_another_size_begins_the_frame_anew(self):
+        view = self.start()
+        self.screen.xdotool("windowsize", str(view.window), "200", "100")
+        view.key("space")
+        self.wait_for_the_paused_frame(view)
+        self.assertEqual(self.expect_picture_of_capture(view).width, 200)
+        self.assertEqual(view.told(SMALL), {"size": 200})
+
+    def start_counting(self, *options: str) -> View:
+        """A scene that counts its frames: in its buffer, and by the window."""
+        self.write("s/buffer_a.glsl", COUNT)
+        self.write("s/image.glsl", slow(self.measured(), COUNTED, '#iChannel0 "buffer_a.glsl"\n'))
+        view = View(self.screen, self.folder, "s", *SIZE, "--plain", *options, first_title=" - drawing ")
+        self.addCleanup(view.close)
+        return view
+
+    def test_a_frame_that_is_given_up_is_none(self):
+        view = self.start_counting()
+        self.wait_for_a_frame(view)
+        view.wait_for_title(", Esc gives up")
+        view.key("Escape")
+        view.wait_for_title(" - given up, ")
+        self.assertEqual(view.told(COUNTED), {"count": 1, "frame": 0})
+        view.key("space")
+        self.wait_for_a_frame(view)
+        self.assertEqual(view.told(COUNTED), {"count": 2, "frame": 1})
+
+    def test_frames_that_lead_to_a_moment(self):
+        view = self.start_counting("--osc", "0")
+        client = osc.Client(int(view.wait_for_words(r"^OSC: listening at \S+:(\d+)$")[1]))
+        self.addCleanup(client.close)
+        self.wait_for_a_frame(view)
+        client.send("/time", 1000.0)
+        view.wait_for_title(r" - stepping to frame 59999, Esc gives up\Z")
+        view.key("h")
+        view.wait_for_words("full screen; help")
+        view.key("Escape")
+        self.wait_for_the_paused_frame(view)
+        told = view.told(COUNTED)
+        self.assertEqual(told["count"], told["frame"] + 1)
+
+    def test_a_loop_that_never_ends(self):
+        """Or as good as never: not in the small picture that is tried out in another process first."""
+        self.write("a.glsl", slow_function(65000, 300) + "void mainImage(out vec4 c, in vec2 p) {\n"
+                             "    c = vec4(p.y > 80.0 ? slow(p.x) : 0.0);\n}\n")
+        view = View(self.screen, self.folder, "a.glsl", *SIZE, "--plain", first_title=" - drawing ")
+        self.addCleanup(view.close)
+        view.wait_for_words(r"^a\.glsl: \d+x\d+ pixels of Image from \d+,\d+ on take more than 2 s: a very long loop, or one "
+                            r"that never ends; Esc gives the frame up, - draws smaller$")
+        view.wait_for_title(r" - drawing [3-9]\.\d s, ")
+        view.key("Escape")
+        view.wait_for_words("^the driver cannot be stopped: what it is at ends by itself$")
+        view.wait_for_title(r"\Aa - tidemark - given up, the driver ends it: \d+ s\Z")
+        while view.program.poll() is None:  # one right behind the first is taken for the same
+            view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
+
+
+if __name__ == "__main__":
+    main()
