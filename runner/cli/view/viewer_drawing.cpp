@@ -94,9 +94,10 @@ void Viewer::frame_is_made(bool drawn) {
         seconds += took;
         costs_.took(pass, took * 1000);
     }
-    if (drawn)
+    if (drawn) { // else nothing is known of the next one
         pace_.took(made.state.extent, Way::in_parts, seconds);
-    slow_ = now_seconds() - made.begun > k_long_seconds;
+        slow_ = now_seconds() - made.begun > k_long_seconds;
+    }
     frame_is_drawn(made.state, drawn, made.wanted);
 }
 
