@@ -54,7 +54,8 @@ Result<int> trace(const CheckOptions& options) {
 
 FixOptions fix_options(const CheckOptions& options) {
     const ProbesRequest& probes = options.probes;
-    return {probes.scene, probes.device, probes.budget, options.write, probes.json, options.hashes};
+    return {probes.scene, probes.device,  probes.budget, options.write,
+            probes.json,  options.hashes, probes.output};
 }
 
 } // namespace
@@ -69,7 +70,7 @@ void add_check(CLI::App& app, Action& chosen) {
         ->type_name("NAME");
     command
         ->add_option("-o,--output", probes.output,
-                     "Folder for index.html and a picture of each failure and warning")
+                     "Folder for index.html, and a picture of each failure and warning")
         ->type_name("FOLDER");
     command
         ->add_option("--budget", probes.budget,
@@ -90,11 +91,7 @@ void add_check(CLI::App& app, Action& chosen) {
     auto* fix = command->add_flag("--fix", options->mended,
                                   "Instead: cures of what is not finite, undefined or without a value, each "
                                   "drawn before it is offered, as a diff");
-    fix->excludes(list)
-        ->excludes("--portable")
-        ->excludes("--trace")
-        ->excludes("--probe")
-        ->excludes("--output");
+    fix->excludes(list)->excludes("--portable")->excludes("--trace")->excludes("--probe");
     command->add_flag("--write", options->write, "Writes the cures into the scene's files, one by one")
         ->needs(fix);
     command

@@ -1,12 +1,16 @@
 #include "cli/check/check_fix.hpp"
 
+#include "base/file.hpp"
+#include "base/output_path.hpp"
 #include "base/try.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/check/check_probes.hpp"
+#include "cli/check/fix_page.hpp"
 #include "cli/check/fix_text.hpp"
 #include "cli/console.hpp"
 #include "cli/error_json.hpp"
 #include "cli/forked.hpp"
+#include "cli/output_name.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/version.hpp"
 #include "platform/headless_context.hpp"
@@ -59,7 +63,8 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
 /// What was told, shown as it comes.
 class Report {
 public:
-    explicit Report(const FixOptions& options) : options_(options) {}
+    Report(const FixOptions& options, std::optional<OutputPath> folder)
+        : options_(options), folder_(std::move(folder)) {}
 
     Result<void> hear(const Json& line) {
         if (auto error = error_of(line))
@@ -70,6 +75,8 @@ public:
     Result<int> finish(const scene::Scene& scene, const std::string& cut) {
         if (!cut.empty())
             say(cut);
+        if (folder_)
+            TRY(write_page(scene, cut));
         if (options_.json)
             TRY(put(dump(Json{{"tidemark", k_version},
                               {"scene", scene.file.string()},
@@ -96,6 +103,8 @@ private:
         Json offer = line.at("offer");
         offer["difference"] = difference_text;
         offer["written"] = options_.write;
+        cards_.push_back(
+            {offer.at("finding").get<std::string>(), line.at("text").get<std::string>(), difference_text});
         offers_.push_back(std::move(offer));
         return options_.json ? Result<void>()
                              : put(line.at("text").get<std::string>() + difference_text + "\n");
@@ -103,13 +112,25 @@ private:
 
     Result<void> take_remaining(const Json& remaining) {
         remaining_.push_back(remaining);
+        remaining_cards_.push_back(
+            {remaining.at("finding").get<std::string>(), remaining.at("why").get<std::string>()});
         return options_.json
                    ? Result<void>()
                    : put(fmt::format("{}\n  not mended: {}\n", remaining.at("finding").get<std::string>(),
                                      remaining.at("why").get<std::string>()));
     }
 
+    Result<void> write_page(const scene::Scene& scene, const std::string& cut) const {
+        const OutputPath page = *folder_ / "index.html";
+        TRY(write_file(page, fix_page(scene.file.string(), cards_, remaining_cards_, cut)));
+        say(fmt::format("wrote {}", page.path().string()));
+        return {};
+    }
+
     const FixOptions& options_;
+    std::optional<OutputPath> folder_; ///< of the page
+    std::vector<CureCard> cards_{};
+    std::vector<RemainingCard> remaining_cards_{};
     Json offers_ = Json::array(), remaining_ = Json::array();
 };
 
@@ -128,7 +149,12 @@ Result<int> check_fix(const FixOptions& options) {
     const scene::Scene scene = TRY(load(options.scene));
     const lab::Promises promises = TRY(promises_of(options.scene, scene));
     TRY(can_be_changed(scene));
-    Report report(options);
+    std::optional<OutputPath> folder;
+    if (!options.output.empty()) {
+        folder = OutputPath::typed(options.output).sparing(files_read(scene));
+        TRY(make_folder(*folder));
+    }
+    Report report(options, std::move(folder));
     Result<void> heard;
     const auto run = TRY(run_forked(
         [&](const Tell& tell) {

@@ -15,7 +15,8 @@ struct FixOptions {
     double budget = 60; ///< seconds for all of it
     bool write = false; ///< into the files, each as soon as it is found better
     bool json = false;
-    bool hashes = false; ///< of large sines, too
+    bool hashes = false;  ///< of large sines, too
+    std::string output{}; ///< folder for a page; empty: none
 };
 
 /// Exit code 1 where something was found that no cure is offered for.
