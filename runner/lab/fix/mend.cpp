@@ -56,7 +56,9 @@ private:
             cures_.push_back(cure);
             auto scene = changed(scene_, cures_);
             if (!scene || !mending_.can_be_written(cures_)) {
-                why = "its words are not found in a file of the scene";
+                why = cures_.size() > 1
+                          ? "a cure before it changed its words: write that one, then look again"
+                          : "its words are not found in a file of the scene";
             } else {
                 auto next = std::make_unique<DrawnScene>(*std::move(scene), promises_);
                 const auto judgement = judge(*now_, *next, finding, views);
