@@ -2,6 +2,8 @@
 
 #include "base/try.hpp"
 #include "cli/value_check.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/stated_size.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -158,6 +160,17 @@ Result<void> resolve_time(const FrameOptions& options, FrameSequence& sequence) 
 }
 
 } // namespace
+
+FrameOptions sized(FrameOptions options, const scene::Scene& scene) {
+    if (!options.size && scene.size)
+        options.size = scene::to_string(*scene.size);
+    return options;
+}
+
+FrameOptions sized(FrameOptions options, const SceneRequest& request) {
+    const auto scene = options.size ? Result<scene::Scene>() : scene::load_scene(request.path, request.files);
+    return scene ? sized(std::move(options), *scene) : options;
+}
 
 Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base) {
     FrameSequence sequence = std::move(base);
