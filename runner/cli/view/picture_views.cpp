@@ -4,15 +4,20 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <algorithm>
 #include <utility>
 
 namespace tidemark::cli {
 namespace {
 
-/// Pixels along a side of a cube's face, of which four stand side by side.
+/// Pixels along a side of a cube's face in a small picture, and at most in a large one.
 constexpr int k_small_face = 64;
 constexpr int k_large_face = 512;
+
+/// Of which the window has four by three: more would cost time, and not be seen.
+int face_in(Extent window) {
+    return std::clamp(std::min(window.width / 4, window.height / 3), 1, k_large_face);
+}
 
 struct Source {
     std::string name;
@@ -50,21 +55,18 @@ render::Look look_of(const live::LookField& field) {
 
 } // namespace
 
-/// The picture itself where it cannot be shown.
-const gl::Texture& PictureViews::flat(const gl::Texture& picture, bool is_large,
-                                      const live::LookField& look) {
+/// Null where it cannot be shown.
+const gl::Texture* PictureViews::flat(const gl::Texture& picture, int face, std::optional<int> slice) {
     auto view = flat_.find(picture.id());
     if (view == flat_.end()) {
         auto made = render::FlatView::create(picture);
         if (!made) {
             say(to_string(made.error()));
-            return picture;
+            return nullptr;
         }
         view = flat_.emplace(picture.id(), *std::move(made)).first;
     }
-    const gl::Texture* drawn = view->second.draw(picture, look.slice.value_or(picture.depth / 2),
-                                                 is_large ? k_large_face : k_small_face);
-    return drawn ? *drawn : picture;
+    return view->second.draw(picture, slice.value_or(picture.depth / 2), face);
 }
 
 const gl::Texture& PictureViews::looked_at(const gl::Texture& picture, live::LookField& look) {
@@ -98,13 +100,15 @@ std::vector<live::PictureField> PictureViews::fields(const render::Renderer& ren
         if (picture->target == GL_TEXTURE_3D)
             field.slices = picture->depth;
         if (render::FlatView::is_needed(*picture))
-            picture = &flat(*picture, is_large, large.look);
+            picture = flat(*picture, is_large ? face_in(large.window) : k_small_face, large.look.slice);
         else if (is_large && source.pass == renderer.shown_index() && !look_of(large.look).is_plain())
             picture = &floats.draw(renderer, inputs, {0, 0, picture->extent});
-        if (is_large)
+        if (is_large && picture)
             picture = &looked_at(*picture, large.look);
-        field.texture = picture->id();
-        field.extent = picture->extent;
+        if (picture) {
+            field.texture = picture->id();
+            field.extent = picture->extent;
+        }
         fields.push_back(std::move(field));
     }
     return fields;

@@ -23,6 +23,7 @@ public:
     struct Large {
         std::optional<size_t> index{}; ///< of `fields`; beyond them: none
         live::LookField look{};
+        Extent window{};
     };
 
     /// What passes draw, then what they read. `floats` and `inputs`: the numbers of the shown pass.
@@ -31,7 +32,7 @@ public:
                                            const render::FrameInputs& inputs);
 
 private:
-    const gl::Texture& flat(const gl::Texture& picture, bool is_large, const live::LookField& look);
+    const gl::Texture* flat(const gl::Texture& picture, int face, std::optional<int> slice);
     const gl::Texture& looked_at(const gl::Texture& picture, live::LookField& look);
 
     std::map<GLuint, render::FlatView> flat_{}; ///< of textures that are not

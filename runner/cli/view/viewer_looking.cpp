@@ -53,7 +53,7 @@ const gl::Texture* Viewer::marked_picture() {
 void Viewer::look_at_pictures(live::Model& model) {
     if (!pictures_)
         pictures_.emplace();
-    PictureViews::Large large{large_, look_};
+    PictureViews::Large large{large_, look_, screen_->extent()};
     model.pictures = pictures_->fields(stage_->renderer(), costs_, large, floats(), inputs_on_show());
     if (large_ && *large_ < model.pictures.size())
         model.large = large_;
