@@ -71,7 +71,8 @@ void add_device_options(CLI::App& command, platform::DeviceChoice& device) {
 }
 
 void add_picture_options(CLI::App& command, FrameOptions& options) {
-    command.add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
+    command
+        .add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
         ->type_name("WxH")
         ->default_str("640x360");
     command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")

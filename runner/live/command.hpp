@@ -88,8 +88,8 @@ struct SetLoop {
 
 using Command =
     std::variant<TurnKnob, ResetKnob, ResetKnobs, LearnController, ForgetController, CopyKnobs, WriteKnobs,
-                 OpenEditor, Define, Undefine, ShowPicture, LookAtPicture, KeepView, GoToView, ForgetView, TogglePause,
-                 SetPlaying, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
+                 OpenEditor, Define, Undefine, ShowPicture, LookAtPicture, KeepView, GoToView, ForgetView,
+                 TogglePause, SetPlaying, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
 using Commands = std::vector<Command>;
 
 } // namespace tidemark::live

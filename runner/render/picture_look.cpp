@@ -118,7 +118,9 @@ double PictureLook::automatic_stops(const gl::Texture& picture, const Look& look
 const gl::Texture* PictureLook::draw(const gl::Texture& picture, const Look& look) {
     if (!fit(target_, picture.extent, GL_RGBA8))
         return nullptr;
-    stops_ = look.automatic ? automatic_stops(picture, look) : look.stops;
+    constexpr double k_farthest = 126; // beyond, the factor is no float: zero would be no zero
+    stops_ =
+        std::clamp(look.automatic ? automatic_stops(picture, look) : look.stops, -k_farthest, k_farthest);
     choose(look_, look);
     look_.set("scale", {std::exp2(stops_)});
     draw_into(*target_, look_, picture);

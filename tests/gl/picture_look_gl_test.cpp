@@ -49,6 +49,9 @@ TEST_F(PictureLookTest, exposure_multiplies_by_powers_of_two) {
     EXPECT_EQ(seen(pixel, {}), (Bytes4{51, 255, 0, 255}));
     EXPECT_EQ(seen(pixel, {.stops = 1}), (Bytes4{102, 255, 0, 255}));
     EXPECT_EQ(seen(pixel, {.stops = -2}), (Bytes4{13, 191, 0, 255}));
+    EXPECT_EQ(seen(pixel, {.stops = 1000}), (Bytes4{255, 255, 0, 255}));
+    EXPECT_EQ(seen({0, 1e-30F, 0, 0}, {.stops = 1000}), (Bytes4{0, 255, 0, 255}));
+    EXPECT_EQ(look_->stops(), 126);
     EXPECT_EQ(seen({16000.0F, 4000.0F, 0.0F, 1.0F}, {.stops = -14}), (Bytes4{249, 62, 0, 255}));
 }
 
