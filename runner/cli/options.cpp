@@ -2,6 +2,8 @@
 
 #include "base/try.hpp"
 #include "cli/value_check.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/stated_size.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -69,7 +71,8 @@ void add_device_options(CLI::App& command, platform::DeviceChoice& device) {
 }
 
 void add_picture_options(CLI::App& command, FrameOptions& options) {
-    command.add_option("--size", options.size, "Resolution in pixels")
+    command
+        .add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
         ->type_name("WxH")
         ->default_str("640x360");
     command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")
@@ -158,6 +161,17 @@ Result<void> resolve_time(const FrameOptions& options, FrameSequence& sequence) 
 }
 
 } // namespace
+
+FrameOptions sized(FrameOptions options, const scene::Scene& scene) {
+    if (!options.size && scene.size)
+        options.size = scene::to_string(*scene.size);
+    return options;
+}
+
+FrameOptions sized(FrameOptions options, const SceneRequest& request) {
+    const auto scene = options.size ? Result<scene::Scene>() : scene::load_scene(request.path, request.files);
+    return scene ? sized(std::move(options), *scene) : options;
+}
 
 Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base) {
     FrameSequence sequence = std::move(base);

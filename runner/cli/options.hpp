@@ -52,6 +52,11 @@ void add_time_options(CLI::App& command, FrameOptions& options);
 /// All files that a scene is drawn from: what an output must not replace.
 std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options = {});
 
+/// Where no --size is typed, that which the scene states.
+FrameOptions sized(FrameOptions options, const scene::Scene& scene);
+/// The same before the scene is loaded to be drawn. What is wrong with its files is for that load to say.
+FrameOptions sized(FrameOptions options, const SceneRequest& request);
+
 /// Checks them all. An error names the option and what to give. `base`: what they leave open.
 Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base = {});
 

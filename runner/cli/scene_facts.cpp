@@ -108,6 +108,8 @@ Json what_files_say(const scene::Scene& scene) {
                 channels[fmt::format("iChannel{}", i)] = describe(scene, pass.channels[i]);
         json["passes"].push_back({{"name", pass.name}, {"channels", channels}});
     }
+    if (scene.size)
+        json["size"] = {scene.size->width, scene.size->height};
     json["knobs"] = knobs_of(scene);
     json["definitions"] = definitions_of(scene);
     return json;

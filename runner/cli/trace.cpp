@@ -80,7 +80,7 @@ Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& fram
 }
 
 Result<int> run_trace(const TraceCommand& command) {
-    const auto frames = TRY(resolve(command.frames));
+    const auto frames = TRY(resolve(sized(command.frames, command.scene)));
     if (frames.frames.size() != 1)
         return fail(ErrorCode::usage, "trace looks at one frame: give --frame N or --time T");
     lab::PixelRequest request;

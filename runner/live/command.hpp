@@ -1,6 +1,7 @@
 // What people ask for in the overlay, as plain values: whoever owns the window carries them out.
 #pragma once
 
+#include "live/look_field.hpp"
 #include "scene/knob.hpp"
 
 #include <optional>
@@ -51,6 +52,11 @@ struct ShowPicture {
     std::optional<size_t> index{};
 };
 
+/// At the one that is large.
+struct LookAtPicture {
+    LookField look{};
+};
+
 /// The moment on show into the list of views.
 struct KeepView {};
 /// Of Model::views.
@@ -82,8 +88,8 @@ struct SetLoop {
 
 using Command =
     std::variant<TurnKnob, ResetKnob, ResetKnobs, LearnController, ForgetController, CopyKnobs, WriteKnobs,
-                 OpenEditor, Define, Undefine, ShowPicture, KeepView, GoToView, ForgetView, TogglePause,
-                 SetPlaying, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
+                 OpenEditor, Define, Undefine, ShowPicture, LookAtPicture, KeepView, GoToView, ForgetView,
+                 TogglePause, SetPlaying, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
 using Commands = std::vector<Command>;
 
 } // namespace tidemark::live

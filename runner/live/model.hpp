@@ -4,6 +4,7 @@
 #include "live/definition_field.hpp"
 #include "live/error_field.hpp"
 #include "live/knob_field.hpp"
+#include "live/look_field.hpp"
 #include "live/magnifier_field.hpp"
 #include "live/picture_field.hpp"
 #include "live/time_field.hpp"
@@ -27,6 +28,7 @@ struct Model {
     std::vector<DefinitionField> definitions{};
     std::vector<PictureField> pictures{};
     std::optional<size_t> large{}; ///< of them
+    LookField look{};              ///< at that one
     std::vector<std::string> views{};
     TimeField time{};
     Extent extent{}; ///< of what the scene draws

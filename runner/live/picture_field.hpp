@@ -9,9 +9,11 @@
 namespace tidemark::live {
 
 struct PictureField {
-    std::string name;     ///< "Buffer A", "Image iChannel0"
-    unsigned texture = 0; ///< OpenGL's, of two dimensions
-    Extent extent;
+    std::string name;                     ///< "Buffer A", "Image iChannel0"
+    unsigned texture = 0;                 ///< OpenGL's, of two dimensions
+    Extent extent;                        ///< of that
+    std::string size{};                   ///< of what it shows: `64x32`, `6 of 1024x1024`, `32x32x32`
+    int slices = 1;                       ///< of a volume
     std::optional<double> milliseconds{}; ///< of drawing it
 };
 

@@ -1,8 +1,6 @@
 #include "render/number_marks.hpp"
 
-#include "glsl/assemble.hpp"
-
-#include <array>
+#include <utility>
 
 namespace tidemark::render {
 namespace {
@@ -30,23 +28,14 @@ void main() {
 } // namespace
 
 Result<NumberMarks> NumberMarks::create() {
-    auto program = gl::Program::link(glsl::k_vertex_shader, k_text);
-    if (!program)
-        return fail(ErrorCode::load, "the driver refuses the shader of the marks: " + program.error());
-    GLuint vertex_array = 0;
-    glCreateVertexArrays(1, &vertex_array);
-    return NumberMarks(*std::move(program), gl::VertexArrayHandle(vertex_array));
+    return FilterProgram::create("the marks", k_text).map([](FilterProgram program) {
+        return NumberMarks(std::move(program));
+    });
 }
 
 void NumberMarks::draw(const gl::Texture& picture, Extent window) const {
-    glViewport(0, 0, window.width, window.height);
-    glUseProgram(program_.id());
-    if (const gl::Uniform* extent = program_.reflection().find("extent"))
-        gl::set_uniform(program_, *extent, std::array{double(window.width), double(window.height)});
-    glBindSampler(0, 0);
-    glBindTextureUnit(0, picture.id());
-    glBindVertexArray(no_vertices_.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    program_.set("extent", {double(window.width), double(window.height)});
+    program_.draw(picture, window);
 }
 
 } // namespace tidemark::render

@@ -2,9 +2,7 @@
 // negative value blue. Reads a texture of floats, draws into the window.
 #pragma once
 
-#include "base/result.hpp"
-#include "gl/program.hpp"
-#include "gl/texture.hpp"
+#include "render/filter_program.hpp"
 
 namespace tidemark::render {
 
@@ -18,11 +16,9 @@ public:
     void draw(const gl::Texture& picture, Extent window) const;
 
 private:
-    NumberMarks(gl::Program program, gl::VertexArrayHandle no_vertices)
-        : program_(std::move(program)), no_vertices_(std::move(no_vertices)) {}
+    explicit NumberMarks(FilterProgram program) : program_(std::move(program)) {}
 
-    gl::Program program_;
-    gl::VertexArrayHandle no_vertices_;
+    FilterProgram program_;
 };
 
 } // namespace tidemark::render

@@ -76,6 +76,7 @@ private:
     Status read_channel(std::string_view keyword, const SourceLocation& where);
     Status read_channel_source(size_t number, const SourceLocation& where);
     Status read_channel_parameter(SamplingWishes& wishes);
+    Status read_size(const SourceLocation& where);
     Status read_knob(const SourceLocation& where);
     Status read_knob_values(Knob& knob);
     Status check_name_is_free(const Knob& knob) const;
@@ -163,7 +164,8 @@ bool DirectiveReader::at_directive() const {
         return false;
     const std::string_view keyword = tokens_[position_ + 1].text;
     return keyword.starts_with("iChannel") || keyword == "iUniform" || keyword == "iKeyboard" ||
-           keyword == "iVertex" || keyword == "iFirstPersonControls" || keyword == "StrictCompatibility";
+           keyword == "iVertex" || keyword == "iSize" || keyword == "iFirstPersonControls" ||
+           keyword == "StrictCompatibility";
 }
 
 void DirectiveReader::follow_conditionals() {
@@ -205,6 +207,8 @@ Result<void> DirectiveReader::read_directive() {
         return read_channel(keyword, where);
     if (keyword == "iUniform")
         return read_knob(where);
+    if (keyword == "iSize")
+        return read_size(where);
     if (keyword == "StrictCompatibility") // asks for what we always do: our own main() calls mainImage
         return {};
     if (keyword == "iKeyboard") {
@@ -312,6 +316,25 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
     return fail(
         error_at(where, fmt::format("unknown parameter '{}': give MinFilter, MagFilter, WrapMode or Type",
                                     parameter)));
+}
+
+/// `800x450` is several tokens: a number and what is glued to it.
+Result<void> DirectiveReader::read_size(const SourceLocation& where) {
+    if (at_end())
+        return wanted("a size in pixels, as in 800x450");
+    const SourceLocation place = here();
+    std::string text;
+    do {
+        text += tokens_[position_++].text;
+    } while (!at_end() && peek()->glued);
+    const auto extent = size_of_text(text);
+    if (!extent)
+        return fail(
+            error_at(place, fmt::format("'{}' is no size: give WIDTHxHEIGHT in pixels, each from 1 to "
+                                        "{}, as in #iSize 800x450",
+                                        text, k_largest_stated_side)));
+    directives_.sizes.push_back({*extent, where});
+    return {};
 }
 
 Result<void> DirectiveReader::read_knob(const SourceLocation& where) {

@@ -1,12 +1,15 @@
-// Directives of the VS Code extension's grammar in a scene's text: `#iChannelN`, `#iUniform`, `#iKeyboard`.
+// Directives of the VS Code extension's grammar in a scene's text: `#iChannelN`, `#iUniform`, `#iKeyboard`;
+// and `#iSize`, which is our own.
 #pragma once
 
 #include "base/result.hpp"
 #include "scene/channel.hpp"
 #include "scene/knob.hpp"
+#include "scene/stated_size.hpp"
 #include "text/mapped_text.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,7 @@ struct Directives {
     /// name of a pass is for pass_loader.hpp: its channel is Unbound.
     std::array<std::string, k_channel_count> sources;
     std::vector<Knob> knobs;
+    std::vector<StatedSize> sizes;    ///< in order, from included files too
     bool keyboard_helpers = false;    ///< `#iKeyboard`
     bool moves_view = false;          ///< `#iFirstPersonControls`
     std::vector<Diagnostic> warnings; ///< what we read and leave out

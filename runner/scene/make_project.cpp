@@ -5,6 +5,7 @@
 #include "scene/json_text.hpp"
 #include "scene/pass_names.hpp"
 #include "scene/project_files.hpp"
+#include "scene/stated_size.hpp"
 
 #include <fmt/format.h>
 
@@ -52,7 +53,7 @@ public:
         Json passes = Json::array();
         for (const Pass& pass : scene_.passes)
             if (pass.kind == PassKind::image)
-                passes.push_back(pass_of(pass, "image", "Image", 37));
+                passes.push_back(image_of(pass));
         const std::string common = knobs_as_constants(scene_) + scene_.common.text();
         if (!common.empty())
             passes.push_back({{"inputs", Json::array()},
@@ -102,6 +103,14 @@ private:
     void warn(const SourceLocation& where, std::string message) {
         warnings_.push_back({where.file.empty() ? SourceLocation{scene_.file.string()} : where,
                              Severity::warning, std::move(message)});
+    }
+
+    /// ShaderToy knows no size, and overlooks what it does not know: an import finds it here.
+    Json image_of(const Pass& pass) {
+        Json json = pass_of(pass, "image", "Image", 37);
+        if (scene_.size)
+            json["size"] = to_string(*scene_.size);
+        return json;
     }
 
     Json pass_of(const Pass& pass, const char* type, const std::string& name, int output) {

@@ -80,7 +80,28 @@ Result<void> PassLoader::add_knobs(std::vector<Knob> knobs) {
 
 Result<void> PassLoader::load_common(const fs::path& file) {
     auto read_file = TRY(read(file));
+    TRY(take_size(read_file.directives, {}));
     commons_.push_back({file.lexically_normal(), std::move(read_file.text)});
+    return {};
+}
+
+/// A text that several scenes share has no say in how large one of them is seen.
+Result<void> PassLoader::take_size(const Directives& directives, const fs::path& image) {
+    const StatedSize* taken = nullptr;
+    for (const StatedSize& size : directives.sizes) {
+        if (image.empty() || !is_same_file(size.where.file, image)) {
+            scene_.warnings.push_back(
+                {size.where, Severity::warning, "#iSize is left out: it counts in the file of Image alone"});
+            continue;
+        }
+        if (taken) {
+            Error error = error_at(size.where, "#iSize is said twice");
+            error.diagnostics.push_back({taken->where, Severity::note, "first said here"});
+            return fail(std::move(error));
+        }
+        taken = &size;
+        scene_.size = size.extent;
+    }
     return {};
 }
 
@@ -90,6 +111,8 @@ Result<void> PassLoader::load(size_t draft) {
         drafts_[draft].pass.text = std::move(file.text);
         drafts_[draft].pass.keyboard_helpers = file.directives.keyboard_helpers;
         drafts_[draft].pass.bare_file = conditional_ == Conditional::read;
+        TRY(take_size(file.directives,
+                      drafts_[draft].pass.kind == PassKind::image ? drafts_[draft].file : fs::path()));
         scene_.moves_view = scene_.moves_view || file.directives.moves_view;
         included_[draft] = std::move(file.files);
         loading_.push_back(draft);

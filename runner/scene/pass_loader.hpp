@@ -44,6 +44,8 @@ private:
     };
 
     Result<FileText> read(const std::filesystem::path& file);
+    /// `image`: the file of Image that is read; empty where another one is.
+    Result<void> take_size(const Directives& directives, const std::filesystem::path& image);
     Result<void> add_knobs(std::vector<Knob> knobs);
     Result<void> bind(size_t draft, const Directives& directives);
     Result<ChannelInput> input_of(size_t draft, const Channel& channel, const std::string& source);

@@ -89,6 +89,7 @@ private:
             return refuse(fmt::format("{} has no code", called));
         else
             pass.file.emplace(); // named below, when all passes are known
+        pass.size = as_text(json, "size");
         read_outputs(json, pass);
         read_inputs(json, called, pass);
         project_.passes.push_back(std::move(pass));

@@ -35,6 +35,7 @@ struct ProjectPass {
     std::string code;
     std::optional<std::string> file; ///< scene.json: the code stands in that file of the folder
     std::vector<ProjectInput> inputs;
+    std::string size{}; ///< of Image: 800x450, as its #iSize had it
 };
 
 struct Project {

@@ -1,6 +1,7 @@
 #include "scene/project_drafts.hpp"
 
 #include "base/try.hpp"
+#include "scene/stated_size.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,16 @@ namespace tidemark::scene {
 namespace {
 
 using Kind = ProjectPass::Kind;
+
+/// Nothing where the project has none.
+Result<std::optional<Extent>> read_size(const std::string& text, const std::string& file) {
+    const auto size = size_of_text(text);
+    if (!text.empty() && !size)
+        return fail(error_at(
+            {file},
+            fmt::format("the size of Image is '{}': give WIDTHxHEIGHT in pixels, as in 800x450", text)));
+    return size;
+}
 
 /// Whether a later pass takes this one's place: each but the buffers and Common is there once.
 bool is_replaced(const Project& project, size_t pass) {
@@ -56,6 +67,8 @@ Result<ProjectDrafts> draft_project(Scene& scene, InputReader::Context context) 
         draft.pass.kind = kind_of(pass.kind);
         draft.pass.name = context.names[i];
         result.drafts.push_back(std::move(draft));
+        if (pass.kind == Kind::image)
+            scene.size = TRY(read_size(pass.size, file));
         if (!is_replaced(project, i)) {
             result.order.push_back(result.drafts.size() - 1);
             result.drafts.back().pass.name =

@@ -1,11 +1,13 @@
 // What to draw, as values: the passes of a scene, what their channels read, and its knobs.
 #pragma once
 
+#include "base/extent.hpp"
 #include "scene/channel.hpp"
 #include "scene/knob.hpp"
 #include "text/mapped_text.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +36,8 @@ struct Scene {
     text::MappedText common;    ///< stands in front of every pass
     std::vector<Pass> passes;   ///< in the order of drawing; a sound pass, if any, last
     std::vector<Knob> knobs;
-    bool moves_view = false; ///< says `#iFirstPersonControls`: iViewMatrix follows the person
+    std::optional<Extent> size{}; ///< that its author wants to see it in, by `#iSize`
+    bool moves_view = false;      ///< says `#iFirstPersonControls`: iViewMatrix follows the person
     std::vector<std::filesystem::path> files; ///< all files the scene read or will read, pictures included
     std::vector<Diagnostic> warnings;         ///< what was replaced by a stand-in, and why
 

@@ -57,10 +57,13 @@ public:
         Json knobs = Json::array();
         for (const scene::Knob& knob : scene_.knobs)
             knobs.push_back(knob_data(knob));
-        return Json{{"name", scene_.name()},
-                    {"passes", std::move(passes)},
-                    {"inputs", std::move(inputs_)},
-                    {"knobs", std::move(knobs)}};
+        Json data{{"name", scene_.name()},
+                  {"passes", std::move(passes)},
+                  {"inputs", std::move(inputs_)},
+                  {"knobs", std::move(knobs)}};
+        if (scene_.size)
+            data["size"] = {scene_.size->width, scene_.size->height};
+        return data;
     }
 
 private:

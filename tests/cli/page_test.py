@@ -131,6 +131,18 @@ class Behaviour(Page):
         self.export("counter.glsl")
         self.assert_same("counter.glsl", "frame=100&size=64x36", "--frame", "100", "--size", "64x36")
 
+    def test_a_stated_size_is_its_proportion(self):
+        for size in ((90, 200), (200, 90), (300, 100), (640, 360)):
+            with self.subTest(size=size):
+                self.write("a.glsl", "#iSize %dx%d\n" % size + COUNTER)
+                self.export("a.glsl")
+                self.open("paused")
+                width, height = json.loads(self.browser.evaluate(
+                    "(box => JSON.stringify([box.width, box.height]))(document.querySelector('canvas').getBoundingClientRect())"))
+                self.assertAlmostEqual(width / height, size[0] / size[1], delta=0.01)
+        self.open("paused&size=50x50")
+        self.assertEqual((len(self.shown()[0]) // 3, len(self.shown())), (50, 50))
+
     def test_a_drag_is_iMouse(self):
         self.write("mouse.glsl", MOUSE)
         self.export("mouse.glsl")

@@ -50,7 +50,7 @@ class Overlay(OverlayTest):
         self.write("red.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 0.0); }\n")
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):
-                view = self.open_controls('#iChannel0 "red.glsl"\nvoid mainImage(out vec4 c, in vec2 p) '
+                view = self.open_controls('#iUniform float level = 0.5 in { 0.0, 1.0 }\n#iChannel0 "red.glsl"\nvoid mainImage(out vec4 c, in vec2 p) '
                                           "{ c = texture(iChannel0, vec2(0.5)).grba + vec4(0.0, 0.0, 0.0, 1.0); }\n",
                                           size=size, scale=scale)
                 place = view.place()
@@ -65,7 +65,8 @@ class Overlay(OverlayTest):
                 view.key("0")
                 wait_for(lambda: shows(GREEN), "the scene again")
                 view.click_row(2, 0.3)  # the header of the pictures
-                wait_for(lambda: any(RED in row for row in view.picture()), "the buffer's small picture")
+                wait_for(lambda: any(row[at:at + 3] == RED for row in view.picture() for at in range(0, len(row), 3)),
+                         "the buffer's small picture")
                 view.close()
 
     def test_help_is_there_and_goes(self):

@@ -61,6 +61,23 @@ class Picture(LiveTest):
         self.write("size.glsl", probe.shader(SIZE))
         self.assertEqual(list(self.view("size.glsl").told(SIZE).values()), [640, 360, 1])
 
+    def test_a_file_says_its_size(self):
+        text = probe.shader(SIZE, "#iSize 300x120")
+        self.write("said.glsl", text)
+        view = self.view("said.glsl")
+        self.assertEqual(list(view.told(SIZE).values()), [300, 120, 1])
+        self.screen.xdotool("windowsize", str(view.window), "200", "100")
+        view.wait_until_told(SIZE, lambda told: list(told.values()) == [200, 100, 1])
+        self.write("said.glsl", text.replace("300x120", "310x130") + "// saved\n")
+        view.wait_for_words("reloaded in")
+        self.assertEqual(list(view.told(SIZE).values()), [200, 100, 1])
+        view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
+        view = self.view("said.glsl")
+        self.assertEqual(list(view.told(SIZE).values()), [310, 130, 1])
+        view.close()
+        self.assertEqual(list(self.view("said.glsl", "--size", "90x40").told(SIZE).values()), [90, 40, 1])
+
     def test_resize_changes_iResolution(self):
         self.write("size.glsl", probe.shader(SIZE))
         view = self.view("size.glsl", "--size", "200x100")

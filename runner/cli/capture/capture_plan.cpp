@@ -373,6 +373,11 @@ Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
     return {};
 }
 
+CaptureOptions sized(CaptureOptions options, const scene::Scene& scene) {
+    options.frames = sized(std::move(options.frames), scene);
+    return options;
+}
+
 } // namespace
 
 Result<CapturePlan> plan_capture(const CaptureOptions& options) {
@@ -380,6 +385,8 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     if (!plan)
         return plan;
     auto scene = TRY(load(options.scene, plan->frames));
+    if (scene.size && !options.frames.size && !options.likeness)
+        plan = TRY(plan_of_options(sized(options, scene)));
     plan->scene = std::move(scene);
     TRY(spare_what_is_read(options, *plan));
     TRY(check_cube(*plan));

@@ -42,7 +42,7 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
 } // namespace
 
 Result<int> check_trace(const TraceOptions& options) {
-    const auto frames = TRY(resolve(options.frames));
+    const auto frames = TRY(resolve(sized(options.frames, options.scene)));
     if (frames.frames.size() != 1)
         return fail(ErrorCode::usage, "--trace looks at one frame: give --frame N or --time T");
     if (!(options.timeout > 0))

@@ -93,6 +93,8 @@ Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, c
         if (const auto& size = sizes[facts_of_pass.pass])
             json_of_pass["program"] = to_json(*size);
     }
+    if (scene.size)
+        json["size"] = {scene.size->width, scene.size->height};
     json["knobs"] = knobs_of(scene);
     json["definitions"] = definitions_of(scene);
     add_precision(json, renderer);

@@ -52,7 +52,7 @@ Result<void> announce(const RemoteScreen& screen) {
 }
 
 Result<int> serve_scene(const ServeOptions& options) {
-    auto frames = TRY(resolve(options.frames));
+    auto frames = TRY(resolve(sized(options.frames, options.scene)));
     const Extent size = frames.state.extent;
     if (std::max(size.width, size.height) > k_largest_picture)
         return fail(ErrorCode::usage,

@@ -8,35 +8,6 @@
 #include <algorithm>
 
 namespace tidemark::cli {
-namespace {
-
-live::PictureField field_of(std::string name, const gl::Texture& texture) {
-    return {std::move(name), texture.id(), texture.extent};
-}
-
-void add_passes(const render::Renderer& renderer, const PassCosts& costs,
-                std::vector<live::PictureField>& fields) {
-    for (const render::PlannedPass& planned : renderer.plan().passes) {
-        const gl::Texture& texture = renderer.target_of(planned.pass).texture;
-        if (texture.target != GL_TEXTURE_2D)
-            continue;
-        fields.push_back(field_of(renderer.scene().passes[planned.pass].name, texture));
-        fields.back().milliseconds = costs.of(planned.pass);
-    }
-}
-
-void add_inputs(const render::Renderer& renderer, std::vector<live::PictureField>& fields) {
-    for (const render::PlannedPass& planned : renderer.plan().passes)
-        for (const int channel : planned.channels) {
-            const scene::Pass& pass = renderer.scene().passes[planned.pass];
-            const gl::Texture* texture = renderer.texture_at(planned.pass, channel);
-            if (texture && texture->target == GL_TEXTURE_2D &&
-                !source_pass(pass.channels[size_t(channel)].input))
-                fields.push_back(field_of(fmt::format("{} iChannel{}", pass.name, channel), *texture));
-        }
-}
-
-} // namespace
 
 std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
                                          const std::vector<scene::Setting>& turned) {
@@ -69,13 +40,6 @@ std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, 
                 live::definition_field(definition.name, is_held ? other->value : definition.text, is_held))
             fields.push_back(*std::move(field));
     }
-    return fields;
-}
-
-std::vector<live::PictureField> picture_fields(const render::Renderer& renderer, const PassCosts& costs) {
-    std::vector<live::PictureField> fields;
-    add_passes(renderer, costs, fields);
-    add_inputs(renderer, fields);
     return fields;
 }
 

@@ -1,8 +1,7 @@
-// Parts of the overlay's model that a scene and its Renderer decide.
+// Parts of the overlay's model that a scene decides.
 #pragma once
 
 #include "cli/moment.hpp"
-#include "cli/view/pass_costs.hpp"
 #include "live/inputs/controller_map.hpp"
 #include "live/model.hpp"
 
@@ -16,9 +15,6 @@ void add_controllers(std::vector<live::KnobField>& fields, const live::Controlle
 
 /// The numbers that the scene's texts define, as they are after `request`.
 std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request);
-
-/// What passes draw, then the flat pictures that they read.
-std::vector<live::PictureField> picture_fields(const render::Renderer& renderer, const PassCosts& costs);
 
 /// `2.500 s, height = 2`.
 std::vector<std::string> view_labels(const std::vector<Moment>& views);

@@ -27,12 +27,12 @@ struct ViewOptions : ViewerOptions {
     LiveInputRequest inputs;
 };
 
-/// How the last window was left, less what is typed now.
-std::optional<Remembered> left_before(const ViewOptions& options, FrameSequence& frames) {
+/// How the last window was left, less what is typed now. `sized`: a size is, or the file has one.
+std::optional<Remembered> left_before(const ViewOptions& options, bool sized, FrameSequence& frames) {
     auto state = recall(options.scene.path);
     if (!state)
         return state;
-    if (state->place && !options.frames.size)
+    if (state->place && !sized)
         frames.state.extent = state->place->size;
     if (state->moment && options.frames.camera)
         state->moment->sequence.state.camera = frames.state.camera;
@@ -56,9 +56,11 @@ std::optional<Remembered> controllers_before(const ViewOptions& options) {
 }
 
 Result<int> view(const ViewOptions& options) {
-    auto frames = TRY(resolve(options.frames));
+    const FrameOptions typed = sized(options.frames, options.scene);
+    auto frames = TRY(resolve(typed));
     const bool remembers = !options.by_frames();
-    auto left = remembers && !options.fresh ? left_before(options, frames) : controllers_before(options);
+    auto left = remembers && !options.fresh ? left_before(options, typed.size.has_value(), frames)
+                                            : controllers_before(options);
     const Extent size = frames.state.extent;
     if (std::max(size.width, size.height) > k_largest_window)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",

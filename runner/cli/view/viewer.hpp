@@ -16,6 +16,7 @@
 #include "cli/view/magnifier.hpp"
 #include "cli/view/origin_search.hpp"
 #include "cli/view/pass_costs.hpp"
+#include "cli/view/picture_views.hpp"
 #include "cli/view/remembered.hpp"
 #include "cli/view/screen.hpp"
 #include "cli/view/sound_player.hpp"
@@ -186,6 +187,8 @@ private:
     render::ShownFloats& floats();
     std::optional<live::MagnifierField> magnifier_field();
     const gl::Texture* marked_picture();
+    void look_at_pictures(live::Model& model);
+    void carry_out(const live::LookAtPicture& command) { look_ = command.look; }
     void forget_looking();
     void trace_pixel();
     void take_origin();
@@ -273,6 +276,7 @@ private:
     Magnifier magnifier_;
     std::optional<render::ShownFloats> floats_; ///< of the stage, when somebody looks
     std::optional<render::NumberMarks> marks_;  ///< likewise
+    std::optional<PictureViews> pictures_;      ///< likewise, while the controls are open
     bool marks_shown_ = false;
     std::optional<Frozen> frozen_;            ///< instead of the frames that follow it
     std::unique_ptr<OriginSearch> search_;    ///< while one is under way
@@ -282,6 +286,7 @@ private:
     std::vector<Moment> views_;               ///< that somebody kept
     std::optional<double> going_to_;          ///< iTime of the view that the next Stage shows
     std::optional<size_t> large_;             ///< of the pictures in the overlay
+    live::LookField look_;                    ///< at that one
     std::optional<std::vector<live::DefinitionField>>
         defined_;                ///< by the scene on show; none: not looked yet
     bool controls_open_ = false; ///< in the overlay

@@ -1,4 +1,5 @@
-// Looking into the picture: the magnifier, marks where it is not made of numbers, and where they come from.
+// Looking into the picture: the pictures of passes and inputs, the magnifier, marks where it is not made of
+// numbers, and where they come from.
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/view/viewer.hpp"
@@ -49,8 +50,19 @@ const gl::Texture* Viewer::marked_picture() {
     return &floats().draw(renderer, inputs_on_show(), {0, 0, renderer.target().extent()});
 }
 
+void Viewer::look_at_pictures(live::Model& model) {
+    if (!pictures_)
+        pictures_.emplace();
+    PictureViews::Large large{large_, look_, screen_->extent()};
+    model.pictures = pictures_->fields(stage_->renderer(), costs_, large, floats(), inputs_on_show());
+    if (large_ && *large_ < model.pictures.size())
+        model.large = large_;
+    model.look = large.look;
+}
+
 /// They live in the stage's context.
 void Viewer::forget_looking() {
+    pictures_.reset();
     floats_.reset();
     marks_.reset();
 }

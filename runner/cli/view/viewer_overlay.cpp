@@ -17,7 +17,7 @@ void Viewer::toggle_controls() {
     controls_open_ = !controls_open_;
     stale_overlay_ = true;
     if (!controls_open_)
-        return;
+        return pictures_.reset();
     settled_ = false;
     scene_.stop_settling();
     if (stage_ && stage_->share() && !scene_.building_since())
@@ -67,9 +67,7 @@ live::Model Viewer::overlay_model() {
         if (inputs_ && inputs_->has_midi())
             add_controllers(model.knobs, controllers_);
         model.definitions = *defined_;
-        model.pictures = picture_fields(renderer, costs_);
-        if (large_ && *large_ < model.pictures.size())
-            model.large = large_;
+        look_at_pictures(model);
         model.views = view_labels(views_);
         model.time = time_field();
         model.extent = renderer.extent();

@@ -1,5 +1,7 @@
 #include "live/plugin/picture_widgets.hpp"
 
+#include "live/plugin/look_widgets.hpp"
+
 #include <GL/gl.h>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -35,8 +37,7 @@ void draw_thumbnail(const Model& model, size_t i, float width, Commands& command
     ImGui::PopID();
     draw_opaque(*ImGui::GetWindowDrawList(), picture, from, {from.x + size.x, from.y + size.y});
     ImGui::SameLine();
-    const std::string text =
-        fmt::format("{} {}\n{}x{}", i + 1, picture.name, picture.extent.width, picture.extent.height);
+    const std::string text = fmt::format("{} {}\n{}", i + 1, picture.name, picture.size);
     ImGui::TextUnformatted(text.c_str());
 }
 
@@ -48,6 +49,7 @@ void draw_thumbnails(const Model& model, const Surface& surface, Commands& comma
         return;
     for (size_t i = 0; i < model.pictures.size(); ++i)
         draw_thumbnail(model, i, float(k_width * surface.scale), commands);
+    draw_look(model, commands);
 }
 
 void draw_large(const PictureField& picture, const Surface& surface) {

@@ -29,6 +29,8 @@ class Figure {
         this.scene = JSON.parse(div.querySelector("script[type='application/json']").textContent);
         this.asked = readMoment(div.dataset.moment ?? location.hash.slice(1));
         this.canvas = element("canvas", {tabIndex: 0, ariaLabel: this.scene.name});
+        if (this.scene.size) // its author's: the page decides how large, in these proportions
+            this.canvas.style.setProperty("--proportion", this.scene.size[0] / this.scene.size[1]);
         if (this.asked.size)
             Object.assign(this.canvas.style, {aspectRatio: this.asked.size.join("/"), maxHeight: "none"});
         this.message = element("pre", {className: "tidemark-message", textContent: "compiling …"});

@@ -54,6 +54,29 @@ TEST(Directives, the_keyboard_asks_for_helpers) {
     EXPECT_EQ(rest("#iKeyboard\na"), "\na\n");
 }
 
+TEST(Directives, a_size_is_two_numbers_of_pixels) {
+    const auto directives = read("a;\n#iSize 800x450 // wide\nb;");
+    ASSERT_TRUE(directives);
+    ASSERT_EQ(directives->sizes.size(), 1u);
+    EXPECT_EQ(directives->sizes[0].extent, (Extent{800, 450}));
+    EXPECT_EQ(directives->sizes[0].where.line, 2);
+    EXPECT_EQ(rest("#iSize 800x450 // wide\nb;"), " // wide\nb;\n");
+    EXPECT_EQ(read("#iSize 32767x1")->sizes.at(0).extent, (Extent{32767, 1}));
+    EXPECT_TRUE(read("a;")->sizes.empty());
+}
+
+TEST(Directives, a_size_that_is_none_is_refused_at_its_place) {
+    for (const std::string text : {"800", "800x", "x450", "0x450", "800x450x2", "800x-1", "32768x1", "1.5x2",
+                                   "0x10x20", "800x450#iKeyboard"})
+        EXPECT_EQ(
+            refusal("a;\n#iSize " + text),
+            "dir/a.glsl:2:8: error: '" + text +
+                "' is no size: give WIDTHxHEIGHT in pixels, each from 1 to 32767, as in #iSize 800x450");
+    EXPECT_EQ(
+        refusal("#iSize\n800x450"),
+        "dir/a.glsl:1:7: error: expected a size in pixels, as in 800x450 but found the end of the line");
+}
+
 TEST(Directives, under_an_if_are_another_hosts_in_a_text_of_shadertoy) {
     text::MappedText mapped;
     const std::string text = "#ifdef VSCODE\n#iChannel0 \"x.png\"\n#endif\n#iChannel1 \"y.png\"\n";

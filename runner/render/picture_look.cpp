@@ -1,0 +1,130 @@
+#include "render/picture_look.hpp"
+
+#include "base/try.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace tidemark::render {
+namespace {
+
+/// `seen`: what is asked for of a pixel. The second channel is -1 where one alone is seen, both are for
+/// colours.
+constexpr const char* k_seen_text = R"(#version 450 core
+layout(binding = 0) uniform sampler2D picture;
+uniform ivec2 channels;
+vec3 seen(ivec2 place) {
+    vec4 value = texelFetch(picture, place, 0);
+    if (channels.x < 0)
+        return value.rgb;
+    return vec3(channels.y < 0 ? value[channels.x] : value[channels.x] - value[channels.y]);
+}
+bvec3 finite(vec3 value) {
+    return lessThan(floatBitsToUint(value) & 0x7fffffffu, uvec3(0x7f800000u));
+}
+)";
+
+/// The difference goes from blue over a light grey to red (K. Moreland: Diverging color maps for scientific
+/// visualization, 2009), in straight lines.
+constexpr const char* k_look_text = R"(
+uniform float scale;
+out vec4 colour;
+const vec3 k_below = vec3(59.0, 76.0, 192.0) / 255.0, k_zero = vec3(221.0) / 255.0;
+const vec3 k_above = vec3(180.0, 4.0, 38.0) / 255.0;
+void main() {
+    vec3 value = seen(ivec2(gl_FragCoord.xy));
+    uvec3 magnitude = floatBitsToUint(value) & 0x7fffffffu;
+    if (any(greaterThan(magnitude, uvec3(0x7f800000u))))
+        colour = vec4(1.0, 0.0, 1.0, 1.0);
+    else if (!all(finite(value)))
+        colour = vec4(0.0, 1.0, 0.0, 1.0);
+    else if (channels.y < 0)
+        colour = vec4(value * scale, 1.0);
+    else
+        colour = vec4(mix(k_zero, value.x < 0.0 ? k_below : k_above, min(abs(value.x * scale), 1.0)), 1.0);
+}
+)";
+
+constexpr int k_look_block = 8;
+
+/// The largest finite magnitude in a block of pixels, which is 8 a side here, too.
+constexpr const char* k_largest_text = R"(
+out vec4 colour;
+void main() {
+    ivec2 corner = ivec2(gl_FragCoord.xy) * 8, size = textureSize(picture, 0);
+    float largest = 0.0;
+    for (int y = corner.y; y < min(corner.y + 8, size.y); ++y)
+        for (int x = corner.x; x < min(corner.x + 8, size.x); ++x) {
+            vec3 value = seen(ivec2(x, y));
+            value = mix(vec3(0.0), abs(value), finite(value));
+            largest = max(largest, max(value.x, max(value.y, value.z)));
+        }
+    colour = vec4(largest);
+}
+)";
+
+/// Room for a picture of that size, as it was left where it has it.
+bool fit(std::optional<gl::RenderTarget>& target, Extent extent, GLenum format) {
+    if (!target || target->extent() != extent)
+        target = gl::make_render_target(gl::make_texture(extent, format, 1));
+    return target.has_value();
+}
+
+void choose(const FilterProgram& program, const Look& look) {
+    program.set("channels",
+                {double(look.channel.value_or(-1)), double(look.channel ? look.less.value_or(-1) : -1)});
+}
+
+void draw_into(const gl::RenderTarget& target, const FilterProgram& program, const gl::Texture& picture) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer.id());
+    program.draw(picture, target.extent());
+}
+
+} // namespace
+
+Result<PictureLook> PictureLook::create() {
+    auto look = TRY(FilterProgram::create("the exposure", (std::string(k_seen_text) + k_look_text).c_str()));
+    auto largest =
+        TRY(FilterProgram::create("the exposure", (std::string(k_seen_text) + k_largest_text).c_str()));
+    return PictureLook(std::move(look), std::move(largest));
+}
+
+/// So that the brightest is just not cut off. As set where everything is zero.
+double PictureLook::automatic_stops(const gl::Texture& picture, const Look& look) {
+    const auto blocks = [](int length) { return (length + k_look_block - 1) / k_look_block; };
+    size_t count = 0;
+    const auto last = [&]() -> const gl::Texture& {
+        return count == 0 ? picture : reduced_[count - 1].texture;
+    };
+    while (count == 0 || last().extent.pixels() > 1) {
+        const Extent extent{blocks(last().extent.width), blocks(last().extent.height)};
+        reduced_.resize(std::max(reduced_.size(), count + 1));
+        if (reduced_[count].extent() != extent) {
+            auto made = gl::make_render_target(gl::make_texture(extent, GL_RGBA32F, 1));
+            if (!made)
+                return look.stops;
+            reduced_[count] = *std::move(made);
+        }
+        choose(largest_, count == 0 ? look : Look{.channel = 0});
+        draw_into(reduced_[count], largest_, last());
+        ++count;
+    }
+    const float largest = gl::read_part(last(), 0, {0, 0, {1, 1}})[0];
+    return largest > 0 ? -std::log2(double(largest)) : look.stops;
+}
+
+const gl::Texture* PictureLook::draw(const gl::Texture& picture, const Look& look) {
+    if (!fit(target_, picture.extent, GL_RGBA8))
+        return nullptr;
+    constexpr double k_farthest = 126; // beyond, the factor is no float: zero would be no zero
+    stops_ =
+        std::clamp(look.automatic ? automatic_stops(picture, look) : look.stops, -k_farthest, k_farthest);
+    choose(look_, look);
+    look_.set("scale", {std::exp2(stops_)});
+    draw_into(*target_, look_, picture);
+    return &target_->texture;
+}
+
+} // namespace tidemark::render
