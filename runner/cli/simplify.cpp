@@ -1,5 +1,6 @@
 #include "lab/simplify/simplify.hpp"
 
+#include "base/file.hpp"
 #include "base/try.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/commands.hpp"
@@ -17,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace tidemark::cli {

@@ -10,7 +10,7 @@
 #include "cli/console.hpp"
 #include "cli/error_json.hpp"
 #include "cli/forked.hpp"
-#include "cli/output_name.hpp"
+#include "cli/options.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/version.hpp"
 #include "platform/headless_context.hpp"
