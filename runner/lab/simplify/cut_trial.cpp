@@ -14,6 +14,9 @@ namespace {
 
 constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
 constexpr double k_enough_milliseconds = 120; ///< of rounds
+/// A picture has so many parts, in each of which the RMSE is at most so many times what is allowed.
+constexpr int k_part_columns = 16, k_part_rows = 9;
+constexpr double k_most_in_a_part = 3;
 
 std::vector<image::Image> pictures_of(Specimen& specimen, const std::vector<View>& views) {
     std::vector<image::Image> pictures;
@@ -113,7 +116,35 @@ private:
     std::vector<std::optional<Specimen>> specimens_{};
 };
 
+/// RMSE of what a screen shows of a part; what is no number in the own picture does not count.
+double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
+    const auto [width, height] = own.extent;
+    const int column = part % k_part_columns, row = part / k_part_columns;
+    const auto channels = size_t(own.channels);
+    double squares = 0;
+    size_t samples = 0;
+    for (int y = height * row / k_part_rows; y < height * (row + 1) / k_part_rows; ++y)
+        for (int x = width * column / k_part_columns; x < width * (column + 1) / k_part_columns; ++x)
+            for (size_t k = 0; k < channels; ++k) {
+                const size_t i = (size_t(y) * size_t(width) + size_t(x)) * channels + k;
+                if (!std::isfinite(own.f32()[i]))
+                    continue;
+                const double gap =
+                    std::clamp(double(cut.f32()[i]), 0.0, 1.0) - std::clamp(double(own.f32()[i]), 0.0, 1.0);
+                squares += gap * gap;
+                ++samples;
+            }
+    return std::sqrt(squares / double(std::max<size_t>(1, samples)));
+}
+
 } // namespace
+
+bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut) {
+    for (int part = 0; part < k_part_columns * k_part_rows; ++part)
+        if (rmse_of_part(own, cut, part) > k_most_in_a_part * *goal.most_error)
+            return false;
+    return true;
+}
 
 Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views) {
     auto own = TRY(Specimen::create(scene, {}, extent));
@@ -132,7 +163,7 @@ std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Spe
     const Sight sight{pictures_of(trial.specimen, views_), {}};
     for (size_t view = 0; view < views_.size(); ++view) {
         const double error = error_of(goal.measure, outcome_of(sight, truth_, view));
-        if (!(error <= *goal.most_error))
+        if (!(error <= *goal.most_error) || !keeps_parts(goal, truth_.pictures[view], sight.pictures[view]))
             return std::nullopt;
         trial.error = std::max(trial.error, error);
     }

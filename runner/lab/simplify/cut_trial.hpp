@@ -22,6 +22,10 @@ struct CutTrial {
     double time = 1;  ///< of a frame, as a part of the other scene's
 };
 
+/// Whether no part of the picture is much further off than the goal allows for the whole of it: a small thing
+/// that is gone is little in a mean.
+bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut);
+
 class CutBench {
 public:
     /// Draws the scene as it is. Fails (ErrorCode::check_failed) where its picture is no numbers.
@@ -31,7 +35,7 @@ public:
     /// Of a view of the scene as it is, in the mean.
     double milliseconds();
     /// Timed against `other`. Nothing where the cuts cannot be made, where the driver refuses the text, and
-    /// where the error is more than the goal's.
+    /// where the error is more than the goal's, of the whole or of a part.
     std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal);
 
 private:

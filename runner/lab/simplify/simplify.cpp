@@ -153,6 +153,14 @@ private:
         return compare_scenes(scene_, scenes, study, timing, watch, facts_);
     }
 
+    bool keeps_parts(const Findings& findings, size_t point) const {
+        const Evidence& seen = findings.evidence;
+        for (size_t view = 0; view < seen.reference.size(); ++view)
+            if (!lab::keeps_parts(request_.goal, seen.reference[view], seen.pictures[point][view]))
+                return false;
+        return true;
+    }
+
     /// Of every view by itself: none is paid for by another.
     double worst(const WorkPrecision& point) const {
         double worst = 0;
@@ -185,7 +193,8 @@ private:
             say.push_back(fmt::format("{}: {}", point.point.label,
                                       point.measured() ? cost_and_error(point) : point.failure));
             const auto gain = speedup(points.front(), point);
-            const bool may = point.timed() && keeps(worst(point)) && gain && gain->confidence.low > 1;
+            const bool may = point.timed() && keeps(worst(point)) && keeps_parts(found.findings, i) && gain &&
+                             gain->confidence.low > 1;
             if (!may || (best && best->all.time().median <= point.all.time().median))
                 continue;
             best = &point;
