@@ -8,8 +8,9 @@
 
 namespace tidemark::glsl {
 
-/// All that can be written anew, file by file: a function that hashes, in front of the first that calls it, and
-/// the calls. Left are hashes of what is neither a variable of one float nor a dot product, or vectors of these.
+/// All that can be written anew, file by file: a function that hashes, in front of the first that calls it,
+/// and the calls. Left are hashes of what is neither a variable of one float nor a dot product, or vectors of
+/// these.
 std::vector<Cure> whole_hashes(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

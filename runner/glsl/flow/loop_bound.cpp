@@ -96,7 +96,8 @@ std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId lo
     for (const auto& [counter, bound, up] : {std::tuple(left, right, less), std::tuple(right, left, !less)}) {
         const bool named = tree[counter].kind == NodeKind::name;
         const std::string_view name = named ? text.word_of(counter) : changed_name(text, counter);
-        const auto change = name.empty() ? std::nullopt : change_of(text, named ? step_of(tree, loop) : counter, name);
+        const auto change =
+            name.empty() ? std::nullopt : change_of(text, named ? step_of(tree, loop) : counter, name);
         if (!change || *change == 0 || (*change > 0) != (up || op == "!="))
             continue;
         const NodeId number = literal_node(text, bound);
