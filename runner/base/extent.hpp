@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 namespace tidemark {
 
@@ -12,5 +14,8 @@ struct Extent {
     bool operator==(const Extent&) const = default;
     size_t pixels() const { return size_t(width) * size_t(height); }
 };
+
+/// `640x360`, and nothing else; both are at least 1.
+std::optional<Extent> parse_extent(std::string_view text);
 
 } // namespace tidemark

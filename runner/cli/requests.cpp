@@ -237,14 +237,12 @@ render::FrameStates states_of(const FrameSequence& sequence) {
 }
 
 Result<Extent> parse_size(std::string_view text) {
-    Extent extent;
-    std::string_view rest = text;
-    if (!take(rest, extent.width) || !take(rest, 'x') || !take(rest, extent.height) || !rest.empty() ||
-        extent.width < 1 || extent.height < 1)
+    const auto extent = parse_extent(text);
+    if (!extent)
         return fail(
             ErrorCode::usage,
             fmt::format("--size {}: give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360", text));
-    return extent;
+    return *extent;
 }
 
 Result<std::vector<int>> parse_frames(std::string_view text) {

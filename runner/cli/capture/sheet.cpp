@@ -1,17 +1,18 @@
 #include "cli/capture/sheet.hpp"
 
+#include "base/extent.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 
 namespace tidemark::cli {
 namespace {
 
 constexpr int k_gap = 8;         ///< pixels
 constexpr uint8_t k_grey = 0x20; ///< of the gaps: neither black nor white, which scenes have at their edges
-constexpr int k_most_cells = 1000;
+constexpr size_t k_most_cells = 1000;
 
 /// Opaque grey all over.
 image::Image blank(Extent extent, image::SampleType type) {
@@ -33,19 +34,12 @@ Extent SheetGrid::extent(Extent cell) const {
 }
 
 Result<SheetGrid> parse_sheet(std::string_view text) {
-    SheetGrid grid;
-    const char* const end = text.data() + text.size();
-    const auto columns = std::from_chars(text.data(), end, grid.columns);
-    const bool cross = columns.ec == std::errc() && columns.ptr != end && *columns.ptr == 'x';
-    if (cross) {
-        const auto rows = std::from_chars(columns.ptr + 1, end, grid.rows);
-        if (rows.ec == std::errc() && rows.ptr == end && grid.columns > 0 && grid.rows > 0 &&
-            grid.columns <= k_most_cells && grid.rows <= k_most_cells && grid.cells() <= k_most_cells)
-            return grid;
-    }
-    return fail(
-        ErrorCode::usage,
-        fmt::format("--sheet {}: give columns and rows, as in 5x4, {} cells at most", text, k_most_cells));
+    const auto cells = parse_extent(text);
+    if (!cells || cells->pixels() > k_most_cells)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--sheet {}: give columns and rows, as in 5x4, {} cells at most", text, k_most_cells));
+    return SheetGrid{cells->width, cells->height};
 }
 
 void Sheet::add(const image::Image& cell) {

@@ -1,0 +1,23 @@
+#include "base/extent.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark {
+namespace {
+
+TEST(Extent, width_and_height_by_an_x) {
+    const auto extent = parse_extent("640x360");
+    ASSERT_TRUE(extent);
+    EXPECT_EQ(extent->width, 640);
+    EXPECT_EQ(extent->height, 360);
+    EXPECT_TRUE(parse_extent("1x1"));
+}
+
+TEST(Extent, nothing_else) {
+    for (const char* text : {"", "x", "640", "640x", "x360", "0x1", "1x0", "-1x1", "+1x1", "640X360",
+                             "640 x 360", "640x360x2", "640x360 ", "6e2x360", "99999999999x1"})
+        EXPECT_FALSE(parse_extent(text)) << text;
+}
+
+} // namespace
+} // namespace tidemark
