@@ -9,8 +9,8 @@
 #include "cli/json_dump.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
+#include "cli/search_options.hpp"
 #include "cli/study_support.hpp"
-#include "lab/study/report.hpp"
 #include "lab/study/report_data.hpp"
 #include "lab/study/verdict.hpp"
 #include "platform/headless_context.hpp"
@@ -19,22 +19,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 namespace tidemark::cli {
+namespace fs = std::filesystem;
 namespace {
 
-struct SimplifyOptions {
-    SceneRequest scene;
-    std::string most_error = "flip=0.01";
+struct SimplifyOptions : SearchOptions {
     bool exact = false;
-    std::string views = "1;4.3;10;31";
-    std::string size;
-    double seconds = 60;
-    std::string output;
-    bool write = false;
-    bool json = false;
-    platform::DeviceChoice device{};
 };
 
 Result<lab::Goal> goal_of(const SimplifyOptions& options) {
@@ -48,14 +41,8 @@ Result<lab::Goal> goal_of(const SimplifyOptions& options) {
 }
 
 Result<lab::SimplifyRequest> request_of(const SimplifyOptions& options) {
-    lab::SimplifyRequest request;
+    lab::SimplifyRequest request{TRY(search_request(options)), {}};
     request.goal = TRY(goal_of(options));
-    request.views = TRY(lab::parse_views(options.views));
-    if (!options.size.empty())
-        request.extent = TRY(parse_size(options.size));
-    if (!(options.seconds > 0))
-        return fail(ErrorCode::usage, "--for: give a number of seconds above 0");
-    request.seconds = options.seconds;
     return request;
 }
 
@@ -144,11 +131,9 @@ Result<int> simplify(const SimplifyOptions& options) {
     if (!simplified && interrupt.requested())
         return Interrupt::k_exit_code;
     lab::Simplified found = TRY(std::move(simplified));
-    const OutputPath place = report_folder(folder, found.findings.set.circumstances.complete);
-    TRY(make_folder(place));
-    TRY(lab::write_report(place, found.findings));
+    const fs::path report = TRY(write_findings(folder, found.findings));
     TRY(show(options, found));
-    say(fmt::format("wrote {}", (place.path() / "report.html").string()));
+    say_report(report);
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }
 
@@ -156,6 +141,8 @@ Result<int> simplify(const SimplifyOptions& options) {
 
 void add_simplify(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<SimplifyOptions>();
+    options->most_error = "flip=0.01";
+    options->views = "1;4.3;10;31";
     CLI::App* command = app.add_subcommand(
         "simplify", "Finds what a scene can do without, within a stated error of its picture");
     add_scene_options(*command, options->scene);
@@ -166,20 +153,7 @@ void add_simplify(CLI::App& app, Action& chosen) {
         ->capture_default_str();
     command->add_flag("--exact", options->exact, "Only what leaves every pixel as it is")
         ->excludes("--max-error");
-    command
-        ->add_option("--views", options->views,
-                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4")
-        ->type_name("LIST")
-        ->capture_default_str();
-    command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
-    command->add_option("--for", options->seconds, "Seconds for the search and the timing")
-        ->type_name("S")
-        ->capture_default_str();
-    command->add_option("-o,--output", options->output, "Folder for the report [SCENE-simplify]")
-        ->type_name("FOLDER");
-    command->add_flag("--write", options->write, "Writes the cuts into the scene's files");
-    add_device_options(*command, options->device);
-    command->add_flag("--json", options->json, "The cuts and their study on standard output");
+    add_search_options(*command, *options);
     command->callback([options, &chosen] { chosen = [options] { return simplify(*options); }; });
 }
 

@@ -10,7 +10,6 @@
 #include "cli/value_check.hpp"
 #include "lab/study/baseline.hpp"
 #include "lab/study/conduct.hpp"
-#include "lab/study/report.hpp"
 #include "lab/study/report_data.hpp"
 #include "platform/headless_context.hpp"
 #include "scene/bounds.hpp"
@@ -156,10 +155,7 @@ Result<int> study(const StudyOptions& options) {
     }
     if (!findings)
         return fail(std::move(findings.error()));
-    const OutputPath place = report_folder(folder, findings->set.circumstances.complete);
-    TRY(make_folder(place));
-    TRY(lab::write_report(place, *findings));
-    say_findings(findings->set, place.path());
+    say_findings(findings->set, TRY(write_findings(folder, *findings)));
     if (options.json)
         TRY(put(lab::to_json(findings->set)));
     if (interrupt.requested())

@@ -2,10 +2,12 @@
 
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/try.hpp"
 #include "cli/console.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
 #include "lab/study/curves.hpp"
+#include "lab/study/report.hpp"
 #include "lab/study/verdict.hpp"
 #include "scene/json_text.hpp"
 
@@ -17,6 +19,17 @@
 #include <thread>
 
 namespace tidemark::cli {
+namespace {
+
+OutputPath report_folder(const OutputPath& folder, bool complete) {
+    const auto there = read_file((folder / "study.json").path(), size_t{1} << 30);
+    const auto old = there ? scene::parse_json(*there, "study.json") : Result<scene::Json>();
+    const bool finished =
+        there && old && old->is_object() && old->contains("complete") && (*old)["complete"] == true;
+    return complete || !finished ? folder : folder.beside("-interrupted");
+}
+
+} // namespace
 
 lab::Watch StudyWatcher::watch() {
     return {[this](const std::string& what, size_t total) {
@@ -52,12 +65,15 @@ Result<void> prepare_report(const OutputPath& folder) {
     return check_writable(folder / "study.json");
 }
 
-OutputPath report_folder(const OutputPath& folder, bool complete) {
-    const auto there = read_file((folder / "study.json").path(), size_t{1} << 30);
-    const auto old = there ? scene::parse_json(*there, "study.json") : Result<scene::Json>();
-    const bool finished =
-        there && old && old->is_object() && old->contains("complete") && (*old)["complete"] == true;
-    return complete || !finished ? folder : folder.beside("-interrupted");
+Result<std::filesystem::path> write_findings(const OutputPath& folder, lab::Findings& findings) {
+    const OutputPath place = report_folder(folder, findings.set.circumstances.complete);
+    TRY(make_folder(place));
+    TRY(lab::write_report(place, findings));
+    return place.path();
+}
+
+void say_report(const std::filesystem::path& folder) {
+    say(fmt::format("wrote {}", (folder / "report.html").string()));
 }
 
 void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder) {
@@ -70,7 +86,7 @@ void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path&
         say(held);
     for (const std::string& remark : set.circumstances.remarks)
         say(remark);
-    say(fmt::format("wrote {}", (folder / "report.html").string()));
+    say_report(folder);
 }
 
 } // namespace tidemark::cli

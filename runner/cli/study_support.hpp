@@ -5,7 +5,7 @@
 #include "base/result.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
-#include "lab/study/work_precision.hpp"
+#include "lab/study/conduct.hpp"
 #include "lab/watch.hpp"
 #include "scene/scene.hpp"
 
@@ -37,9 +37,13 @@ lab::Circumstances circumstances_of(const scene::Scene& scene);
 /// stays until the new report is whole.
 Result<void> prepare_report(const OutputPath& folder);
 
-/// Where the report goes: `folder`, but that an interrupted study does not take the place of a finished one
-/// and goes beside it, into FOLDER-interrupted.
-OutputPath report_folder(const OutputPath& folder, bool complete);
+/// The report goes into `folder`, but that an interrupted study does not take the place of a finished one and
+/// goes beside it, into FOLDER-interrupted. The folder that it went to; what could not be made (no gnuplot)
+/// is added to the remarks.
+Result<std::filesystem::path> write_findings(const OutputPath& folder, lab::Findings& findings);
+
+/// Where its page is.
+void say_report(const std::filesystem::path& folder);
 
 /// Sentences and remarks for people, and where the report is.
 void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder);

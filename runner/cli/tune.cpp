@@ -9,8 +9,8 @@
 #include "cli/json_dump.hpp"
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
+#include "cli/search_options.hpp"
 #include "cli/study_support.hpp"
-#include "lab/study/report.hpp"
 #include "lab/study/report_data.hpp"
 #include "platform/headless_context.hpp"
 
@@ -19,24 +19,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 namespace tidemark::cli {
+namespace fs = std::filesystem;
 namespace {
 
-struct TuneOptions {
-    SceneRequest scene;
-    std::string most_error;
+struct TuneOptions : SearchOptions {
     std::optional<double> most_milliseconds;
     std::vector<std::string> vary;
     std::vector<std::string> keep;
-    std::string views;
-    std::string size;
-    double seconds = 60;
-    std::string output;
-    bool write = false;
-    bool json = false;
-    platform::DeviceChoice device{};
 };
 
 Result<lab::Goal> goal_of(const TuneOptions& options) {
@@ -75,14 +68,8 @@ Result<std::vector<lab::QualitySetting>> settings_of(const TuneOptions& options,
 }
 
 Result<lab::TuneRequest> request_of(const TuneOptions& options, const scene::Scene& scene) {
-    lab::TuneRequest request;
+    lab::TuneRequest request{TRY(search_request(options)), {}};
     request.goal = TRY(goal_of(options));
-    request.views = options.views.empty() ? lab::default_views() : TRY(lab::parse_views(options.views));
-    if (!options.size.empty())
-        request.extent = TRY(parse_size(options.size));
-    if (!(options.seconds > 0))
-        return fail(ErrorCode::usage, "--for: give a number of seconds above 0");
-    request.seconds = options.seconds;
     request.settings = TRY(settings_of(options, scene));
     return request;
 }
@@ -134,13 +121,11 @@ Result<int> tune(const TuneOptions& options) {
     if (!tuned && interrupt.requested())
         return Interrupt::k_exit_code;
     lab::Tuned found = TRY(std::move(tuned));
-    const OutputPath place = report_folder(folder, found.findings.set.circumstances.complete);
-    TRY(make_folder(place));
-    TRY(lab::write_report(place, found.findings));
+    const fs::path report = TRY(write_findings(folder, found.findings));
     for (const std::string& sentence : found.sentences)
         say(sentence);
     const auto files = TRY(offer(options, scene, found));
-    say(fmt::format("wrote {}", (place.path() / "report.html").string()));
+    say_report(report);
     if (options.json)
         TRY(put_json(found, files));
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
@@ -150,6 +135,7 @@ Result<int> tune(const TuneOptions& options) {
 
 void add_tune(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<TuneOptions>();
+    options->views = "1;10";
     CLI::App* command = app.add_subcommand(
         "tune", "Finds the fastest settings that keep an error, or the most exact that keep a time");
     add_scene_options(*command, options->scene);
@@ -168,19 +154,7 @@ void add_tune(CLI::App& app, Action& chosen) {
             ->type_name("NAME=a,b,c"));
     repeatable(
         command->add_option("--keep", options->keep, "A number that stays as it is")->type_name("NAME"));
-    command
-        ->add_option("--views", options->views,
-                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4 [1;10]")
-        ->type_name("LIST");
-    command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
-    command->add_option("--for", options->seconds, "Seconds for the search and the timing, compiling aside")
-        ->type_name("S")
-        ->capture_default_str();
-    command->add_option("-o,--output", options->output, "Folder for the report [SCENE-tune]")
-        ->type_name("FOLDER");
-    command->add_flag("--write", options->write, "Writes what was chosen into the scene's files");
-    add_device_options(*command, options->device);
-    command->add_flag("--json", options->json, "The outcome and its study on standard output, too");
+    add_search_options(*command, *options);
     command->callback([options, &chosen] { chosen = [options] { return tune(*options); }; });
 }
 

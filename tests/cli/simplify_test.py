@@ -95,11 +95,11 @@ class Simplify(ProgramTest):
         self.assertEqual(done.returncode, 4)
         self.assertIn("tidemark import", done.stderr)
 
-    def test_a_picture_that_is_no_numbers_cannot_be_held_against(self):
+    def test_a_picture_of_nan_cannot_be_held_against(self):
         self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(-p.x)); }\n")
         done = self.run_program("simplify", "dear.glsl", *QUICK)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("cannot say: 100 % of the picture's pixels are NaN", done.stderr)
+        self.assertIn("nothing can be held against the scene's picture: 100 % of its pixels are NaN", done.stderr)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@
 #include "cli/console.hpp"
 #include "cli/study_support.hpp"
 #include "lab/study/curves.hpp"
-#include "lab/study/report.hpp"
 #include "lab/study/timing.hpp"
 
 #include <fmt/format.h>
@@ -191,9 +190,7 @@ Result<int> write_march_report(const MarchStudyRequest& request) {
     findings.set.circumstances.clock = "wall clock";
     lab::judge(findings.set);
     lab::observe_orders(findings.set);
-    const OutputPath place = report_folder(folder, findings.set.circumstances.complete);
-    TRY(lab::write_report(place, findings));
-    say_findings(findings.set, place.path());
+    say_findings(findings.set, TRY(write_findings(folder, findings)));
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }
 

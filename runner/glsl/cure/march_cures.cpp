@@ -1,12 +1,13 @@
 #include "glsl/cure/march_cures.hpp"
 
-#include "glsl/flow/loop_bound.hpp"
+#include "glsl/cure/loop_turns.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace tidemark::glsl {
 namespace {
@@ -74,30 +75,14 @@ std::vector<NodeId> find_steps(const ParsedText& text, NodeId loop, const MarchP
     return steps;
 }
 
-/// Nothing where no number says how often the loop turns.
-std::optional<Wrap> with_turns(const ParsedText& text, NodeId loop, double factor) {
-    const auto bound = loop_bound(text, loop);
-    if (!bound || bound->number == k_no_node)
+/// `factor` times as many turns; nothing where no number says how often the loop turns.
+std::optional<Cure> turned_more(const ParsedText& text, NodeId loop, double factor) {
+    const auto bound = loop == k_no_node ? std::nullopt : loop_bound(text, loop);
+    const double turns = bound ? std::ceil(factor * bound->turns) : 0;
+    auto wrap = bound ? with_turns(text, *bound, turns) : std::nullopt;
+    if (!wrap)
         return std::nullopt;
-    const auto written = written_for(text, bound->number, bound->number);
-    if (!written)
-        return std::nullopt;
-    const std::string_view digits = text.word_of(bound->number);
-    const bool whole = digits.find_first_of(".eE") == digits.npos;
-    const double last = bound->first + std::ceil(factor * bound->turns);
-    Wrap wrap = wrapped(text, *written,
-                        fmt::format("{}{}", last,
-                                    !whole                  ? ".0"
-                                    : digits.ends_with('u') ? "u"
-                                                            : ""),
-                        "");
-    wrap.replaces = true;
-    return wrap;
-}
-
-std::string turns_of(const ParsedText& text, NodeId loop, double factor) {
-    const double turns = loop_bound(text, loop)->turns;
-    return fmt::format("{:g} turns instead of {:g}", std::ceil(factor * turns), turns);
+    return Cure{{*std::move(wrap)}, fmt::format("{:g} turns instead of {:g}", turns, bound->turns)};
 }
 
 } // namespace
@@ -107,11 +92,10 @@ std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place) {
     const NodeId loop = find_loop(text, place);
     std::vector<Cure> cures;
     for (const double factor : k_more)
-        if (auto wrap = loop == k_no_node ? std::nullopt : with_turns(text, loop, factor))
-            cures.push_back({{*std::move(wrap)},
-                             turns_of(text, loop, factor) +
-                                 ": rays that ended in front of a hit go on; those "
-                                 "that had one keep it"});
+        if (auto cure = turned_more(text, loop, factor)) {
+            cure->reason += ": rays that ended in front of a hit go on";
+            cures.push_back(*std::move(cure));
+        }
     return cures;
 }
 
@@ -127,9 +111,9 @@ std::vector<Cure> shorter_steps(const ParsedText& text, MarchPlace place) {
                 cure.wraps.push_back(wrapped(text, *written, fmt::format("{:g} * (", factor), ")"));
         if (cure.wraps.empty() || cure.wraps.size() < steps.size())
             break;
-        if (auto wrap = with_turns(text, loop, 1 / factor)) {
-            cure.reason += ", and " + turns_of(text, loop, 1 / factor);
-            cure.wraps.push_back(*std::move(wrap));
+        if (auto more = turned_more(text, loop, 1 / factor)) {
+            cure.reason += ", and " + more->reason;
+            std::ranges::move(more->wraps, std::back_inserter(cure.wraps));
         }
         cures.push_back(std::move(cure));
     }

@@ -13,22 +13,16 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A multiple of a sine from here on keeps nothing but its last digits.
+/// A multiple of a sine from here on keeps nothing but its last digits: that of double/float_hashes.cpp.
 constexpr double k_large = 90;
 
 /// Of the bits of four floats, one after the other, each mixed as in the finaliser of MurmurHash3 (A.
-/// Appleby, public domain); -0 is made 0. What it gives is a multiple of 2^-24 below 1. `@` is its name.
+/// Appleby, public domain); -0 is made 0. What it gives is a multiple of 2^-24 below 1. Its
+/// type and name stand before.
 constexpr std::string_view k_hash =
-    "float @(vec4 p) { uvec4 b = floatBitsToUint(p + 0.0); uint n = 0u; for (int i = 0; i < 4; ++i) { "
+    "(vec4 p) { uvec4 b = floatBitsToUint(p + 0.0); uint n = 0u; for (int i = 0; i < 4; ++i) { "
     "n = (n ^ b[i]) + 0x9e3779b9u; n = (n ^ (n >> 16)) * 0x85ebca6bu; n = (n ^ (n >> 13)) * 0xc2b2ae35u; "
     "n ^= n >> 16; } return float(n >> 8) / 16777216.0; } ";
-
-std::string named(std::string_view pattern, std::string_view name) {
-    std::string text;
-    for (const char c : pattern)
-        text += c == '@' ? std::string(name) : std::string(1, c);
-    return text;
-}
 
 class HashFinder {
 public:
@@ -51,11 +45,7 @@ private:
         std::string name{};
     };
 
-    NodeId bare(NodeId id) const {
-        while (tree_[id].kind == NodeKind::parenthesis)
-            id = tree_.child(id, 0);
-        return id;
-    }
+    NodeId bare(NodeId id) const { return without_brackets(tree_, id); }
 
     bool is_call(NodeId id, std::initializer_list<std::string_view> names) const {
         return tree_[id].kind == NodeKind::call && !facts_.function(called_name(text_, id)) &&
@@ -165,7 +155,7 @@ private:
             return;
         const Word& first = text_.words()[tree_[function].begin];
         const Wrap place = wrapped(text_, {first.spelled, first.spelled}, "", "");
-        const Wrap call = wrapped(text_, *written, "", "");
+        Wrap call = in_place_of(text_, *written, "");
         if (place.first.where.file != call.first.where.file)
             return;
         FileHashes& hashes = files_[call.first.where.file];
@@ -176,12 +166,14 @@ private:
             return;
         Cure& cure = hashes.cure;
         if (cure.wraps.empty()) {
-            cure.wraps.push_back({place.first, place.last, named(k_hash, hashes.name), ""});
+            cure.wraps.push_back(
+                {place.first, place.last, fmt::format("float {}{}", hashes.name, k_hash), ""});
             cure.reason =
                 "a hash of bits instead of a sine: the same numbers on every GPU, but others than now; it is "
                 "another picture";
         }
-        cure.wraps.push_back({call.first, call.last, *instead, "", true});
+        call.front = *instead;
+        cure.wraps.push_back(std::move(call));
     }
 
     const ParsedText& text_;

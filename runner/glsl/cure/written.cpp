@@ -76,6 +76,12 @@ Wrap wrapped(const ParsedText& text, WrittenTokens tokens, std::string front, st
     return {word(tokens.first), word(tokens.last), std::move(front), std::move(behind)};
 }
 
+Wrap in_place_of(const ParsedText& text, WrittenTokens tokens, std::string instead) {
+    Wrap wrap = wrapped(text, tokens, std::move(instead), "");
+    wrap.replaces = true;
+    return wrap;
+}
+
 std::optional<std::string> said_again(const ParsedText& text, const TreeFacts& facts, NodeId id,
                                       WrittenTokens tokens) {
     const text::Token &first = text.tokens()[tokens.first], &last = text.tokens()[tokens.last];

@@ -21,6 +21,8 @@ struct WrittenTokens {
 std::optional<WrittenTokens> written_for(const ParsedText& text, NodeId id, NodeId operation);
 
 Wrap wrapped(const ParsedText& text, WrittenTokens tokens, std::string front, std::string behind);
+/// `instead` for them.
+Wrap in_place_of(const ParsedText& text, WrittenTokens tokens, std::string instead);
 
 /// The tokens of an expression, to be said once more: nothing where that would do something twice, or where
 /// they are long.

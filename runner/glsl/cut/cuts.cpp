@@ -1,6 +1,6 @@
 #include "glsl/cut/cuts.hpp"
 
-#include "glsl/flow/loop_bound.hpp"
+#include "glsl/cure/loop_turns.hpp"
 
 #include <fmt/format.h>
 
@@ -43,10 +43,6 @@ bool has_jump(const ParsedText& text, NodeId id) {
             if (text.word(i) == word)
                 return true;
     return false;
-}
-
-bool declares(const SyntaxTree& tree, NodeId id) {
-    return tree[id].kind == NodeKind::declaration;
 }
 
 /// A call of the author's function with an `out` parameter: what it gives is needed.
@@ -131,9 +127,7 @@ void Cutter::add(std::optional<WrittenTokens> tokens, std::string instead, std::
                  std::vector<Cut>& cuts) const {
     if (!tokens)
         return;
-    Wrap wrap = wrapped(text_, *tokens, std::move(instead), "");
-    wrap.replaces = true;
-    cuts.push_back({{{std::move(wrap)}, std::move(reason)}, work});
+    cuts.push_back({{{in_place_of(text_, *tokens, std::move(instead))}, std::move(reason)}, work});
 }
 
 /// `a + b` without b, without a; the same of `-` and `*`. Of a chain each operand once.
@@ -170,21 +164,19 @@ void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
 
 void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
     const auto bound = loop_bound(text_, loop);
-    if (!bound || bound->number == k_no_node || kept_[loop])
+    if (!bound || kept_[loop])
         return;
-    const std::string_view digits = text_.word_of(bound->number);
-    const bool whole = digits.find_first_of(".eE") == digits.npos;
     double before = bound->turns;
     for (const double part : k_parts) {
         const double turns = std::max(k_fewest_turns, std::floor(part * bound->turns));
         if (!(turns < before))
             continue;
         before = turns;
-        const double last = bound->first + turns;
-        add(written_for(text_, bound->number, bound->number),
-            whole ? fmt::format("{}{}", last, digits.ends_with('u') ? "u" : "") : number_text(last),
-            fmt::format("{}: {:g} turns of the loop instead of {:g}", place_of(loop), turns, bound->turns),
-            work_.of(loop) * (1 - turns / bound->turns), cuts);
+        if (auto wrap = with_turns(text_, *bound, turns))
+            cuts.push_back({{{*std::move(wrap)},
+                             fmt::format("{}: {:g} turns of the loop instead of {:g}", place_of(loop), turns,
+                                         bound->turns)},
+                            work_.of(loop) * (1 - turns / bound->turns)});
     }
 }
 
@@ -198,7 +190,7 @@ std::vector<Cut> Cutter::cuts() const {
             continue;
         if (kind == NodeKind::binary)
             add_operands(id, cuts);
-        else if (!is_expression(kind) && !declares(tree_, id))
+        else if (!is_expression(kind))
             add_statement(id, cuts);
     }
     std::ranges::stable_sort(cuts, std::greater<>(), &Cut::work);

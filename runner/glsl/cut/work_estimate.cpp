@@ -10,7 +10,7 @@ namespace tidemark::glsl {
 namespace {
 
 constexpr double k_unknown_turns = 16, k_texture = 8, k_costly = 4;
-/// Nothing is worth more: what recursion or nested loops would make of it is no number.
+/// Nothing is worth more: what recursion or nested loops would make of it is infinite.
 constexpr double k_most = 1e12;
 
 double turns_of(const ParsedText& text, NodeId loop) {

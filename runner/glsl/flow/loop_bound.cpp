@@ -13,8 +13,7 @@ namespace {
 /// The literal that an expression is, in brackets or by the name of a constant of one declaration.
 NodeId literal_node(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
-    while (tree[id].kind == NodeKind::parenthesis)
-        id = tree.child(id, 0);
+    id = without_brackets(tree, id);
     if (tree[id].kind != NodeKind::name)
         return tree[id].kind == NodeKind::literal ? id : k_no_node;
     NodeId found = k_no_node;

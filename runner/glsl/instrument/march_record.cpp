@@ -169,9 +169,7 @@ private:
 
     /// What `abs` takes the sign of.
     NodeId with_sign(NodeId distance) const {
-        NodeId inside = distance;
-        while (tree_[inside].kind == NodeKind::parenthesis)
-            inside = tree_.child(inside, 0);
+        const NodeId inside = without_brackets(tree_, distance);
         const bool absolute = tree_[inside].kind == NodeKind::call && called_name(text_, inside) == "abs" &&
                               tree_.child_count(inside) == 2 && !facts_.function("abs");
         return absolute ? tree_.child(inside, 1) : distance;

@@ -100,8 +100,7 @@ std::string contraction_prelude(const ParsedText& text) {
 /// The product that an operand is; k_no_node where it is something else.
 NodeId product_of(const ParsedText& text, const TreeFacts& facts, NodeId operand) {
     const SyntaxTree& tree = text.tree();
-    while (tree[operand].kind == NodeKind::parenthesis)
-        operand = tree.child(operand, 0);
+    operand = without_brackets(tree, operand);
     const bool is_product = tree[operand].kind == NodeKind::binary && text.word_of(operand) == "*";
     return is_product && !facts.surely_whole[operand] ? operand : k_no_node;
 }

@@ -190,6 +190,12 @@ NodeId base_of(const SyntaxTree& tree, NodeId place) {
     return place;
 }
 
+NodeId without_brackets(const SyntaxTree& tree, NodeId expression) {
+    while (tree[expression].kind == NodeKind::parenthesis)
+        expression = tree.child(expression, 0);
+    return expression;
+}
+
 bool is_change(const ParsedText& text, NodeId expression) {
     const NodeKind kind = text.tree()[expression].kind;
     const std::string_view word = text.word_of(expression);

@@ -65,6 +65,8 @@ bool is_bracket(const ParsedText& text, NodeId part);
 size_t dimensions(const ParsedText& text, NodeId type, NodeId declared);
 /// The `a` of `a[i].x` and of `(a)`: what stands in the middle of brackets, members and parentheses.
 NodeId base_of(const SyntaxTree& tree, NodeId place);
+/// The `a` of `((a))`.
+NodeId without_brackets(const SyntaxTree& tree, NodeId expression);
 /// Whether an expression sets its first part: by `=`, `+=` and their kind, `++` and `--`.
 bool is_change(const ParsedText& text, NodeId expression);
 /// The name that a call calls, for functions and constructors alike; empty for an array's constructor and for

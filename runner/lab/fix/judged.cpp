@@ -86,6 +86,12 @@ Result<double> count_sine_hashes(ProbeBench& bench) {
     return double(std::ranges::count(TRY(bench.hashes()), glsl::HashKind::sine, &glsl::KeptHash::kind));
 }
 
+Result<double> exhausted_percent(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return fail(ErrorCode::check_failed, bench.hit_problem());
+    return TRY(most_flagged(bench, glsl::k_hit_exhausted)).percent;
+}
+
 bool is_of_rays(Kind kind) {
     return kind == Kind::first_hit || kind == Kind::budget;
 }
@@ -228,22 +234,24 @@ Result<const std::vector<PassPicture>*> DrawnScene::passes(const FrameState& sta
 }
 
 Result<double> DrawnScene::fault(const Finding& finding, const std::vector<PictureView>& views) {
-    if (finding.kind == Kind::no_value)
-        return count_without_value(bench_);
     if (finding.kind == Kind::not_finite)
         return count_not_finite(*TRY(passes(*finding.where)));
-    if (finding.kind == Kind::first_hit)
-        return proved_wrong_percent(bench_);
-    if (finding.kind == Kind::hash)
-        return count_sine_hashes(bench_);
-    if (finding.kind == Kind::budget) {
-        if (!bench_.has_hits())
-            return fail(ErrorCode::check_failed, bench_.hit_problem());
-        return TRY(most_flagged(bench_, glsl::k_hit_exhausted)).percent;
+    const auto known = faults_.find(finding.kind);
+    if (known != faults_.end())
+        return known->second;
+    return faults_[finding.kind] = TRY(fault_of_scene(finding.kind, views));
+}
+
+Result<double> DrawnScene::fault_of_scene(Kind kind, const std::vector<PictureView>& views) {
+    switch (kind) {
+    case Kind::no_value: return count_without_value(bench_);
+    case Kind::first_hit: return proved_wrong_percent(bench_);
+    case Kind::budget: return exhausted_percent(bench_);
+    case Kind::hash: return count_sine_hashes(bench_);
+    case Kind::not_finite: // of one situation
+    case Kind::undefined: break;
     }
-    if (!undefined_)
-        undefined_ = TRY(undefined_percent(bench_, views));
-    return *undefined_;
+    return undefined_percent(bench_, views);
 }
 
 Result<std::optional<Judgement>> judge(DrawnScene& before, DrawnScene& after, const Finding& finding,

@@ -5,6 +5,7 @@
 #include "lab/fix/finding.hpp"
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,9 +43,11 @@ public:
     Result<double> fault(const Finding& finding, const std::vector<PictureView>& views);
 
 private:
+    Result<double> fault_of_scene(Finding::Kind kind, const std::vector<PictureView>& views);
+
     ProbeBench bench_;
     std::deque<std::pair<FrameState, std::vector<PassPicture>>> drawn_{};
-    std::optional<double> undefined_{};
+    std::map<Finding::Kind, double> faults_{}; ///< that the whole scene has
 };
 
 /// Nothing where the cured scene is not surely better: the fault is not less, another pixel is not finite any

@@ -2,8 +2,7 @@
 
 #include "base/try.hpp"
 #include "lab/changed_scene.hpp"
-
-#include <fmt/format.h>
+#include "lab/simplify/scene_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,33 +17,6 @@ constexpr double k_enough_milliseconds = 120; ///< of rounds
 constexpr int k_part_columns = 16, k_part_rows = 9;
 constexpr double k_most_in_a_part = 3;
 
-std::vector<image::Image> pictures_of(Specimen& specimen, const std::vector<View>& views) {
-    std::vector<image::Image> pictures;
-    for (const View& view : views)
-        pictures.push_back(specimen.picture(view));
-    return pictures;
-}
-
-/// Pixels that are no numbers have no truth.
-Result<Truth> truth_of(std::vector<image::Image> pictures) {
-    Truth truth{std::move(pictures), {}, {}, {}};
-    size_t blind = 0, pixels = 0;
-    for (const image::Image& picture : truth.pictures) {
-        PixelMask& mask = truth.blind.emplace_back(picture.extent.pixels(), false);
-        const auto channels = size_t(picture.channels);
-        for (size_t i = 0; i < picture.samples(); ++i)
-            if (!std::isfinite(picture.f32()[i]))
-                mask[i / channels] = true;
-        blind += size_t(std::ranges::count(mask, true));
-        pixels += mask.size();
-    }
-    if (double(blind) > k_most_blind * double(pixels))
-        return fail(ErrorCode::check_failed,
-                    fmt::format("cannot say: {:.3g} % of the picture's pixels are NaN or infinite",
-                                100.0 * double(blind) / double(pixels)));
-    return truth;
-}
-
 /// A small difference that a measure rounds to nothing is one, too.
 double error_of(Measure measure, const Outcome& outcome) {
     if (outcome.picture.samples.equal())
@@ -57,66 +29,7 @@ double clocked(const Elapsed& elapsed, bool by_cpu) {
     return by_cpu ? elapsed.cpu : elapsed.wall;
 }
 
-/// The points of a study of whole scenes, to be drawn, held against the first, and timed.
-class SceneComparison {
-public:
-    SceneComparison(const Study& study, const Circumstances& circumstances) {
-        findings_.set.study = study;
-        findings_.set.study.series = {{"cut", Trust::unknown, {}, {}}};
-        findings_.set.circumstances = circumstances;
-        findings_.set.words.defaults = "the scene as it is";
-        findings_.set.picture_standard = {"the scene as it is", 0.0,
-                                          "none of its own: what is asked is how far a cut scene is from it"};
-    }
-
-    void add(const std::string& label, const scene::Scene& scene, bool own) {
-        WorkPrecision& point = findings_.set.points.emplace_back();
-        point.point = {own ? size_t(1) : size_t(0), label, label, {}};
-        auto specimen = Specimen::create(scene, {}, study().extent);
-        if (!specimen)
-            point.failure = to_string(specimen.error());
-        auto& pictures = findings_.evidence.pictures.emplace_back();
-        if (specimen) {
-            pictures = pictures_of(*specimen, study().views);
-            point.compile_milliseconds = specimen->compile_milliseconds();
-            point.first_draw_milliseconds = specimen->first_draw_milliseconds();
-        }
-        specimens_.push_back(specimen ? std::optional(*std::move(specimen)) : std::nullopt);
-    }
-
-    Result<Findings> run(const Timing& timing, const Watch& watch) {
-        auto& points = findings_.set.points;
-        if (!points.front().failure.empty())
-            return fail(ErrorCode::load, points.front().failure);
-        const Truth truth = TRY(truth_of(findings_.evidence.pictures.front()));
-        for (size_t i = 0; i < points.size(); ++i) {
-            if (!points[i].failure.empty())
-                continue;
-            const Sight sight{findings_.evidence.pictures[i], {}};
-            for (size_t view = 0; view < study().views.size(); ++view)
-                points[i].views.push_back(outcome_of(sight, truth, view));
-            points[i].all = outcome_of_all(sight, truth, points[i].views);
-        }
-        findings_.set.circumstances.complete = time_points(
-            timing, watch,
-            [this](size_t point, size_t view, bool ask_gpu) {
-                return specimens_[point]->time(study().views[view], ask_gpu);
-            },
-            findings_.set);
-        judge(findings_.set);
-        findings_.evidence.reference = truth.pictures;
-        findings_.evidence.causes.resize(points.size());
-        return std::move(findings_);
-    }
-
-private:
-    const Study& study() const { return findings_.set.study; }
-
-    Findings findings_{};
-    std::vector<std::optional<Specimen>> specimens_{};
-};
-
-/// RMSE of what a screen shows of a part; what is no number in the own picture does not count.
+/// RMSE of what a screen shows of a part; what is NaN or infinite in the own picture does not count.
 double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
     const auto [width, height] = own.extent;
     const int column = part % k_part_columns, row = part / k_part_columns;
@@ -209,17 +122,6 @@ double CutBench::relative_time(Specimen& one, Specimen& other) const {
     for (size_t i = 0; i < ones.size(); ++i)
         ratios.push_back(clocked(ones[i], by_cpu) / clocked(others[i], by_cpu));
     return median(ratios);
-}
-
-Result<Findings> compare_scenes(const scene::Scene& scene,
-                                const std::vector<std::pair<std::string, scene::Scene>>& others,
-                                const Study& study, const Timing& timing, const Watch& watch,
-                                const Circumstances& circumstances) {
-    SceneComparison comparison(study, circumstances);
-    comparison.add(std::string(k_defaults), scene, true);
-    for (const auto& [label, other] : others)
-        comparison.add(label, other, false);
-    return comparison.run(timing, watch);
 }
 
 } // namespace tidemark::lab

@@ -3,14 +3,12 @@
 #pragma once
 
 #include "glsl/cure/cure.hpp"
-#include "lab/study/conduct.hpp"
 #include "lab/study/outcome.hpp"
 #include "lab/study/specimen.hpp"
 #include "lab/tune/goal.hpp"
 
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,7 +26,7 @@ bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& 
 
 class CutBench {
 public:
-    /// Draws the scene as it is. Fails (ErrorCode::check_failed) where its picture is no numbers.
+    /// Draws the scene as it is. Fails (ErrorCode::check_failed) where its picture is NaN or infinite.
     static Result<CutBench> create(const scene::Scene& scene, Extent extent, std::vector<View> views);
 
     Specimen& own() { return own_; }
@@ -50,12 +48,5 @@ private:
     Specimen own_;
     Truth truth_;
 };
-
-/// A study whose points are scenes, and whose truth is the first of them: `scene`, as it is. What it shows is
-/// what it shows, so that the truth has no error of its own.
-Result<Findings> compare_scenes(const scene::Scene& scene,
-                                const std::vector<std::pair<std::string, scene::Scene>>& others,
-                                const Study& study, const Timing& timing, const Watch& watch,
-                                const Circumstances& circumstances);
 
 } // namespace tidemark::lab

@@ -5,6 +5,7 @@
 #include "lab/march/pixel_work.hpp"
 #include "lab/simplify/cut_places.hpp"
 #include "lab/simplify/cut_trial.hpp"
+#include "lab/simplify/scene_comparison.hpp"
 #include "lab/study/verdict.hpp"
 #include "render/frame_stepper.hpp"
 
@@ -55,7 +56,7 @@ public:
         auto bench = TRY(CutBench::create(scene_, small, request_.views));
         try_alone(bench, places.cuts);
         combine(bench);
-        Simplified found{.findings = TRY(judge(bench))};
+        Simplified found{{TRY(judge(bench)), {}}, {}};
         choose(found, std::move(places.left));
         return found;
     }

@@ -4,8 +4,7 @@
 #pragma once
 
 #include "glsl/cure/cure.hpp"
-#include "lab/study/conduct.hpp"
-#include "lab/tune/goal.hpp"
+#include "lab/tune/search.hpp"
 
 #include <functional>
 #include <string>
@@ -13,11 +12,8 @@
 
 namespace tidemark::lab {
 
-struct SimplifyRequest {
-    Goal goal{Measure::flip, 0.01, {}}; ///< against the scene as it is; 0: every byte stays
-    Extent extent{320, 180};            ///< that the verdict is about
-    std::vector<View> views{};          ///< that are searched; the verdict has more
-    double seconds = 60;                ///< for all of it
+/// The error is that against the scene as it is; 0: every byte stays.
+struct SimplifyRequest : SearchRequest {
     std::function<bool(const glsl::Cure&)> can_be_written; ///< into the scene's own files
 };
 
@@ -28,13 +24,11 @@ struct ChosenCut {
     double time = 1;  ///< of a frame with it alone, as a part of that without
 };
 
-struct Simplified {
-    Findings findings;                    ///< the scene as it is, and what the search went through
-    std::vector<ChosenCut> chosen{};      ///< in the order in which they were found; empty: none pays
-    std::vector<std::string> sentences{}; ///< what to tell, in its order
+struct Simplified : SearchOutcome {
+    std::vector<ChosenCut> chosen{}; ///< in the order in which they were found; empty: none pays
 };
 
-/// Fails (ErrorCode::check_failed) where nothing can be said, as for a picture that is no numbers.
+/// Fails (ErrorCode::check_failed) where nothing can be said, as where its picture is NaN or infinite.
 Result<Simplified> simplify(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
                             const Circumstances& circumstances);
 

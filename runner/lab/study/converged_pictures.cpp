@@ -47,16 +47,6 @@ double rms_of_hits(const std::vector<Hits>& left, const std::vector<Hits>& right
     return hit_errors(all_left, all_right, plain_footprints(left.size(), extent)).rms;
 }
 
-/// Pixels that are no numbers.
-void add_blind(const image::Image& image, PixelMask& blind) {
-    blind.resize(image.extent.pixels(), false);
-    const auto samples = image.f32();
-    const auto channels = size_t(image.channels);
-    for (size_t i = 0; i < samples.size(); ++i)
-        if (!std::isfinite(samples[i]))
-            blind[i / channels] = true;
-}
-
 double noise_of(const std::vector<image::Image>& pictures, const std::vector<PixelMask>& blind) {
     std::vector<image::Image> black;
     for (const image::Image& picture : pictures)
@@ -280,10 +270,8 @@ private:
 
     void refuse_blind(Standard& standard, size_t blind) const {
         standard.blind = blind;
-        const size_t pixels = study_.extent.pixels() * study_.views.size();
-        if (double(blind) > k_most_blind * double(pixels))
-            standard.none = fmt::format("{:.3g} % of its pixels are NaN or infinite",
-                                        100.0 * double(blind) / double(pixels));
+        if (std::string why = too_blind(blind, study_.extent.pixels() * study_.views.size()); !why.empty())
+            standard.none = std::move(why);
     }
 
     PictureTruth truth() {
@@ -324,28 +312,6 @@ private:
 };
 
 } // namespace
-
-std::vector<double> plain_footprint(Extent extent) {
-    return plain_footprints(1, extent);
-}
-
-double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right,
-                   const std::vector<PixelMask>& blind) {
-    double squares = 0;
-    size_t samples = 0;
-    for (size_t i = 0; i < left.size(); ++i) {
-        const auto a = left[i].f32(), b = right[i].f32();
-        const auto channels = size_t(left[i].channels);
-        for (size_t k = 0; k < a.size(); ++k) {
-            if (i < blind.size() && !blind[i].empty() && blind[i][k / channels])
-                continue;
-            const double change = double(a[k]) - double(b[k]); // a NaN stays one
-            squares += change * change;
-            ++samples;
-        }
-    }
-    return std::sqrt(squares / double(std::max<size_t>(1, samples)));
-}
 
 Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
                                         const KeepGoing& keep_going) {

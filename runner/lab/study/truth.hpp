@@ -8,12 +8,19 @@
 #include "lab/watch.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace tidemark::lab {
 
-/// Where more of a truth's pixels are no numbers, the rest is no truth either.
+/// Where more of a truth's pixels are NaN or infinite, the rest is no truth either.
 inline constexpr double k_most_blind = 0.1;
+
+/// Adds the pixels that are NaN or infinite: those that have no truth.
+void add_blind(const image::Image& picture, PixelMask& blind);
+
+/// Why the rest of the pixels is no truth either; empty: it is.
+std::string too_blind(size_t blind, size_t pixels);
 
 /// The truth about the hits of each view.
 struct HitTruth {

@@ -185,9 +185,7 @@ void add_reading(NanOrigin& origin, const WatchedText& watched, NodeId operation
             value = read_slot(reading.words, WatchLayout::k_operands +
                                                  size_t(slot - watch.operands.begin()) * WatchLayout::k_slot);
         values.push_back(value);
-        NodeId shown = node;
-        while (tree[shown].kind == NodeKind::parenthesis)
-            shown = tree.child(shown, 0);
+        const NodeId shown = without_brackets(tree, node);
         std::string text = shortened(watched.text.excerpt(shown));
         const bool listed = std::any_of(origin.operands.begin(), origin.operands.end(),
                                         [&](const TracedOperand& operand) { return operand.text == text; });

@@ -43,7 +43,7 @@ public:
         last.extent = request_.extent;
         last.views = request_.views;
         last.views.push_back(unseen(request_.views.back(), k_later));
-        Tuned tuned{.findings = TRY(measure(std::move(last), k_last_timing, 30))};
+        Tuned tuned{{TRY(measure(std::move(last), k_last_timing, 30)), {}}, {}};
         TRY(judge(tuned));
         return tuned;
     }

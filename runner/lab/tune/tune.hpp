@@ -3,27 +3,20 @@
 // current.
 #pragma once
 
-#include "lab/study/conduct.hpp"
-#include "lab/tune/goal.hpp"
 #include "lab/tune/quality_settings.hpp"
+#include "lab/tune/search.hpp"
 
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace tidemark::lab {
 
-struct TuneRequest {
-    Goal goal{};
-    Extent extent{320, 180};   ///< that the verdict is about
-    std::vector<View> views{}; ///< that are searched; the verdict has one more
+struct TuneRequest : SearchRequest {
     std::vector<QualitySetting> settings{};
-    double seconds = 60; ///< for all of it
 };
 
-struct Tuned {
-    Findings findings;                    ///< of the last study: the scene as it is, and the candidates
-    std::vector<Setting> chosen{};        ///< empty: nothing that was found is better, or it cannot be said
-    std::vector<std::string> sentences{}; ///< what to tell, in its order
+struct Tuned : SearchOutcome {
+    std::vector<Setting> chosen{}; ///< empty: nothing that was found is better, or it cannot be said
 };
 
 /// The error (ErrorCode::check_failed) says why nothing can be said.

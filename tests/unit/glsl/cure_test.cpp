@@ -3,17 +3,12 @@
 #include "glsl/analysis/unassigned.hpp"
 #include "glsl/cure/domain_guards.hpp"
 #include "glsl/cure/initial_values.hpp"
+#include "glsl_support.hpp"
 
 #include <gtest/gtest.h>
 
 namespace tidemark::glsl {
 namespace {
-
-std::unique_ptr<const ParsedText> parsed(const std::string& text) {
-    text::MappedText source;
-    source.append(text, "a.glsl", 1);
-    return *ParsedText::read(std::move(source), {});
-}
 
 /// The text with the first guard of each site; a site without one is left.
 std::string guarded(const std::string& text) {

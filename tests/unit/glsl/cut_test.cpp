@@ -1,6 +1,7 @@
 // Cuts: what is proposed to be left out of a text, and what the text then says.
 #include "glsl/cut/cuts.hpp"
 #include "glsl/flow/loop_bound.hpp"
+#include "glsl_support.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +9,6 @@
 
 namespace tidemark::glsl {
 namespace {
-
-std::unique_ptr<const ParsedText> parsed(const std::string& text) {
-    text::MappedText source;
-    source.append(text, "a.glsl", 1);
-    return *ParsedText::read(std::move(source), {});
-}
 
 struct Found {
     std::vector<Cut> cuts;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "glsl/assemble.hpp"
+#include "glsl/syntax/parsed_text.hpp"
 #include "support/scene_of.hpp"
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,6 +15,13 @@ namespace tidemark::glsl {
 inline ShaderSource source_of(std::string_view text) {
     const scene::Scene scene = scene_of(text);
     return assemble(scene, scene.image());
+}
+
+/// As if it stood in a file "a.glsl".
+inline std::unique_ptr<const ParsedText> parsed(const std::string& text) {
+    text::MappedText source;
+    source.append(text, "a.glsl", 1);
+    return *ParsedText::read(std::move(source), {});
 }
 
 /// How often `piece` stands in `text`.

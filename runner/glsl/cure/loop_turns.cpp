@@ -1,0 +1,27 @@
+#include "glsl/cure/loop_turns.hpp"
+
+#include <fmt/format.h>
+
+namespace tidemark::glsl {
+namespace {
+
+/// Of the type that the digits have whose place it takes.
+std::string number_like(std::string_view digits, double value) {
+    std::string text = fmt::format("{}", value);
+    const bool is_float = digits.find_first_of(".eE") != digits.npos;
+    if (is_float && text.find_first_of(".e") == text.npos)
+        text += ".0";
+    return digits.ends_with('u') ? text + "u" : text;
+}
+
+} // namespace
+
+std::optional<Wrap> with_turns(const ParsedText& text, const LoopBound& bound, double turns) {
+    const auto written =
+        bound.number == k_no_node ? std::nullopt : written_for(text, bound.number, bound.number);
+    if (!written)
+        return std::nullopt;
+    return in_place_of(text, *written, number_like(text.word_of(bound.number), bound.first + turns));
+}
+
+} // namespace tidemark::glsl
