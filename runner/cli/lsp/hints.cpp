@@ -37,9 +37,9 @@ void Hints::read(const scene::Pass& pass, const glsl::Dialect& dialect) {
             fmt::format("{} has no value{}: 0 on ShaderToy's site and here, anything elsewhere",
                         (*text)->word_of(each.what), lab::words_for(each.why)));
     for (const glsl::Divergent& each : glsl::find_divergent(**text, facts, lab::which_have_mipmaps(pass)))
-        add((*text)->spelled((*text)->tree()[each.call].begin),
-            fmt::format("{} needs neighbouring pixels, which may have taken another branch: {}",
-                        glsl::called_name(**text, each.call), lab::words_for(**text, each.branch)));
+        add((*text)->spelled((*text)->tree()[each.call].begin), lab::words_for(**text, each));
+    for (const glsl::FloatCounter& each : glsl::miscounting_loops(**text, facts))
+        add((*text)->spelled((*text)->tree()[each.loop].begin), lab::words_for(each));
 }
 
 std::vector<Diagnostic> Hints::take(const std::vector<Diagnostic>& problems, bool compile) {

@@ -17,6 +17,7 @@ namespace tidemark::glsl {
 struct WrittenWord {
     SourceLocation where;
     std::string word;
+    bool operator==(const WrittenWord&) const = default;
 };
 
 /// `front` before the first word, `behind` after the last. Both may be the same word.
@@ -24,11 +25,13 @@ struct Wrap {
     WrittenWord first, last;
     std::string front, behind;
     bool replaces = false; ///< the words between go
+    bool operator==(const Wrap&) const = default;
 };
 
 struct Cure {
     std::vector<Wrap> wraps;
     std::string reason; ///< a sentence: what it changes, and what stays
+    bool operator==(const Cure&) const = default;
 };
 
 /// The text with all cures in it, each at the places of the text as it is now. Inner wraps come to stand

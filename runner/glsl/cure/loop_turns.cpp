@@ -1,6 +1,10 @@
 #include "glsl/cure/loop_turns.hpp"
 
+#include "glsl/syntax/number.hpp"
+
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace tidemark::glsl {
 namespace {
@@ -8,9 +12,8 @@ namespace {
 /// Of the type that the digits have whose place it takes.
 std::string number_like(std::string_view digits, double value) {
     std::string text = fmt::format("{}", value);
-    const bool is_float = digits.find_first_of(".eE") != digits.npos;
-    if (is_float && text.find_first_of(".e") == text.npos)
-        text += ".0";
+    if (digits.find_first_of(".eE") != digits.npos)
+        return as_float(std::move(text));
     return digits.ends_with('u') ? text + "u" : text;
 }
 

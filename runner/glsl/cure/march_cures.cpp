@@ -1,6 +1,8 @@
 #include "glsl/cure/march_cures.hpp"
 
 #include "glsl/cure/loop_turns.hpp"
+#include "glsl/flow/single_value.hpp"
+#include "glsl/syntax/number.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +16,9 @@ namespace {
 
 constexpr std::array k_more{2.0, 4.0, 8.0};
 constexpr std::array k_shorter{0.8, 0.6, 0.4, 0.25, 0.1};
+constexpr std::array k_larger{4.0, 16.0, 64.0, 256.0};
+/// What is compared with more is no threshold.
+constexpr double k_largest_threshold = 0.1;
 
 bool is_on(const ParsedText& text, size_t word, const SourceLocation& line) {
     for (const SourceLocation& where : {text.used(word), text.spelled(word)})
@@ -85,6 +90,47 @@ std::optional<Cure> turned_more(const ParsedText& text, NodeId loop, double fact
     return Cure{{*std::move(wrap)}, fmt::format("{:g} turns instead of {:g}", turns, bound->turns)};
 }
 
+/// The one literal of a factor, a constant by its name included; k_no_node: there is none, or there are more.
+NodeId literal_of(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    id = without_brackets(tree, id);
+    if (const NodeId value = single_value(text, facts, id); value != k_no_node)
+        id = without_brackets(tree, value);
+    if (tree[id].kind != NodeKind::binary || text.word_of(id) != "*")
+        return tree[id].kind == NodeKind::literal ? id : k_no_node;
+    const NodeId left = literal_of(text, facts, tree.child(id, 0)),
+                 right = literal_of(text, facts, tree.child(id, 1));
+    return left == k_no_node ? right : right == k_no_node ? left : k_no_node;
+}
+
+/// One that may be a threshold.
+NodeId small_literal(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const NodeId literal = literal_of(text, facts, id);
+    const auto value = literal == k_no_node ? std::nullopt : number(text.word_of(literal));
+    return value && *value > 0 && *value <= k_largest_threshold ? literal : k_no_node;
+}
+
+/// Of the test that looks at the distance; k_no_node where its line leaves a doubt.
+NodeId threshold_of(const ParsedText& text, const TreeFacts& facts, NodeId loop, const SourceLocation& line) {
+    const SyntaxTree& tree = text.tree();
+    NodeId found = k_no_node;
+    for (NodeId id = 1; id < loop; ++id) {
+        const std::string_view op = text.word_of(id);
+        const bool compares = op == "<" || op == "<=" || op == ">" || op == ">=";
+        if (tree[id].kind != NodeKind::binary || !compares || !tree.is_within(id, loop) ||
+            !is_on(text, tree[id].word, line))
+            continue;
+        const NodeId left = small_literal(text, facts, tree.child(id, 0)),
+                     right = small_literal(text, facts, tree.child(id, 1));
+        if ((left == k_no_node) == (right == k_no_node))
+            continue;
+        if (found != k_no_node)
+            return k_no_node;
+        found = left == k_no_node ? right : left;
+    }
+    return found;
+}
+
 } // namespace
 
 std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place) {
@@ -117,6 +163,24 @@ std::vector<Cure> shorter_steps(const ParsedText& text, MarchPlace place) {
         }
         cures.push_back(std::move(cure));
     }
+    return cures;
+}
+
+std::vector<Cure> larger_threshold(const ParsedText& text, const TreeFacts& facts, const MarchPlace& place) {
+    const NodeId loop = find_loop(text, place);
+    const NodeId literal = loop == k_no_node ? loop : threshold_of(text, facts, loop, place.test);
+    const auto written = literal == k_no_node ? std::nullopt : written_for(text, literal, literal);
+    if (!written)
+        return {};
+    const double now = *number(text.word_of(literal));
+    std::vector<Cure> cures;
+    for (const double factor : k_larger)
+        if (const double larger = factor * now; larger <= k_largest_threshold)
+            cures.push_back(
+                {{in_place_of(text, *written, as_float(fmt::format("{:.3g}", larger)))},
+                 fmt::format("waits for {:.3g} instead of {:.3g}: rounding keeps the distance from "
+                             "becoming less",
+                             larger, now)});
     return cures;
 }
 

@@ -1,4 +1,5 @@
-// For marches that pass over what they should hit, or end in front of it: shorter steps, and more of them.
+// For marches that pass over what they should hit, or end in front of it: shorter steps, more of them, or a
+// threshold that they can come to.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -19,5 +20,9 @@ std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place);
 /// Steps of 0.8, 0.6 and so on of what they were, with as many more turns where a number says how many; empty
 /// where it is not certain what the step is.
 std::vector<Cure> shorter_steps(const ParsedText& text, MarchPlace place);
+
+/// A threshold of 4, 16, 64 and 256 times what the distance is compared with; empty where that is not a small
+/// number, by its digits or by the name of a constant.
+std::vector<Cure> larger_threshold(const ParsedText& text, const TreeFacts& facts, const MarchPlace& place);
 
 } // namespace tidemark::glsl

@@ -1,19 +1,19 @@
 #include "glsl/cure/whole_hashes.hpp"
 
+#include "glsl/cure/helper_function.hpp"
 #include "glsl/syntax/number.hpp"
 #include "glsl/syntax/types.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string>
 
 namespace tidemark::glsl {
 namespace {
 
-/// A multiple of a sine from here on keeps nothing but its last digits: that of double/float_hashes.cpp.
+/// A multiple of a sine from here on keeps nothing but its last digits: that of glsl/double/float_hashes.cpp.
 constexpr double k_large = 90;
 
 /// Of the bits of four floats, one after the other, each mixed as in the finaliser of MurmurHash3 (A.
@@ -30,21 +30,16 @@ public:
         : text_(text), tree_(text.tree()), facts_(facts) {}
 
     std::vector<Cure> run() {
+        HelperFunction hash(text_, "hash_of_bits");
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
             if (const NodeId angle = angle_of(id); angle != k_no_node)
-                add(id, angle);
-        std::vector<Cure> cures;
-        for (auto& [file, hashes] : files_)
-            cures.push_back(std::move(hashes.cure));
-        return cures;
+                hash.use(id, [&](const std::string& name) { return instead_of(angle, name); });
+        return hash.cures([](const std::string& name) { return fmt::format("float {}{}", name, k_hash); },
+                          "a hash of bits instead of a sine: the same numbers on every GPU, but others than "
+                          "now; it is another picture");
     }
 
 private:
-    struct FileHashes {
-        Cure cure{};
-        std::string name{};
-    };
-
     NodeId bare(NodeId id) const { return without_brackets(tree_, id); }
 
     bool is_call(NodeId id, std::initializer_list<std::string_view> names) const {
@@ -139,55 +134,15 @@ private:
         return fmt::format("{}({})", called_name(text_, angle), parts);
     }
 
-    /// That no word of the text has.
-    std::string fresh_name() const {
-        for (size_t n = files_.size();; ++n) {
-            std::string name = n == 1 ? "hash_of_bits" : fmt::format("hash_of_bits{}", n);
-            if (std::ranges::none_of(text_.words(), [&](const Word& word) { return word.text == name; }))
-                return name;
-        }
-    }
-
-    void add(NodeId id, NodeId angle) {
-        const NodeId function = tree_.around(id, NodeKind::function);
-        const auto written = written_for(text_, id, id);
-        if (function == k_no_node || !written || text_.words()[tree_[function].begin].from_macro())
-            return;
-        const Word& first = text_.words()[tree_[function].begin];
-        const Wrap place = wrapped(text_, {first.spelled, first.spelled}, "", "");
-        Wrap call = in_place_of(text_, *written, "");
-        if (place.first.where.file != call.first.where.file)
-            return;
-        FileHashes& hashes = files_[call.first.where.file];
-        if (hashes.name.empty())
-            hashes.name = fresh_name();
-        const auto instead = instead_of(angle, hashes.name);
-        if (!instead)
-            return;
-        Cure& cure = hashes.cure;
-        if (cure.wraps.empty()) {
-            cure.wraps.push_back(
-                {place.first, place.last, fmt::format("float {}{}", hashes.name, k_hash), ""});
-            cure.reason =
-                "a hash of bits instead of a sine: the same numbers on every GPU, but others than now; it is "
-                "another picture";
-        }
-        call.front = *instead;
-        cure.wraps.push_back(std::move(call));
-    }
-
     const ParsedText& text_;
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
-    std::map<std::string, FileHashes> files_{};
 };
 
 } // namespace
 
 std::vector<Cure> whole_hashes(const ParsedText& text, const TreeFacts& facts) {
-    std::vector<Cure> cures = HashFinder(text, facts).run();
-    std::erase_if(cures, [](const Cure& cure) { return cure.wraps.empty(); });
-    return cures;
+    return HashFinder(text, facts).run();
 }
 
 } // namespace tidemark::glsl

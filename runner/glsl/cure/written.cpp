@@ -23,7 +23,9 @@ bool has_no_effect(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     if (node.kind == NodeKind::call) {
         const std::string_view name = called_name(text, id);
         const BuiltinFunction* const function = find_builtin(name);
-        if (facts.function(name) || !(facts.is_type(name) || (function && function->is(Trait::pure))))
+        const bool only_reads = function && (function->is(Trait::pure) || function->is(Trait::derivative) ||
+                                             function->is(Trait::implicit_lod));
+        if (facts.function(name) || !(facts.is_type(name) || only_reads))
             return false;
     }
     for (NodeId child = node.first_child; child != k_no_node; child = tree[child].next)

@@ -1,6 +1,7 @@
 #include "glsl/cut/cuts.hpp"
 
 #include "glsl/cure/loop_turns.hpp"
+#include "glsl/syntax/number.hpp"
 
 #include <fmt/format.h>
 
@@ -29,12 +30,9 @@ std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_
     return WrittenTokens{words[first].used, words[last].used};
 }
 
-/// So that it is read as a float, with no more digits than are worth it.
+/// With no more digits than are worth it.
 std::string number_text(double value) {
-    std::string text = fmt::format("{:.4g}", value);
-    if (text.find_first_of(".e") == text.npos)
-        text += ".0";
-    return text;
+    return as_float(fmt::format("{:.4g}", value));
 }
 
 bool has_jump(const ParsedText& text, NodeId id) {

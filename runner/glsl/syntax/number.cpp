@@ -30,4 +30,9 @@ std::optional<double> number(std::string_view word) {
     return value;
 }
 
+std::string as_float(std::string digits) {
+    const bool whole = digits.find_first_of(".e") == digits.npos;
+    return whole ? digits + ".0" : digits;
+}
+
 } // namespace tidemark::glsl

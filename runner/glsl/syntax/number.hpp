@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace tidemark::glsl {
@@ -11,5 +12,8 @@ std::optional<long> whole_number(std::string_view digits);
 
 /// `12u`, `1.5f`, `1e2`; nothing for other texts and for hexadecimal ones.
 std::optional<double> number(std::string_view word);
+
+/// `2.0` of `2`, and what is read as a float anyway as it is: of digits as C++ writes a number.
+std::string as_float(std::string digits);
 
 } // namespace tidemark::glsl

@@ -156,6 +156,22 @@ size_t dimensions(const ParsedText& text, NodeId type, NodeId declared) {
     return count;
 }
 
+bool sets(const ParsedText& text, const TreeFacts& facts, NodeId expression, std::string_view name) {
+    const SyntaxTree& tree = text.tree();
+    const auto is_it = [&](NodeId place) {
+        const NodeId base = base_of(tree, place);
+        return tree[base].kind == NodeKind::name && text.word_of(base) == name;
+    };
+    if (is_change(text, expression))
+        return is_it(tree.child(expression, 0));
+    if (tree[expression].kind != NodeKind::call)
+        return false;
+    for (size_t i = 1; i < tree.child_count(expression); ++i)
+        if (is_it(tree.child(expression, i)) && facts.writes_argument(called_name(text, expression), i - 1))
+            return true;
+    return false;
+}
+
 std::string_view called_name(const ParsedText& text, NodeId call) {
     const NodeId callee = text.tree().child(call, 0);
     return text.tree()[callee].kind == NodeKind::name ? text.word_of(callee) : std::string_view{};

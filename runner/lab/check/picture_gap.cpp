@@ -11,7 +11,10 @@
 
 namespace tidemark::lab {
 
-double p99_difference(const image::Image& left, const image::Image& right) {
+namespace {
+
+/// Of the samples of each pixel.
+std::vector<double> largest_differences(const image::Image& left, const image::Image& right) {
     std::vector<double> largest(left.extent.pixels());
     const auto channels = size_t(left.channels);
     for (size_t i = 0; i < left.samples(); ++i) {
@@ -22,10 +25,8 @@ double p99_difference(const image::Image& left, const image::Image& right) {
         double& most = largest[i / channels];
         most = std::max(most, same ? 0.0 : std::isfinite(difference) ? difference : 1.0);
     }
-    return quantile(std::move(largest), 0.99);
+    return largest;
 }
-
-namespace {
 
 bool is_number(const image::Image& image, size_t pixel) {
     const auto samples = image.f32().subspan(pixel * size_t(image.channels), size_t(image.channels));
@@ -37,6 +38,16 @@ std::string decibels(double mean_square) {
 }
 
 } // namespace
+
+double p99_difference(const image::Image& left, const image::Image& right) {
+    return quantile(largest_differences(left, right), 0.99);
+}
+
+double visibly_different_percent(const image::Image& left, const image::Image& right) {
+    const std::vector<double> largest = largest_differences(left, right);
+    const auto visible = std::ranges::count_if(largest, [](double gap) { return gap > k_visible_gap; });
+    return 100 * double(visible) / double(largest.size());
+}
 
 std::string alikeness(const image::Image& before, const image::Image& after) {
     if (const auto difference = image::compare(before, after); difference && !std::isnan(difference->psnr))

@@ -14,6 +14,9 @@ inline constexpr double k_visible_gap = 1.0 / 255;
 /// number in one picture only counts as 1. Floats, of one size.
 double p99_difference(const image::Image& left, const image::Image& right);
 
+/// Percent of the pixels that differ by more than k_visible_gap, counted in the same way.
+double visibly_different_percent(const image::Image& left, const image::Image& right);
+
 /// `35.1 dB`: the PSNR of a picture and the one it became, floats, of one size. Pixels that hold a NaN or an
 /// infinity in one of them only, or another one in each, have no place in that number: they are counted, and
 /// it is that of the pixels without any.

@@ -47,6 +47,9 @@ std::span<const Probe> all_probes() {
          "derivatives, and textures that choose a mipmap, where neighbouring pixels may have taken "
          "another branch",
          ask_divergence},
+        {"counters",
+         "loops that count by steps of a float, and turn more or less often than their numbers say",
+         ask_counters},
         {"repeats", "the same inputs give the same bytes: again, after other frames, compiled anew",
          ask_repeats},
         {"tiles", "a picture drawn in tiles, as large ones are, has the bytes of the picture drawn whole",

@@ -26,6 +26,7 @@ Result<Answer> ask_bounds(ProbeBench& bench);
 // probes_text.cpp
 Result<Answer> ask_unassigned(ProbeBench& bench);
 Result<Answer> ask_divergence(ProbeBench& bench);
+Result<Answer> ask_counters(ProbeBench& bench);
 
 // probes_time.cpp
 Result<Answer> ask_horizon(ProbeBench& bench);

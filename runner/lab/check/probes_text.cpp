@@ -51,4 +51,22 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
                   "needs neighbouring pixels, which may have taken another branch: " + listed(found)};
 }
 
+Result<Answer> ask_counters(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+    std::vector<std::string> found;
+    for (const PassText& pass : *texts)
+        for (const glsl::FloatCounter& each : glsl::miscounting_loops(*pass.text, pass.facts)) {
+            const std::string place = place_of(*pass.text, pass.text->tree()[each.loop].begin);
+            std::string said = fmt::format("{}: {}", place, words_for(each));
+            if (!place.empty() && std::ranges::find(found, said) == found.end())
+                found.push_back(std::move(said));
+        }
+    if (found.empty())
+        return Answer{Verdict::pass,
+                      "no loop counts in floats to another number of turns than its numbers make"};
+    return Answer{Verdict::warn, listed(found)};
+}
+
 } // namespace tidemark::lab

@@ -1,6 +1,7 @@
 // What becomes of a scene as its clock runs: rounding, cuts, and random numbers that hang on roundings.
 #include "base/try.hpp"
 #include "image/compare/metrics.hpp"
+#include "lab/check/horizon.hpp"
 #include "lab/check/picture_gap.hpp"
 #include "lab/check/probe_text.hpp"
 #include "lab/check/probes.hpp"
@@ -69,37 +70,28 @@ Result<Jump> jump_at(ProbeBench& bench, double moment) {
 
 } // namespace
 
-/// Of a second: a moment like most, which is no binary32.
-constexpr double k_third = 1.0 / 3;
-
 Result<Answer> ask_horizon(ProbeBench& bench) {
-    double good = 0;
-    for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        const FrameState state = state_at(time + k_third);
-        const auto as_is = TRY(bench.picture(state));
-        auto truth = bench.picture(state, glsl::Precision::promoted);
-        if (!truth)
-            return Answer{Verdict::not_applicable, "cannot be drawn in double: " + to_string(truth.error())};
-        const double difference = p99_difference(as_is, *truth);
-        if (difference <= k_visible_gap) {
-            good = time;
-            continue;
-        }
-        const bool kept = good >= bench.promises().time_horizon;
-        const std::string found =
-            good == 0
-                ? fmt::format(
-                      "float and double differ already at 1 s, by {:.3g} or more in 1 % of the pixels: "
-                      "not because of a large iTime",
-                      difference)
-                : fmt::format("float and double agree up to {:g} s; at {:g} s, where iTime moves in steps of "
-                              "{:.2g} s, 1 % of "
-                              "the pixels are off by {:.3g} or more",
-                              good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
-                              difference);
-        return Answer{kept ? Verdict::pass : good == 0 ? Verdict::warn : Verdict::fail, found, state, as_is};
-    }
-    return Answer{Verdict::pass, "float and double agree up to 1e6 s"};
+    TRY(bench.picture(state_at(1))); // what is wrong with the scene itself is no matter of doubles
+    const auto horizon = find_horizon(bench);
+    if (!horizon)
+        return Answer{Verdict::not_applicable, "cannot be drawn in double: " + to_string(horizon.error())};
+    if (!horizon->parting)
+        return Answer{Verdict::pass, "float and double agree up to 1e6 s"};
+    const double good = horizon->good, time = horizon->parting->seconds;
+    const bool kept = good >= bench.promises().time_horizon;
+    const std::string found =
+        good == 0
+            ? fmt::format("float and double differ already at 1 s, by {:.3g} or more in 1 % of the pixels: "
+                          "not because of a large iTime",
+                          horizon->parting->difference)
+            : fmt::format("float and double agree up to {:g} s; at {:g} s, where iTime moves in steps of "
+                          "{:.2g} s, 1 % of the pixels are off by {:.3g} or more",
+                          good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
+                          horizon->parting->difference);
+    return Answer{kept        ? Verdict::pass
+                  : good == 0 ? Verdict::warn
+                              : Verdict::fail,
+                  found, horizon->parting->state, horizon->parting->floats};
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tidemark::lab {
 
@@ -42,6 +43,21 @@ std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch&
     const bool by_call = at.kind == glsl::NodeKind::call;
     return fmt::format("{}after the {} at {}", called, by_call ? "discard in a call" : text.word(at.word),
                        place);
+}
+
+std::string words_for(const glsl::ParsedText& text, const glsl::Divergent& each) {
+    return fmt::format("{} needs neighbouring pixels, which may have taken another branch: {}",
+                       glsl::called_name(text, each.call), words_for(text, each.branch));
+}
+
+std::string words_for(const glsl::FloatCounter& counter) {
+    if (std::isinf(counter.turns))
+        return fmt::format(
+            "{} stands still after some turns, for a step is less than its rounding: the loop has "
+            "no end",
+            counter.name);
+    return fmt::format("{} counts {} turns, where its numbers make {}: each step is rounded", counter.name,
+                       counter.turns, counter.exact_turns);
 }
 
 std::function<bool(std::string_view)> which_have_mipmaps(const scene::Pass& pass) {

@@ -4,6 +4,7 @@
 
 #include "glsl/analysis/divergence.hpp"
 #include "glsl/analysis/unassigned.hpp"
+#include "glsl/flow/float_counter.hpp"
 #include "scene/scene.hpp"
 
 #include <functional>
@@ -19,6 +20,11 @@ size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& 
 
 /// `sum (a.glsl:4)`, `hit (a.glsl:9, an `out` that some path does not write)`; empty: not the author's.
 std::string sentence_for(const glsl::ParsedText& text, const glsl::Unassigned& each);
+
+/// `texture needs neighbouring pixels, which may have taken another branch: …`.
+std::string words_for(const glsl::ParsedText& text, const glsl::Divergent& each);
+/// `x counts 11 turns, where its numbers make 10: each step is rounded`.
+std::string words_for(const glsl::FloatCounter& counter);
 
 /// `neighbours may branch at a.glsl:3`, `called after the return at a.glsl:4`.
 std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch);

@@ -3,9 +3,14 @@
 #include "base/try.hpp"
 #include "glsl/analysis/unassigned.hpp"
 #include "glsl/cure/domain_guards.hpp"
+#include "glsl/cure/hoisted_derivative.hpp"
 #include "glsl/cure/initial_values.hpp"
 #include "glsl/cure/march_cures.hpp"
+#include "glsl/cure/reduced_time.hpp"
+#include "glsl/cure/rewrites.hpp"
+#include "glsl/cure/whole_counter.hpp"
 #include "glsl/cure/whole_hashes.hpp"
+#include "lab/check/horizon.hpp"
 #include "lab/check/marching_pass.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -17,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace tidemark::lab {
 namespace {
@@ -112,18 +118,42 @@ private:
     CurableFindings found_{};
 };
 
-void add_without_value(CurableFindings& found, const std::vector<PassText>& texts) {
-    for (const PassText& pass : texts)
-        for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
-            Finding finding{Finding::Kind::no_value, sentence_for(*pass.text, each), {}, {}};
-            if (finding.sentence.empty())
-                continue;
-            finding.sentence += " is read without a value";
-            if (auto cure = glsl::initial_value(*pass.text, each))
-                finding.cures.push_back(*std::move(cure));
-            if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
-                found.all.push_back(std::move(finding));
-        }
+/// What stands in Common is found in several passes.
+void add_once(CurableFindings& found, Finding finding) {
+    if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
+        found.all.push_back(std::move(finding));
+}
+
+/// A finding of a text, with the one cure that may be known.
+Finding found_in_text(Finding::Kind kind, std::string sentence, std::optional<glsl::Cure> cure) {
+    Finding finding{kind, std::move(sentence), {}, {}};
+    if (cure)
+        finding.cures.push_back(*std::move(cure));
+    return finding;
+}
+
+void add_without_value(CurableFindings& found, const PassText& pass) {
+    for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts))
+        if (const std::string sentence = sentence_for(*pass.text, each); !sentence.empty())
+            add_once(found, found_in_text(Finding::Kind::no_value, sentence + " is read without a value",
+                                          glsl::initial_value(*pass.text, each)));
+}
+
+void add_miscounting(CurableFindings& found, const PassText& pass) {
+    for (const glsl::FloatCounter& each : glsl::miscounting_loops(*pass.text, pass.facts))
+        if (const std::string place = place_of(*pass.text, pass.text->tree()[each.loop].begin);
+            !place.empty())
+            add_once(found, found_in_text(Finding::Kind::counter, place + ": " + words_for(each),
+                                          glsl::whole_counter(*pass.text, each)));
+}
+
+void add_divergent(CurableFindings& found, const PassText& pass, const scene::Pass& of) {
+    for (const glsl::Divergent& each : glsl::find_divergent(*pass.text, pass.facts, which_have_mipmaps(of)))
+        if (const std::string place = place_of(*pass.text, pass.text->tree()[each.call].begin);
+            !place.empty())
+            add_once(found,
+                     found_in_text(Finding::Kind::divergence, place + ": " + words_for(*pass.text, each),
+                                   glsl::hoisted_derivative(*pass.text, pass.facts, each)));
 }
 
 /// What is wrong with the rays of a scene that marches: by proof where they end, and whether they run out of
@@ -147,10 +177,13 @@ private:
         if (counts.contradicted > 0 || !counts.wrong_loop || wrong_percent(counts) <= k_most_wrong_percent)
             return {};
         const auto lines = lines_of(*pass.function, pass.function->loops()[*counts.wrong_loop]);
-        auto cures =
-            counts.step_over > 0 ? cures_of(glsl::shorter_steps, pass, lines) : std::vector<glsl::Cure>();
-        for (glsl::Cure& cure : cures_of(glsl::more_turns, pass, lines))
-            cures.push_back(std::move(cure));
+        std::vector<glsl::Cure> cures;
+        if (const PassText* const text = text_of(pass)) {
+            if (counts.step_over > 0)
+                cures = glsl::shorter_steps(*text->text, place_of_march(lines));
+            std::ranges::move(glsl::more_turns(*text->text, place_of_march(lines)),
+                              std::back_inserter(cures));
+        }
         found_.all.push_back(
             {Finding::Kind::first_hit,
              fmt::format("{}:{}: of {} rays whose first hit is known {} step over it and {} miss it",
@@ -167,27 +200,84 @@ private:
         if (percent <= bench_.promises().most_exhausted_percent)
             return {};
         const auto lines = lines_of(*pass.function, pass.function->loops().front());
+        std::vector<glsl::Cure> cures;
+        if (const PassText* const text = text_of(pass)) {
+            // Only floats run out of steps: they wait for less than rounding leaves.
+            const Verdict epsilon = TRY(ask_epsilon(bench_)).verdict;
+            if (epsilon == Verdict::fail || epsilon == Verdict::warn)
+                cures = glsl::larger_threshold(*text->text, text->facts, place_of_march(lines));
+            std::ranges::move(glsl::more_turns(*text->text, place_of_march(lines)),
+                              std::back_inserter(cures));
+        }
         found_.all.push_back(
             {Finding::Kind::budget,
              fmt::format("{}:{}: {:.3g} % of the rays run out of steps in the worst of four views",
                          lines.test.file, lines.test.line, percent),
              {},
-             cures_of(glsl::more_turns, pass, lines)});
+             std::move(cures)});
         return {};
     }
 
-    template <class CuresOf>
-    std::vector<glsl::Cure> cures_of(CuresOf cures, const MarchingPass& pass,
-                                     const glsl::MarchLines& lines) const {
+    static glsl::MarchPlace place_of_march(const glsl::MarchLines& lines) {
+        return {lines.test, lines.updates};
+    }
+
+    const PassText* text_of(const MarchingPass& pass) const {
         const auto text = std::ranges::find(texts_, pass.index, &PassText::pass);
-        return text == texts_.end() ? std::vector<glsl::Cure>()
-                                    : cures(*text->text, {lines.test, lines.updates});
+        return text == texts_.end() ? nullptr : &*text;
     }
 
     ProbeBench& bench_;
     const std::vector<PassText>& texts_;
     CurableFindings& found_;
 };
+
+/// So many expressions are tried alone; then, and beyond that, all at once.
+constexpr size_t k_most_alone = 6;
+
+/// Changes that are equal in real arithmetic, of all passes; what stands in Common once.
+std::vector<glsl::Cure> equal_texts(const std::vector<PassText>& texts) {
+    std::vector<glsl::Cure> cures;
+    for (const PassText& pass : texts)
+        for (const auto propose : {glsl::reduced_times, glsl::rewrites})
+            for (glsl::Cure& cure : propose(*pass.text, pass.facts))
+                if (std::ranges::find(cures, cure) == cures.end())
+                    cures.push_back(std::move(cure));
+    return cures;
+}
+
+glsl::Cure all_of(const std::vector<glsl::Cure>& cures) {
+    glsl::Cure all;
+    for (const glsl::Cure& cure : cures) {
+        all.wraps.insert(all.wraps.end(), cure.wraps.begin(), cure.wraps.end());
+        if (all.reason.find(cure.reason) == all.reason.npos)
+            all.reason += (all.reason.empty() ? "" : "; ") + cure.reason;
+    }
+    return all;
+}
+
+/// What differs visibly from the picture in double at the first moment that does, as far as the scene
+/// promises to look the same; only where something could be written instead.
+void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<PassText>& texts) {
+    std::vector<glsl::Cure> cures = equal_texts(texts);
+    if (cures.empty())
+        return;
+    const auto horizon = find_horizon(bench);
+    if (!horizon || !horizon->parting || horizon->good >= bench.promises().time_horizon)
+        return;
+    if (cures.size() > 1) {
+        glsl::Cure all = all_of(cures);
+        cures.resize(std::min(cures.size(), k_most_alone));
+        cures.push_back(std::move(all));
+    }
+    found.all.push_back(
+        {Finding::Kind::rounding,
+         fmt::format(
+             "at {:.6g} s the picture in float is off by {:.3g} or more from that in double, in 1 % of "
+             "the pixels",
+             horizon->parting->state.seconds(), horizon->parting->difference),
+         horizon->parting->state, std::move(cures)});
+}
 
 /// By file; Common stands in several passes.
 void add_hashes(CurableFindings& found, const std::vector<PassText>& texts) {
@@ -197,12 +287,10 @@ void add_hashes(CurableFindings& found, const std::vector<PassText>& texts) {
             for (size_t i = 1; i < cure.wraps.size(); ++i) // the first is the function that hashes
                 places.push_back(
                     fmt::format("{}:{}", cure.wraps[i].first.where.file, cure.wraps[i].first.where.line));
-            Finding finding{Finding::Kind::hash,
-                            "fract of a large sine gives other numbers on every GPU: " + listed(places),
-                            {},
-                            {std::move(cure)}};
-            if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
-                found.all.push_back(std::move(finding));
+            add_once(found, found_in_text(Finding::Kind::hash,
+                                          "fract of a large sine gives other numbers on every GPU: " +
+                                              listed(places),
+                                          std::move(cure)));
         }
 }
 
@@ -214,8 +302,13 @@ Result<CurableFindings> find_curable(ProbeBench& bench, bool hashes) {
         return CurableFindings{
             {}, {}, "the text cannot be followed: " + to_string((written ? linked : written).error())};
     CurableFindings found = TRY(Finder(bench, *linked).run());
-    add_without_value(found, *written);
+    for (const PassText& pass : *written) {
+        add_without_value(found, pass);
+        add_miscounting(found, pass);
+        add_divergent(found, pass, bench.scene().passes[pass.pass]);
+    }
     TRY(RayFinder(bench, *written, found).run());
+    add_rounding(bench, found, *written);
     if (hashes)
         add_hashes(found, *written);
     return found;

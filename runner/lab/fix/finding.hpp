@@ -19,6 +19,9 @@ struct Finding {
         undefined,  ///< a function outside of its domain, and visible
         first_hit,  ///< rays that step over their first hit or miss it, by proof
         budget,     ///< rays that run out of steps
+        counter,    ///< a loop that counts in floats, and wrongly
+        divergence, ///< a derivative where neighbours may have taken another branch
+        rounding,   ///< a picture in float that is off from that in double
         hash,       ///< random numbers from large sines
     };
     Kind kind = Kind::no_value;

@@ -5,7 +5,9 @@
 #include "image/census.hpp"
 #include "image/compare/flip.hpp"
 #include "lab/check/marching_pass.hpp"
+#include "lab/check/picture_gap.hpp"
 #include "lab/check/rays.hpp"
+#include "lab/check/text_words.hpp"
 #include "lab/statistics.hpp"
 #include "lab/stopwatch.hpp"
 
@@ -28,6 +30,8 @@ constexpr double k_rounding = 0.01;
 constexpr double k_most_undefined = 0.1;
 /// Of 1, in the mean of the samples that were not finite and are so in double.
 constexpr double k_most_gap = 0.1;
+/// Of what rounding shows: other roundings alone show a little less or more.
+constexpr double k_most_left = 0.5;
 constexpr Extent k_timed_extent{320, 180};
 constexpr int k_timed_frames = 5;
 
@@ -55,6 +59,22 @@ Result<double> count_without_value(ProbeBench& bench) {
     return double(count);
 }
 
+Result<double> count_miscounting(ProbeBench& bench) {
+    size_t count = 0;
+    for (const PassText& pass : TRY(read_texts(bench, true)))
+        count += glsl::miscounting_loops(*pass.text, pass.facts).size();
+    return double(count);
+}
+
+Result<double> count_divergent(ProbeBench& bench) {
+    size_t count = 0;
+    for (const PassText& pass : TRY(read_texts(bench, true)))
+        count +=
+            glsl::find_divergent(*pass.text, pass.facts, which_have_mipmaps(bench.scene().passes[pass.pass]))
+                .size();
+    return double(count);
+}
+
 Result<double> undefined_percent(ProbeBench& bench, const std::vector<PictureView>& views) {
     const auto texts = TRY(read_texts(bench, false));
     double percent = 0;
@@ -78,6 +98,9 @@ std::string name_of(Kind kind) {
     case Kind::first_hit: return "percent of the rays that step over their first hit or miss it";
     case Kind::budget: return "percent of the rays that run out of steps";
     case Kind::hash: return "hashes of large sines";
+    case Kind::counter: return "loops that miscount";
+    case Kind::divergence: return "derivatives where neighbours may have taken another branch";
+    case Kind::rounding: return "percent of the pixels that are visibly off from those in double";
     }
     return {};
 }
@@ -99,6 +122,8 @@ bool is_of_rays(Kind kind) {
 /// Rays are mended as far as the probes ask: the last of them are a matter of silhouettes, and of what they
 /// may cost.
 bool is_mended(Kind kind, const Fault& fault, const Promises& promises) {
+    if (kind == Kind::rounding)
+        return fault.after <= k_most_left * fault.before;
     if (!is_of_rays(kind))
         return fault.after < fault.before;
     return fault.after <= (kind == Kind::first_hit ? k_most_wrong_percent : promises.most_exhausted_percent);
@@ -140,20 +165,6 @@ Result<bool> compare_all(DrawnScene& before, DrawnScene& after, const std::vecto
     return true;
 }
 
-/// The pictures of one scene in floats and in doubles; none where it has no doubles.
-struct InBoth {
-    image::Image floats, doubles;
-
-    double gap(size_t sample) const { return double(floats.f32()[sample]) - double(doubles.f32()[sample]); }
-};
-
-std::optional<InBoth> drawn_in_both(ProbeBench& bench, const FrameState& state) {
-    auto floats = bench.picture(state), doubles = bench.picture(state, glsl::Precision::promoted);
-    if (!floats || !doubles)
-        return std::nullopt;
-    return InBoth{*std::move(floats), *std::move(doubles)};
-}
-
 /// Where only the floats were not finite, doubles know what should be there.
 bool is_as_in_double(const InBoth& before, const image::Image& cured) {
     double gap = 0;
@@ -170,8 +181,8 @@ bool is_as_in_double(const InBoth& before, const image::Image& cured) {
 
 /// False where doubles say that it is another picture. RMSE of floats against doubles, of both scenes over
 /// the samples that are finite in all four pictures.
-bool compare_errors(ProbeBench& before, ProbeBench& after, const FrameState& state, Judgement& judgement) {
-    const auto left = drawn_in_both(before, state), right = drawn_in_both(after, state);
+bool compare_errors(DrawnScene& before, DrawnScene& after, const FrameState& state, Judgement& judgement) {
+    const auto left = before.in_both(state), right = after.in_both(state);
     if (!left || !right)
         return true;
     if (!is_as_in_double(*left, right->floats))
@@ -197,7 +208,7 @@ bool compare_errors(ProbeBench& before, ProbeBench& after, const FrameState& sta
 bool is_another(const Judgement& judgement, Kind kind) {
     if (kind == Kind::no_value)
         return judgement.changed > 0;
-    if (kind == Kind::hash) // it is meant to be
+    if (kind == Kind::hash || kind == Kind::rounding) // it is meant to be
         return false;
     if (is_of_rays(kind)) // what a ray shows that meets another surface may be anything
         return judgement.flip > k_most_flip + judgement.fault.before / 100;
@@ -205,6 +216,16 @@ bool is_another(const Judgement& judgement, Kind kind) {
         kind == Kind::undefined &&
         judgement.largest_share <= std::min(judgement.fault.before / 100 + k_rounding, k_most_undefined);
     return judgement.flip > k_most_flip && !by_the_fault;
+}
+
+/// Whether two scenes are one where nothing is rounded: doubles show the same of both.
+Result<bool> agree_in_double(DrawnScene& before, DrawnScene& after, const FrameState& state) {
+    for (const FrameState& each : {state, plain_state()}) {
+        const InBoth left = TRY(before.in_both(each)), right = TRY(after.in_both(each));
+        if (p99_difference(left.doubles, right.doubles) > k_visible_gap)
+            return false;
+    }
+    return true;
 }
 
 Result<void> time_both(ProbeBench& before, ProbeBench& after, Judgement& judgement) {
@@ -233,9 +254,22 @@ Result<const std::vector<PassPicture>*> DrawnScene::passes(const FrameState& sta
     return &drawn_.emplace_back(state, std::move(pictures)).second;
 }
 
+Result<InBoth> DrawnScene::in_both(const FrameState& state) {
+    for (const auto& [drawn, pictures] : in_both_)
+        if (drawn == state)
+            return pictures;
+    auto floats = TRY(bench_.picture(state));
+    auto doubles = TRY(bench_.picture(state, glsl::Precision::promoted));
+    return in_both_.emplace_back(state, InBoth{std::move(floats), std::move(doubles)}).second;
+}
+
 Result<double> DrawnScene::fault(const Finding& finding, const std::vector<PictureView>& views) {
     if (finding.kind == Kind::not_finite)
         return count_not_finite(*TRY(passes(*finding.where)));
+    if (finding.kind == Kind::rounding) {
+        const InBoth pictures = TRY(in_both(*finding.where));
+        return visibly_different_percent(pictures.floats, pictures.doubles);
+    }
     const auto known = faults_.find(finding.kind);
     if (known != faults_.end())
         return known->second;
@@ -248,7 +282,10 @@ Result<double> DrawnScene::fault_of_scene(Kind kind, const std::vector<PictureVi
     case Kind::first_hit: return proved_wrong_percent(bench_);
     case Kind::budget: return exhausted_percent(bench_);
     case Kind::hash: return count_sine_hashes(bench_);
-    case Kind::not_finite: // of one situation
+    case Kind::counter: return count_miscounting(bench_);
+    case Kind::divergence: return count_divergent(bench_);
+    case Kind::not_finite:
+    case Kind::rounding: // of one situation, both
     case Kind::undefined: break;
     }
     return undefined_percent(bench_, views);
@@ -268,7 +305,9 @@ Result<std::optional<Judgement>> judge(DrawnScene& before, DrawnScene& after, co
         return none;
     if (is_another(judgement, finding.kind))
         return none;
-    if (!compare_errors(before.bench(), after.bench(), finding.where.value_or(plain_state()), judgement))
+    if (finding.kind == Kind::rounding && !TRY(agree_in_double(before, after, *finding.where)))
+        return none;
+    if (!compare_errors(before, after, finding.where.value_or(plain_state()), judgement))
         return none;
     TRY(time_both(before.bench(), after.bench(), judgement));
     return judgement;

@@ -31,12 +31,21 @@ struct Judgement {
     std::optional<double> milliseconds_before{}, milliseconds_after{};
 };
 
+/// A picture in floats and in doubles.
+struct InBoth {
+    image::Image floats, doubles;
+
+    double gap(size_t sample) const { return double(floats.f32()[sample]) - double(doubles.f32()[sample]); }
+};
+
 /// The pictures of a scene in the situations that cures are judged in.
 class DrawnScene {
 public:
     DrawnScene(scene::Scene scene, const Promises& promises) : bench_(std::move(scene), promises) {}
 
     ProbeBench& bench() { return bench_; }
+    /// Image in floats and in doubles. Fails where it has no doubles.
+    Result<InBoth> in_both(const FrameState& state);
     /// All passes in a situation; kept.
     Result<const std::vector<PassPicture>*> passes(const FrameState& state);
     /// How much of the fault is there. Fails where the scene does not compile.
@@ -47,6 +56,7 @@ private:
 
     ProbeBench bench_;
     std::deque<std::pair<FrameState, std::vector<PassPicture>>> drawn_{};
+    std::deque<std::pair<FrameState, InBoth>> in_both_{};
     std::map<Finding::Kind, double> faults_{}; ///< that the whole scene has
 };
 

@@ -1,0 +1,47 @@
+#include "glsl/cure/helper_function.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tidemark::glsl {
+
+std::string HelperFunction::fresh_name() const {
+    for (size_t n = files_.size() + 1;; ++n) {
+        std::string name = n == 1 ? wanted_ : wanted_ + std::to_string(n);
+        if (std::ranges::none_of(text_.words(), [&](const Word& word) { return word.text == name; }))
+            return name;
+    }
+}
+
+void HelperFunction::use(NodeId expression, const Say& say) {
+    const NodeId function = text_.tree().around(expression, NodeKind::function);
+    const auto written = written_for(text_, expression, expression);
+    if (function == k_no_node || !written)
+        return;
+    const Word& start = text_.words()[text_.tree()[function].begin];
+    Wrap first = wrapped(text_, {start.spelled, start.spelled}, "", "");
+    Wrap use = in_place_of(text_, *written, "");
+    const std::string& file = use.first.where.file;
+    if (start.from_macro() || first.first.where.file != file)
+        return;
+    const auto known = files_.find(file);
+    const std::string name = known == files_.end() ? fresh_name() : known->second.name;
+    auto words = say(name);
+    if (!words)
+        return;
+    use.front = *std::move(words);
+    files_.try_emplace(file, Uses{name, std::move(first)}).first->second.wraps.push_back(std::move(use));
+}
+
+std::vector<Cure> HelperFunction::cures(const std::function<std::string(const std::string& name)>& define,
+                                        const std::string& reason) const {
+    std::vector<Cure> cures;
+    for (const auto& [file, uses] : files_) {
+        Cure& cure = cures.emplace_back(Cure{{uses.first}, reason});
+        cure.wraps.front().front = define(uses.name);
+        cure.wraps.insert(cure.wraps.end(), uses.wraps.begin(), uses.wraps.end());
+    }
+    return cures;
+}
+
+} // namespace tidemark::glsl

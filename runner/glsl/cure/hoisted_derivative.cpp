@@ -1,0 +1,69 @@
+#include "glsl/cure/hoisted_derivative.hpp"
+
+#include "glsl/syntax/expression_type.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tidemark::glsl {
+namespace {
+
+/// The statement of the function's body that a node is in; k_no_node: it is in none.
+NodeId outermost_statement(const SyntaxTree& tree, NodeId id) {
+    while (id != k_no_node && tree[tree[tree[id].parent].parent].kind != NodeKind::function)
+        id = tree[id].parent;
+    return id != k_no_node && tree[tree[id].parent].kind == NodeKind::block ? id : k_no_node;
+}
+
+/// Whether a name in `expression` is declared or set from one statement to the other.
+bool changes_between(const ParsedText& text, const TreeFacts& facts, NodeId expression, NodeId first,
+                     NodeId last) {
+    const SyntaxTree& tree = text.tree();
+    for (NodeId name = 1; name <= expression; ++name) {
+        if (tree[name].kind != NodeKind::name || !tree.is_within(name, expression))
+            continue;
+        const std::string_view word = text.word_of(name);
+        for (NodeId id = 1; id <= last; ++id)
+            if (tree[id].begin >= tree[first].begin && tree[id].end <= tree[last].end &&
+                (sets(text, facts, id, word) ||
+                 (tree[id].kind == NodeKind::declarator && text.word_of(id) == word)))
+                return true;
+    }
+    return false;
+}
+
+std::string fresh_name(const ParsedText& text) {
+    for (int n = 1;; ++n) {
+        std::string name = n == 1 ? "taken_before" : fmt::format("taken_before{}", n);
+        if (std::ranges::none_of(text.words(), [&](const Word& word) { return word.text == name; }))
+            return name;
+    }
+}
+
+} // namespace
+
+std::optional<Cure> hoisted_derivative(const ParsedText& text, const TreeFacts& facts,
+                                       const Divergent& fault) {
+    const SyntaxTree& tree = text.tree();
+    const NodeId first = outermost_statement(tree, fault.branch.at),
+                 last = outermost_statement(tree, fault.call);
+    const bool in_one_function =
+        tree.around(first, NodeKind::function) == tree.around(last, NodeKind::function);
+    if (fault.branch.called || first == k_no_node || last == k_no_node || !in_one_function ||
+        changes_between(text, facts, fault.call, first, last))
+        return std::nullopt;
+    const auto type = expression_type(text, facts, fault.call);
+    const auto written = written_for(text, fault.call, fault.call);
+    const auto words = written ? said_again(text, facts, fault.call, *written) : std::nullopt;
+    const Word& front = text.words()[tree[first].begin];
+    if (!type || !words || front.from_macro() || text.words()[tree[fault.call].word].from_macro())
+        return std::nullopt;
+    const std::string name = fresh_name(text);
+    return Cure{{wrapped(text, {front.spelled, front.spelled},
+                         fmt::format("{} {} = {}; ", to_string(*type), name, *words), ""),
+                 in_place_of(text, *written, name)},
+                fmt::format("takes `{}` in front of where neighbouring pixels part", *words)};
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,169 @@
+#include "glsl/cure/reduced_time.hpp"
+
+#include "glsl/cure/helper_function.hpp"
+#include "glsl/flow/single_value.hpp"
+#include "glsl/syntax/number.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace tidemark::glsl {
+namespace {
+
+/// A name of a name of a name.
+constexpr int k_most_names = 8;
+
+/// Of turns a second, in three parts of 12 bits: the products with both halves of iTime are exact, and lose
+/// nothing by the fraction (T. J. Dekker's splitting, 1971). To 4e-7 of a turn.
+constexpr std::string_view k_turns =
+    "(vec3 rate) { float upper = uintBitsToFloat(floatBitsToUint(iTime) & 0xfffff000u); "
+    "vec3 turns = fract(rate * upper) + fract(rate * (iTime - upper)); "
+    "return fract(turns.x + turns.y + turns.z + (rate.x + rate.y + rate.z) * iTimeLow); } ";
+
+/// The nearest number of 12 bits.
+double upper_part(double value) {
+    int exponent = 0;
+    const double mantissa = std::frexp(value, &exponent);
+    return std::ldexp(std::nearbyint(std::ldexp(mantissa, 12)), exponent - 12);
+}
+
+/// With all digits: a scene in double reads them as doubles.
+std::string in_parts(double rate) {
+    const double first = upper_part(rate), second = upper_part(rate - first);
+    return fmt::format("vec3({}, {}, {})", first, second, upper_part(rate - first - second));
+}
+
+class TimeReducer {
+public:
+    TimeReducer(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts), turns_(text, "turns_of_time") {}
+
+    std::vector<Cure> run() {
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+            if (const auto period = period_of(id))
+                reduce(tree_.child(id, 1), 1, *period);
+        return turns_.cures([this](const std::string& name) { return definition(name); },
+                            "the time's part of a phase as a fraction of a turn, before anything is added");
+    }
+
+private:
+    std::string definition(const std::string& name) const {
+        const bool declared = facts_.names.contains("iTimeLow");
+        return fmt::format("{}float {}{}", declared ? "" : "uniform float iTimeLow; ", name, k_turns);
+    }
+
+    /// After how much a function is where it was.
+    std::optional<double> period_of(NodeId id) const {
+        if (tree_[id].kind != NodeKind::call || facts_.function(called_name(text_, id)))
+            return std::nullopt;
+        const std::string_view name = called_name(text_, id);
+        if (name == "sin" || name == "cos")
+            return 2 * std::numbers::pi;
+        if (name == "fract")
+            return 1;
+        const auto period = name == "mod" ? constant(tree_.child(id, 2)) : std::nullopt;
+        return period && *period > 0 ? period : std::nullopt;
+    }
+
+    std::optional<double> constant(NodeId id, int names = 0) const {
+        id = without_brackets(tree_, id);
+        switch (tree_[id].kind) {
+        case NodeKind::literal: return number(text_.word_of(id));
+        case NodeKind::prefix: {
+            const auto value = constant(tree_.child(id, 0), names);
+            return value && text_.word_of(id) == "-" ? std::optional(-*value) : std::nullopt;
+        }
+        case NodeKind::name: {
+            const NodeId value = names < k_most_names ? single_value(text_, facts_, id) : k_no_node;
+            return value == k_no_node ? std::nullopt : constant(value, names + 1);
+        }
+        case NodeKind::binary: {
+            const auto left = constant(tree_.child(id, 0), names),
+                       right = constant(tree_.child(id, 1), names);
+            if (!left || !right)
+                return std::nullopt;
+            return text_.word_of(id) == "*"   ? std::optional(*left * *right)
+                   : text_.word_of(id) == "/" ? std::optional(*left / *right)
+                                              : std::nullopt;
+        }
+        default: return std::nullopt;
+        }
+    }
+
+    /// The number that iTime is multiplied by in an expression that is nothing else.
+    std::optional<double> rate_of(NodeId id, int names = 0) const {
+        id = without_brackets(tree_, id);
+        if (tree_[id].kind == NodeKind::name) {
+            if (text_.word_of(id) == "iTime")
+                return 1;
+            const NodeId value = names < k_most_names ? single_value(text_, facts_, id) : k_no_node;
+            return value == k_no_node ? std::nullopt : rate_of(value, names + 1);
+        }
+        const auto scaled = scaled_part(id);
+        const auto rate = scaled ? rate_of(scaled->part, names) : std::nullopt;
+        return rate ? std::optional(*rate * scaled->factor) : std::nullopt;
+    }
+
+    struct Scaled {
+        NodeId part;
+        double factor;
+    };
+
+    /// `3.0 * x`, `x * 3.0`, `x / 3.0`.
+    std::optional<Scaled> scaled_part(NodeId id) const {
+        if (tree_[id].kind != NodeKind::binary)
+            return std::nullopt;
+        const NodeId left = tree_.child(id, 0), right = tree_.child(id, 1);
+        const auto behind = constant(right);
+        if (text_.word_of(id) == "/" && behind && *behind != 0)
+            return Scaled{left, 1 / *behind};
+        if (text_.word_of(id) != "*")
+            return std::nullopt;
+        const auto before = behind ? std::nullopt : constant(left);
+        return behind   ? std::optional(Scaled{left, *behind})
+               : before ? std::optional(Scaled{right, *before})
+                        : std::nullopt;
+    }
+
+    /// `turn` times the fraction of `rate` times the time, instead of a term. A macro's words may stand
+    /// elsewhere, too.
+    void use(NodeId term, double turn, double rate) {
+        for (size_t i = tree_[term].begin; i < tree_[term].end; ++i)
+            if (text_.words()[i].from_macro())
+                return;
+        turns_.use(term, [&](const std::string& name) {
+            return fmt::format("{} * {}({})", as_float(fmt::format("{}", turn)), name, in_parts(rate));
+        });
+    }
+
+    /// The terms of `id`, of which `factor` times are in an argument with that period.
+    void reduce(NodeId id, double factor, double period) {
+        if (const auto rate = rate_of(id); rate && *rate != 0 && std::isfinite(*rate))
+            return use(id, period / factor, *rate * factor / period);
+        const NodeId inside = without_brackets(tree_, id);
+        const std::string_view word = text_.word_of(inside);
+        if (tree_[inside].kind != NodeKind::binary)
+            return;
+        if (word == "+" || word == "-") {
+            reduce(tree_.child(inside, 0), factor, period);
+            reduce(tree_.child(inside, 1), factor, period);
+        } else if (const auto scaled = scaled_part(inside); scaled && scaled->factor != 0) {
+            reduce(scaled->part, factor * scaled->factor, period);
+        }
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    HelperFunction turns_;
+};
+
+} // namespace
+
+std::vector<Cure> reduced_times(const ParsedText& text, const TreeFacts& facts) {
+    return TimeReducer(text, facts).run();
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,198 @@
+#include "glsl/cure/rewrites.hpp"
+
+#include "glsl/flow/single_value.hpp"
+#include "glsl/syntax/number.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace tidemark::glsl {
+namespace {
+
+/// What stands instead of an expression, and why.
+struct Instead {
+    std::string words;
+    std::string reason;
+};
+
+class Rewriter {
+public:
+    Rewriter(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts) {}
+
+    std::vector<Cure> run() {
+        std::vector<Cure> cures;
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            const auto instead = instead_of(id);
+            const auto written = instead ? written_for(text_, id, id) : std::nullopt;
+            const bool has_brackets = tree_[tree_[id].parent].kind == NodeKind::parenthesis;
+            if (written)
+                cures.push_back({{in_place_of(text_, *written,
+                                              has_brackets ? instead->words : "(" + instead->words + ")")},
+                                 instead->reason});
+        }
+        return cures;
+    }
+
+private:
+    std::optional<Instead> instead_of(NodeId id) const {
+        if (is_call(id, "acos"))
+            return angle(id);
+        const bool difference = tree_[id].kind == NodeKind::binary && text_.word_of(id) == "-";
+        if (!difference || facts_.surely_whole[id])
+            return std::nullopt;
+        const NodeId left = bare(tree_.child(id, 0)), right = bare(tree_.child(id, 1));
+        for (const auto rule : {&Rewriter::discriminant, &Rewriter::one_less_cosine, &Rewriter::of_squares,
+                                &Rewriter::of_roots, &Rewriter::of_sines})
+            if (auto found = (this->*rule)(left, right))
+                return found;
+        return std::nullopt;
+    }
+
+    NodeId bare(NodeId id) const { return without_brackets(tree_, id); }
+
+    bool is_call(NodeId id, std::string_view name) const {
+        return tree_[id].kind == NodeKind::call && called_name(text_, id) == name && !facts_.function(name);
+    }
+
+    bool is_one(NodeId id) const {
+        return tree_[id].kind == NodeKind::literal && number(text_.word_of(id)) == 1.0;
+    }
+
+    bool are_equal(NodeId one, NodeId other) const {
+        return text_.excerpt(bare(one)) == text_.excerpt(bare(other));
+    }
+
+    /// In brackets where it is more than a name; nothing where it cannot be said again.
+    std::optional<std::string> words_of(NodeId id) const {
+        const auto written = written_for(text_, id, id);
+        auto words = written ? said_again(text_, facts_, id, *written) : std::nullopt;
+        const NodeKind kind = tree_[id].kind;
+        const bool loose = kind != NodeKind::name && kind != NodeKind::literal && kind != NodeKind::member &&
+                           kind != NodeKind::call && kind != NodeKind::parenthesis;
+        return words && loose ? std::optional("(" + *words + ")") : words;
+    }
+
+    std::optional<std::string> argument(NodeId call, size_t index) const {
+        return words_of(bare(tree_.child(call, index + 1)));
+    }
+
+    /// The half angle: 1 and a cosine near it have no digits left to differ by.
+    std::optional<Instead> one_less_cosine(NodeId left, NodeId right) const {
+        const auto x = is_one(left) && is_call(right, "cos") ? argument(right, 0) : std::nullopt;
+        if (!x)
+            return std::nullopt;
+        return Instead{fmt::format("2.0 * sin(0.5 * {0}) * sin(0.5 * {0})", *x),
+                       "1 - cos x is 2 sin² (x / 2), which keeps its digits where x is small"};
+    }
+
+    /// The a of `a * a`, of `dot(a, a)`, and 1, which is its own square.
+    NodeId root_of(NodeId id) const {
+        const bool product = tree_[id].kind == NodeKind::binary && text_.word_of(id) == "*";
+        if (product && are_equal(tree_.child(id, 0), tree_.child(id, 1)))
+            return bare(tree_.child(id, 0));
+        if (is_call(id, "dot") && are_equal(tree_.child(id, 1), tree_.child(id, 2)))
+            return bare(tree_.child(id, 1));
+        return is_one(id) ? id : k_no_node;
+    }
+
+    std::optional<Instead> of_squares(NodeId left, NodeId right) const {
+        const NodeId a = root_of(left), b = root_of(right);
+        const bool dots = is_call(left, "dot");
+        if (a == k_no_node || b == k_no_node || dots != is_call(right, "dot") || (is_one(a) && is_one(b)))
+            return std::nullopt;
+        const auto one = words_of(a), other = words_of(b);
+        if (!one || !other)
+            return std::nullopt;
+        return Instead{dots ? fmt::format("dot({0} - {1}, {0} + {1})", *one, *other)
+                            : fmt::format("({0} - {1}) * ({0} + {1})", *one, *other),
+                       "a² - b² is (a - b) (a + b), which keeps its digits where a is near b"};
+    }
+
+    /// Of `sqrt` and of `length`.
+    std::optional<Instead> of_roots(NodeId left, NodeId right) const {
+        const bool roots = is_call(left, "sqrt") && is_call(right, "sqrt");
+        const bool lengths = is_call(left, "length") && is_call(right, "length");
+        const auto a = roots || lengths ? argument(left, 0) : std::nullopt;
+        const auto b = a ? argument(right, 0) : std::nullopt;
+        if (!b)
+            return std::nullopt;
+        return Instead{roots ? fmt::format("({0} - {1}) / (sqrt({0}) + sqrt({1}))", *a, *b)
+                             : fmt::format("dot({0} - {1}, {0} + {1}) / (length({0}) + length({1}))", *a, *b),
+                       "√a - √b is (a - b) / (√a + √b), which keeps its digits where a is near b"};
+    }
+
+    /// The sum-to-product identities.
+    std::optional<Instead> of_sines(NodeId left, NodeId right) const {
+        const bool sines = is_call(left, "sin") && is_call(right, "sin");
+        const bool cosines = is_call(left, "cos") && is_call(right, "cos");
+        const auto a = sines || cosines ? argument(left, 0) : std::nullopt;
+        const auto b = a ? argument(right, 0) : std::nullopt;
+        if (!b)
+            return std::nullopt;
+        return Instead{sines ? fmt::format("2.0 * cos(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", *a, *b)
+                             : fmt::format("-2.0 * sin(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", *a, *b),
+                       fmt::format("the difference of two {0} is a product, which keeps its digits where "
+                                   "their angles are near each other",
+                                   sines ? "sines" : "cosines")};
+    }
+
+    /// `b * b - c` of a ray and a sphere, b = dot(o, d), c = dot(o, o) - r * r, for a direction of length 1
+    /// (E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019).
+    std::optional<Instead> discriminant(NodeId left, NodeId right) const {
+        const NodeId b = root_of(left);
+        if (b == k_no_node || is_one(left))
+            return std::nullopt;
+        const NodeId along = bare(value_of(b)), rest = bare(value_of(right));
+        const bool fits = is_call(along, "dot") && tree_[rest].kind == NodeKind::binary &&
+                          text_.word_of(rest) == "-" && is_call(bare(tree_.child(rest, 0)), "dot");
+        const NodeId origin = fits ? root_of(bare(tree_.child(rest, 0))) : k_no_node;
+        if (origin == k_no_node)
+            return std::nullopt;
+        const NodeId one = tree_.child(along, 1), other = tree_.child(along, 2);
+        if (!are_equal(origin, one) && !are_equal(origin, other))
+            return std::nullopt;
+        const auto o = words_of(origin), d = words_of(bare(are_equal(origin, one) ? other : one)),
+                   radius = words_of(tree_.child(rest, 1)), length = words_of(b);
+        if (!o || !d || !radius || !length)
+            return std::nullopt;
+        const std::string off = fmt::format("{} - {} * {}", *o, *length, *d);
+        return Instead{
+            fmt::format("{0} - dot({1}, {1})", *radius, off),
+            "the discriminant of a sphere by its distance from the ray, which keeps its digits far "
+            "from the sphere"};
+    }
+
+    /// Kahan's: an arc cosine near 1 has half of the digits.
+    std::optional<Instead> angle(NodeId id) const {
+        const NodeId cosine = bare(tree_.child(id, 1));
+        const auto a = is_call(cosine, "dot") ? argument(cosine, 0) : std::nullopt;
+        const auto b = a ? argument(cosine, 1) : std::nullopt;
+        if (!b)
+            return std::nullopt;
+        return Instead{
+            fmt::format("2.0 * atan(length({0} - {1}), length({0} + {1}))", *a, *b),
+            "the angle of two vectors of length 1 by the lengths of their difference and sum, which "
+            "keeps its digits where they nearly point the same way"};
+    }
+
+    /// Of a name that has one value only; of anything else it is itself.
+    NodeId value_of(NodeId id) const {
+        const NodeId value = single_value(text_, facts_, id);
+        return value == k_no_node ? id : value;
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+};
+
+} // namespace
+
+std::vector<Cure> rewrites(const ParsedText& text, const TreeFacts& facts) {
+    return Rewriter(text, facts).run();
+}
+
+} // namespace tidemark::glsl
