@@ -111,32 +111,41 @@ private:
                        "a² - b² is (a - b) (a + b), which keeps its digits where a is near b"};
     }
 
-    /// Of `sqrt` and of `length`.
+    struct Arguments {
+        std::string a, b;
+    };
+
+    /// Of two calls of one function.
+    std::optional<Arguments> arguments_of(NodeId left, NodeId right, std::string_view function) const {
+        auto a = is_call(left, function) && is_call(right, function) ? argument(left, 0) : std::nullopt;
+        auto b = a ? argument(right, 0) : std::nullopt;
+        return b ? std::optional(Arguments{*std::move(a), *std::move(b)}) : std::nullopt;
+    }
+
     std::optional<Instead> of_roots(NodeId left, NodeId right) const {
-        const bool roots = is_call(left, "sqrt") && is_call(right, "sqrt");
-        const bool lengths = is_call(left, "length") && is_call(right, "length");
-        const auto a = roots || lengths ? argument(left, 0) : std::nullopt;
-        const auto b = a ? argument(right, 0) : std::nullopt;
-        if (!b)
-            return std::nullopt;
-        return Instead{roots ? fmt::format("({0} - {1}) / (sqrt({0}) + sqrt({1}))", *a, *b)
-                             : fmt::format("dot({0} - {1}, {0} + {1}) / (length({0}) + length({1}))", *a, *b),
-                       "√a - √b is (a - b) / (√a + √b), which keeps its digits where a is near b"};
+        constexpr const char* k_reason =
+            "√a - √b is (a - b) / (√a + √b), which keeps its digits where a is near b";
+        if (const auto of = arguments_of(left, right, "sqrt"))
+            return Instead{fmt::format("({0} - {1}) / (sqrt({0}) + sqrt({1}))", of->a, of->b), k_reason};
+        if (const auto of = arguments_of(left, right, "length"))
+            return Instead{
+                fmt::format("dot({0} - {1}, {0} + {1}) / (length({0}) + length({1}))", of->a, of->b),
+                k_reason};
+        return std::nullopt;
     }
 
     /// The sum-to-product identities.
     std::optional<Instead> of_sines(NodeId left, NodeId right) const {
-        const bool sines = is_call(left, "sin") && is_call(right, "sin");
-        const bool cosines = is_call(left, "cos") && is_call(right, "cos");
-        const auto a = sines || cosines ? argument(left, 0) : std::nullopt;
-        const auto b = a ? argument(right, 0) : std::nullopt;
-        if (!b)
-            return std::nullopt;
-        return Instead{sines ? fmt::format("2.0 * cos(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", *a, *b)
-                             : fmt::format("-2.0 * sin(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", *a, *b),
-                       fmt::format("the difference of two {0} is a product, which keeps its digits where "
-                                   "their angles are near each other",
-                                   sines ? "sines" : "cosines")};
+        constexpr const char* k_reason =
+            "such a difference is a product, which keeps its digits where the angles are near each other";
+        if (const auto of = arguments_of(left, right, "sin"))
+            return Instead{fmt::format("2.0 * cos(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", of->a, of->b),
+                           k_reason};
+        if (const auto of = arguments_of(left, right, "cos"))
+            return Instead{
+                fmt::format("-2.0 * sin(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", of->a, of->b),
+                k_reason};
+        return std::nullopt;
     }
 
     /// `b * b - c` of a ray and a sphere, b = dot(o, d), c = dot(o, o) - r * r, for a direction of length 1

@@ -276,7 +276,7 @@ void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<P
              "at {:.6g} s the picture in float is off by {:.3g} or more from that in double, in 1 % of "
              "the pixels",
              horizon->parting->state.seconds(), horizon->parting->difference),
-         horizon->parting->state, std::move(cures)});
+         horizon->parting->state, std::move(cures), horizon->good == 0});
 }
 
 /// By file; Common stands in several passes.

@@ -28,6 +28,7 @@ struct Finding {
     std::string sentence;              ///< what is wrong, and where
     std::optional<FrameState> where{}; ///< in which it shows
     std::vector<glsl::Cure> cures{};   ///< the plainest first; empty: none is known
+    bool only_a_warning = false;       ///< of check: not told where nothing mends it
 };
 
 struct CurableFindings {

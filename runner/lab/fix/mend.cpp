@@ -72,6 +72,8 @@ private:
             }
             cures_.pop_back();
         }
+        if (finding.only_a_warning)
+            refused_.erase(finding.sentence);
         return std::optional<Offer>();
     }
 
