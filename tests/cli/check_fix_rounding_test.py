@@ -93,7 +93,7 @@ class CheckFixRounding(ProgramTest):
     def test_an_equation_that_does_not_hold_is_not_offered(self):
         """acos(dot(a, b)) is the angle of vectors of length 1, and one of these is shorter: floats lose nothing in the
         other text either, but it is another picture."""
-        line = ("vec3 a = normalize(vec3(0.3, 0.2, 1.0)), b = 0.999999 * normalize(vec3(0.3 + 0.004 * uv, 1.0)); "
+        line = ("vec3 a = normalize(vec3(0.3, 0.3, 1.0)), b = 0.999999 * normalize(vec3(0.3 + 0.004 * uv, 1.0)); "
                 "c = vec4(200.0 * %s);")
         self.write("a.glsl", BODY % (line % "acos(dot(a, b))"))
         self.assertEqual(self.probe("a.glsl", "horizon"), "warn")
