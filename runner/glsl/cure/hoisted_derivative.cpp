@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 namespace tidemark::glsl {
 namespace {
@@ -20,14 +22,17 @@ NodeId outermost_statement(const SyntaxTree& tree, NodeId id) {
 bool changes_between(const ParsedText& text, const TreeFacts& facts, NodeId expression, NodeId first,
                      NodeId last) {
     const SyntaxTree& tree = text.tree();
-    for (NodeId name = 1; name <= expression; ++name) {
-        if (tree[name].kind != NodeKind::name || !tree.is_within(name, expression))
+    std::set<std::string_view> used;
+    for (NodeId id = 1; id <= expression; ++id) // parts stand before what they are parts of
+        if (tree[id].kind == NodeKind::name && tree.is_within(id, expression))
+            used.insert(text.word_of(id));
+    for (NodeId id = 1; id <= last; ++id) {
+        if (tree[id].begin < tree[first].begin || tree[id].end > tree[last].end)
             continue;
-        const std::string_view word = text.word_of(name);
-        for (NodeId id = 1; id <= last; ++id)
-            if (tree[id].begin >= tree[first].begin && tree[id].end <= tree[last].end &&
-                (sets(text, facts, id, word) ||
-                 (tree[id].kind == NodeKind::declarator && text.word_of(id) == word)))
+        if (tree[id].kind == NodeKind::declarator && used.contains(text.word_of(id)))
+            return true;
+        for (const std::string_view set : names_set(text, facts, id))
+            if (used.contains(set))
                 return true;
     }
     return false;

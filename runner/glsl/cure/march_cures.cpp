@@ -1,7 +1,7 @@
 #include "glsl/cure/march_cures.hpp"
 
 #include "glsl/cure/loop_turns.hpp"
-#include "glsl/flow/single_value.hpp"
+#include "glsl/flow/single_values.hpp"
 #include "glsl/syntax/number.hpp"
 
 #include <fmt/format.h>
@@ -90,29 +90,28 @@ std::optional<Cure> turned_more(const ParsedText& text, NodeId loop, double fact
     return Cure{{*std::move(wrap)}, fmt::format("{:g} turns instead of {:g}", turns, bound->turns)};
 }
 
-/// The one literal of a factor, a constant by its name included; k_no_node: there is none, or there are more.
-NodeId literal_of(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+/// The one literal of a factor; k_no_node: there is none, or there are more.
+NodeId literal_of(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     id = without_brackets(tree, id);
-    if (const NodeId value = single_value(text, facts, id); value != k_no_node)
-        id = without_brackets(tree, value);
     if (tree[id].kind != NodeKind::binary || text.word_of(id) != "*")
         return tree[id].kind == NodeKind::literal ? id : k_no_node;
-    const NodeId left = literal_of(text, facts, tree.child(id, 0)),
-                 right = literal_of(text, facts, tree.child(id, 1));
+    const NodeId left = literal_of(text, tree.child(id, 0)), right = literal_of(text, tree.child(id, 1));
     return left == k_no_node ? right : right == k_no_node ? left : k_no_node;
 }
 
-/// One that may be a threshold.
-NodeId small_literal(const ParsedText& text, const TreeFacts& facts, NodeId id) {
-    const NodeId literal = literal_of(text, facts, id);
-    const auto value = literal == k_no_node ? std::nullopt : number(text.word_of(literal));
-    return value && *value > 0 && *value <= k_largest_threshold ? literal : k_no_node;
+/// One that may be a threshold; of a name that of its value.
+NodeId small_literal(const ParsedText& text, const SingleValues& values, NodeId id) {
+    const NodeId value = values.of(without_brackets(text.tree(), id));
+    const NodeId literal = literal_of(text, value == k_no_node ? id : value);
+    const auto size = literal == k_no_node ? std::nullopt : number(text.word_of(literal));
+    return size && *size > 0 && *size <= k_largest_threshold ? literal : k_no_node;
 }
 
 /// Of the test that looks at the distance; k_no_node where its line leaves a doubt.
 NodeId threshold_of(const ParsedText& text, const TreeFacts& facts, NodeId loop, const SourceLocation& line) {
     const SyntaxTree& tree = text.tree();
+    const SingleValues values(text, facts);
     NodeId found = k_no_node;
     for (NodeId id = 1; id < loop; ++id) {
         const std::string_view op = text.word_of(id);
@@ -120,8 +119,8 @@ NodeId threshold_of(const ParsedText& text, const TreeFacts& facts, NodeId loop,
         if (tree[id].kind != NodeKind::binary || !compares || !tree.is_within(id, loop) ||
             !is_on(text, tree[id].word, line))
             continue;
-        const NodeId left = small_literal(text, facts, tree.child(id, 0)),
-                     right = small_literal(text, facts, tree.child(id, 1));
+        const NodeId left = small_literal(text, values, tree.child(id, 0)),
+                     right = small_literal(text, values, tree.child(id, 1));
         if ((left == k_no_node) == (right == k_no_node))
             continue;
         if (found != k_no_node)

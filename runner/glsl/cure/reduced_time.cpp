@@ -1,7 +1,7 @@
 #include "glsl/cure/reduced_time.hpp"
 
 #include "glsl/cure/helper_function.hpp"
-#include "glsl/flow/single_value.hpp"
+#include "glsl/flow/single_values.hpp"
 #include "glsl/syntax/number.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +38,8 @@ std::string in_parts(double rate) {
 class TimeReducer {
 public:
     TimeReducer(const ParsedText& text, const TreeFacts& facts)
-        : text_(text), tree_(text.tree()), facts_(facts), turns_(text, "turns_of_time") {}
+        : text_(text), tree_(text.tree()), facts_(facts), values_(text, facts),
+          constants_(tree_.nodes.size()), turns_(text, "turns_of_time") {}
 
     std::vector<Cure> run() {
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
@@ -55,7 +56,7 @@ private:
     }
 
     /// After how much a function is where it was.
-    std::optional<double> period_of(NodeId id) const {
+    std::optional<double> period_of(NodeId id) {
         if (tree_[id].kind != NodeKind::call || facts_.function(called_name(text_, id)))
             return std::nullopt;
         const std::string_view name = called_name(text_, id);
@@ -67,7 +68,16 @@ private:
         return period && *period > 0 ? period : std::nullopt;
     }
 
-    std::optional<double> constant(NodeId id, int names = 0) const {
+    /// Worked out once. Of what is being worked out it is none: a name may stand in its own value.
+    std::optional<double> constant(NodeId id, int names = 0) {
+        if (!constants_[id].known) {
+            constants_[id].known = true;
+            constants_[id].value = find_constant(id, names);
+        }
+        return constants_[id].value;
+    }
+
+    std::optional<double> find_constant(NodeId id, int names) {
         id = without_brackets(tree_, id);
         switch (tree_[id].kind) {
         case NodeKind::literal: return number(text_.word_of(id));
@@ -76,7 +86,7 @@ private:
             return value && text_.word_of(id) == "-" ? std::optional(-*value) : std::nullopt;
         }
         case NodeKind::name: {
-            const NodeId value = names < k_most_names ? single_value(text_, facts_, id) : k_no_node;
+            const NodeId value = names < k_most_names ? values_.of(id) : k_no_node;
             return value == k_no_node ? std::nullopt : constant(value, names + 1);
         }
         case NodeKind::binary: {
@@ -93,12 +103,12 @@ private:
     }
 
     /// The number that iTime is multiplied by in an expression that is nothing else.
-    std::optional<double> rate_of(NodeId id, int names = 0) const {
+    std::optional<double> rate_of(NodeId id, int names = 0) {
         id = without_brackets(tree_, id);
         if (tree_[id].kind == NodeKind::name) {
             if (text_.word_of(id) == "iTime")
                 return 1;
-            const NodeId value = names < k_most_names ? single_value(text_, facts_, id) : k_no_node;
+            const NodeId value = names < k_most_names ? values_.of(id) : k_no_node;
             return value == k_no_node ? std::nullopt : rate_of(value, names + 1);
         }
         const auto scaled = scaled_part(id);
@@ -112,7 +122,7 @@ private:
     };
 
     /// `3.0 * x`, `x * 3.0`, `x / 3.0`.
-    std::optional<Scaled> scaled_part(NodeId id) const {
+    std::optional<Scaled> scaled_part(NodeId id) {
         if (tree_[id].kind != NodeKind::binary)
             return std::nullopt;
         const NodeId left = tree_.child(id, 0), right = tree_.child(id, 1);
@@ -157,6 +167,12 @@ private:
     const ParsedText& text_;
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
+    SingleValues values_;
+    struct Constant {
+        bool known = false;
+        std::optional<double> value{};
+    };
+    std::vector<Constant> constants_; ///< of each node
     HelperFunction turns_;
 };
 

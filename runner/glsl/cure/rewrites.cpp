@@ -1,6 +1,6 @@
 #include "glsl/cure/rewrites.hpp"
 
-#include "glsl/flow/single_value.hpp"
+#include "glsl/flow/single_values.hpp"
 #include "glsl/syntax/number.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ struct Instead {
 class Rewriter {
 public:
     Rewriter(const ParsedText& text, const TreeFacts& facts)
-        : text_(text), tree_(text.tree()), facts_(facts) {}
+        : text_(text), tree_(text.tree()), facts_(facts), values_(text, facts) {}
 
     std::vector<Cure> run() {
         std::vector<Cure> cures;
@@ -189,13 +189,14 @@ private:
 
     /// Of a name that has one value only; of anything else it is itself.
     NodeId value_of(NodeId id) const {
-        const NodeId value = single_value(text_, facts_, id);
+        const NodeId value = values_.of(id);
         return value == k_no_node ? id : value;
     }
 
     const ParsedText& text_;
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
+    SingleValues values_;
 };
 
 } // namespace

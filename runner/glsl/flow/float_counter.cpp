@@ -58,8 +58,10 @@ double exact_turns(const Numbers& numbers) {
 
 bool is_set_in(const ParsedText& text, const TreeFacts& facts, NodeId body, std::string_view name) {
     for (NodeId id = 1; id < body; ++id) // parts stand before what they are parts of
-        if (text.tree().is_within(id, body) && sets(text, facts, id, name))
-            return true;
+        if (text.tree().is_within(id, body))
+            for (const std::string_view set : names_set(text, facts, id))
+                if (set == name)
+                    return true;
     return false;
 }
 

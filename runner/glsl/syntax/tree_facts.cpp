@@ -156,20 +156,21 @@ size_t dimensions(const ParsedText& text, NodeId type, NodeId declared) {
     return count;
 }
 
-bool sets(const ParsedText& text, const TreeFacts& facts, NodeId expression, std::string_view name) {
+std::vector<std::string_view> names_set(const ParsedText& text, const TreeFacts& facts, NodeId expression) {
     const SyntaxTree& tree = text.tree();
-    const auto is_it = [&](NodeId place) {
-        const NodeId base = base_of(tree, place);
-        return tree[base].kind == NodeKind::name && text.word_of(base) == name;
+    std::vector<std::string_view> names;
+    const auto add = [&](NodeId place) {
+        if (const NodeId base = base_of(tree, place); tree[base].kind == NodeKind::name)
+            names.push_back(text.word_of(base));
     };
     if (is_change(text, expression))
-        return is_it(tree.child(expression, 0));
-    if (tree[expression].kind != NodeKind::call)
-        return false;
-    for (size_t i = 1; i < tree.child_count(expression); ++i)
-        if (is_it(tree.child(expression, i)) && facts.writes_argument(called_name(text, expression), i - 1))
-            return true;
-    return false;
+        add(tree.child(expression, 0));
+    size_t index = 0;
+    if (tree[expression].kind == NodeKind::call)
+        for (NodeId part = tree[tree.child(expression, 0)].next; part != k_no_node; part = tree[part].next)
+            if (facts.writes_argument(called_name(text, expression), index++))
+                add(part);
+    return names;
 }
 
 std::string_view called_name(const ParsedText& text, NodeId call) {

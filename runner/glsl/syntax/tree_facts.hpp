@@ -69,8 +69,8 @@ NodeId base_of(const SyntaxTree& tree, NodeId place);
 NodeId without_brackets(const SyntaxTree& tree, NodeId expression);
 /// Whether an expression sets its first part: by `=`, `+=` and their kind, `++` and `--`.
 bool is_change(const ParsedText& text, NodeId expression);
-/// Whether an expression sets a variable of that name, or hands it to a function that may.
-bool sets(const ParsedText& text, const TreeFacts& facts, NodeId expression, std::string_view name);
+/// The variables that an expression itself, its parts aside, sets, or hands to a function that may.
+std::vector<std::string_view> names_set(const ParsedText& text, const TreeFacts& facts, NodeId expression);
 /// The name that a call calls, for functions and constructors alike; empty for an array's constructor and for
 /// `.length()`.
 std::string_view called_name(const ParsedText& text, NodeId call);

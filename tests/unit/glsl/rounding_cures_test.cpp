@@ -3,7 +3,7 @@
 #include "glsl/cure/reduced_time.hpp"
 #include "glsl/cure/rewrites.hpp"
 #include "glsl/cure/whole_counter.hpp"
-#include "glsl/flow/single_value.hpp"
+#include "glsl/flow/single_values.hpp"
 #include "glsl_support.hpp"
 
 #include <gtest/gtest.h>
@@ -77,20 +77,20 @@ std::string value_of(const std::string& text) {
     const SyntaxTree& tree = read->tree();
     for (NodeId id = 1; id < tree.nodes.size(); ++id)
         if (tree[id].kind == NodeKind::name && tree[tree[id].parent].kind == NodeKind::return_statement) {
-            const NodeId value = single_value(*read, find_facts(*read), id);
+            const NodeId value = SingleValues(*read, find_facts(*read)).of(id);
             return value == k_no_node ? "" : read->excerpt(value);
         }
     return "no name";
 }
 
-TEST(SingleValue, IsWhatTheVariableIsDeclaredWith) {
+TEST(SingleValues, IsWhatTheVariableIsDeclaredWith) {
     EXPECT_EQ(value_of("float f() { float a = 1.0; return a; }"), "1.0");
     EXPECT_EQ(value_of("float a = 2.0; float f() { return a; }"), "2.0");
     EXPECT_EQ(value_of("float g() { float a = 3.0; return 1.0; } float f() { float a = 4.0; return a; }"),
               "4.0");
 }
 
-TEST(SingleValue, IsNoneOfWhatMayChange) {
+TEST(SingleValues, IsNoneOfWhatMayChange) {
     EXPECT_EQ(value_of("float f(float a) { return a; }"), "");
     EXPECT_EQ(value_of("float f() { float a; a = 1.0; return a; }"), "");
     EXPECT_EQ(value_of("float f() { float a = 1.0; a *= 2.0; return a; }"), "");
