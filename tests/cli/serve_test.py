@@ -227,6 +227,12 @@ class Viewers(Serve):
         self.assertRegex(errors[0]["text"], r"^a\.glsl:5:\d+: error: .*nowhere")
         self.assertIn("nowhere", errors[0]["line"])
         self.assertTrue(errors[0]["mark"].endswith("^"))
+        self.assertEqual(errors[-1]["text"], "error: 'a.glsl' does not compile", "said of the whole, behind the errors")
+        self.write("a.glsl", "#define TWICE(x) (2.0 * nowhere(x))\n" + GRADIENT.replace("uv.x", "TWICE(uv.x) + there"))
+        errors = viewer.text("state", lambda state: state["errors"] and len(state["errors"]) > 2)["errors"]
+        places = [each["text"].split(": ")[0] for each in errors[:-1]]
+        for before, place, error in zip(places, places[1:], errors[1:]):
+            self.assertEqual(bool(error["line"] or error["mark"]), place != before, "no line twice in a row")
         self.write("a.glsl", GRADIENT.replace("uv.x", "1.0"))
         self.seen_until(viewer, lambda r, g, b: r > 240)
         viewer.text("state", lambda state: not state["errors"])
