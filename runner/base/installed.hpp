@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace tidemark {
 
@@ -11,5 +12,8 @@ std::filesystem::path program_folder();
 /// The shader library, which `#include <tidemark/…>` reads: shaders/lib beside the program, else where it
 /// is installed (which need not be there).
 std::filesystem::path library_folder();
+
+/// Why there is none, and where it was looked for; empty: there is one.
+std::string why_no_library();
 
 } // namespace tidemark

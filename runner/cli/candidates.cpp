@@ -1,5 +1,7 @@
 #include "cli/candidates.hpp"
 
+#include "cli/help/pages.hpp"
+#include "cli/help/topics.hpp"
 #include "glsl/overrides.hpp"
 #include "lab/check/probe.hpp"
 #include "platform/headless_context.hpp"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 
 namespace tidemark::cli {
 namespace {
@@ -25,6 +28,8 @@ const CLI::App& command_of(const CLI::App& app, const Words& before) {
                 command = inner;
                 break;
             }
+    if (command == &app && !before.empty() && !before.front().starts_with('-'))
+        return *app.get_subcommand("view"); // `tidemark SCENE` is short for it
     return *command;
 }
 
@@ -59,6 +64,14 @@ Words names_in_scene(const Words& before, bool knobs) {
                 names.push_back(definition.name + "=");
         break;
     }
+    return names;
+}
+
+Words topic_names() {
+    Words names;
+    for (const Topic& topic : topics_of(help_pages()))
+        if (std::ranges::find(names, topic.name) == names.end())
+            names.push_back(topic.name);
     return names;
 }
 
@@ -106,6 +119,8 @@ Words candidates(const CLI::App& app, const Words& words) {
                                     : nullptr;
     const bool wants_value = option && option->get_items_expected_max() > 0;
     Words found = wants_value ? values_of(*option, before) : commands_and_options(command);
+    if (!wants_value && command.get_name() == "help")
+        std::ranges::copy(topic_names(), std::back_inserter(found));
     std::erase_if(found, [&](const std::string& word) { return !word.starts_with(words.back()); });
     return found;
 }

@@ -16,11 +16,16 @@ namespace {
 constexpr std::string_view k_bash = R"sh(# Completion of tidemark for bash: source <(tidemark completion)
 _tidemark() {
     local IFS=$'\n' current="${COMP_WORDS[COMP_CWORD]}"
-    COMPREPLY=($("${COMP_WORDS[0]}" completion words -- "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
-               $(compgen -f -- "$current"))
-    if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace 2>/dev/null || true; fi
+    COMPREPLY=($("${COMP_WORDS[0]}" completion words -- "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null))
+    # As a file's name a word would have a backslash before its = and its colons.
+    if [[ "${COMPREPLY[*]-}" == *[=:]* ]]; then
+        if [[ ${COMPREPLY[0]} == *= ]]; then compopt -o nospace 2>/dev/null || true; fi
+    else
+        COMPREPLY+=($(compgen -f -- "$current"))
+        compopt -o filenames 2>/dev/null || true
+    fi
 }
-complete -o filenames -F _tidemark tidemark
+complete -F _tidemark tidemark
 )sh";
 
 constexpr std::string_view k_zsh = R"sh(#compdef tidemark

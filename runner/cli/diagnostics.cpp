@@ -22,6 +22,7 @@ enum class Form { people, gcc, json, sarif };
 struct Sink {
     std::mutex mutex; ///< a watchdog speaks from a thread of its own
     Form form = Form::people;
+    std::string scene{};          ///< what the command line names
     std::vector<Finding> waiting; ///< for the end of the run
 };
 Sink& sink() {
@@ -71,6 +72,10 @@ void add_diagnostics_option(CLI::App& app) {
                 ->check(one_of({"gcc", "json", "sarif"}));
 }
 
+void place_diagnostics(std::string scene) {
+    sink().scene = std::move(scene);
+}
+
 bool findings_are_diagnostics() {
     return sink().form != Form::people;
 }
@@ -88,8 +93,12 @@ void say(const Finding& finding) {
 void say(const Error& error) {
     if (sink().form == Form::people)
         return say(to_string(error));
-    for (const Finding& finding : findings_of(error))
+    const bool of_scene = error.code == ErrorCode::load || error.code == ErrorCode::timed_out;
+    for (Finding& finding : findings_of(error)) {
+        if (of_scene && finding.diagnostic.where.file.empty())
+            finding.diagnostic.where.file = sink().scene;
         say(finding);
+    }
 }
 
 void finish_diagnostics(bool even_empty) {

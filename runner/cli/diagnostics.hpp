@@ -4,6 +4,8 @@
 
 #include "cli/finding.hpp"
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -12,6 +14,9 @@ namespace tidemark::cli {
 
 /// Adds --diagnostics to every sub-command that compiles a scene.
 void add_diagnostics_option(CLI::App& app);
+
+/// What is wrong with the scene and has no place of its own, as a file that cannot be read, is said of that.
+void place_diagnostics(std::string scene);
 
 /// Whether findings are asked for in a form that programs read: then they are not in the results, too.
 bool findings_are_diagnostics();

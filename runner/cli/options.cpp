@@ -1,6 +1,7 @@
 #include "cli/options.hpp"
 
 #include "base/try.hpp"
+#include "cli/diagnostics.hpp"
 #include "cli/value_check.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/stated_size.hpp"
@@ -26,7 +27,8 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
     command
         .add_option("SCENE", request.path,
                     "A .glsl or .frag file with mainImage, a scene folder, or ShaderToy's .json")
-        ->required();
+        ->required()
+        ->each(place_diagnostics);
     repeatable(
         command.add_option("--set", request.sets, "Value of a knob (#iUniform)")->type_name("NAME=VALUE"));
     repeatable(command.add_option("--define", request.defines, "Replaces a #define or const of the scene")

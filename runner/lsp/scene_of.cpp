@@ -5,6 +5,9 @@
 #include "text/tokens.hpp"
 
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
 
 namespace tidemark::lsp {
 namespace fs = std::filesystem;
@@ -21,11 +24,22 @@ bool is_folder_scene(const fs::path& folder, const fs::path& file) {
            std::ranges::any_of(*files, [&](const auto& pass) { return canonical_name(pass.second) == file; });
 }
 
+bool names_one_of(const std::vector<text::Token>& tokens, std::initializer_list<std::string_view> names) {
+    return std::ranges::any_of(tokens, [&](const text::Token& token) {
+        return std::ranges::any_of(names, [&](std::string_view name) { return token.is(name); });
+    });
+}
+
+/// A `main` of its own counts, but for what only shaders of other stages name.
 bool has_entry_point(const fs::path& file, const Documents& documents) {
     const auto text = documents.text_of(file);
-    return text && std::ranges::any_of(text::tokenize(*text), [](const text::Token& token) {
-               return token.is("mainImage") || token.is("mainCubemap") || token.is("mainSound");
-           });
+    if (!text)
+        return false;
+    const std::vector<text::Token> tokens = text::tokenize(*text);
+    return names_one_of(tokens, {"mainImage", "mainCubemap", "mainSound"}) ||
+           (names_one_of(tokens, {"main"}) &&
+            !names_one_of(tokens,
+                          {"gl_Position", "gl_TessLevelOuter", "gl_GlobalInvocationID", "local_size_x"}));
 }
 
 bool reads(const fs::path& scene, const fs::path& file, const Documents& documents) {

@@ -42,11 +42,14 @@ Bounds::Bounds(const fs::path& folder, bool allow_outside, const UnsavedTexts* u
 }
 
 Result<void> Bounds::check(const fs::path& file) const {
-    if (everything_)
-        return {};
     const auto cannot_read = [&](std::string_view why) {
         return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", file.string(), why));
     };
+    if (is_inside(file, library_))
+        if (const std::string why = why_no_library(); !why.empty())
+            return cannot_read(why);
+    if (everything_)
+        return {};
     if (file.native().find('\0') != std::string::npos) // what the system sees ends there
         return cannot_read(why_unreadable(file));
     std::error_code error;

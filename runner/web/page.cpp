@@ -10,9 +10,9 @@
 namespace tidemark::web {
 namespace {
 
-/// Whatever bytes the scene's texts have.
+/// Whatever bytes the scene's texts have: in ASCII, for the page around a figure need not be in UTF-8.
 std::string in_script(const nlohmann::ordered_json& data) {
-    return report::in_script(data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    return report::in_script(data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 } // namespace

@@ -68,7 +68,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=200)
     options = parser.parse_args()
-    for work, size in ((1, "640x360"), (100, "640x360"), (1, "1920x1080")):
+    for work, size in ((1, "640x360"), (100, "640x360"), (400, "640x360"), (1, "1920x1080")):
         rows = measure(work, size, options.count)
         print(f"{size}, work {work}: mouse to picture {interval([row[0] for row in rows])} ms, drawing {interval([row[1] for row in rows])}, "
               f"encoding {interval([row[2] for row in rows])}, the rest {interval([row[0] - row[1] - row[2] for row in rows])}; "

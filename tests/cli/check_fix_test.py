@@ -53,6 +53,15 @@ class CheckFix(ProgramTest):
                 probes = json.loads(self.succeed("check", name, "--json", *BUDGET, *MENDED_BY).stdout)["probes"]
                 self.assertEqual({each["verdict"] for each in probes}, {"pass"})
 
+    def test_what_does_not_compile_ends_as_check_ends(self):
+        self.write("wrong.glsl", BODY % "c = vec4(nowhere);")
+        for form in ([], ["--diagnostics", "gcc"], ["--diagnostics", "sarif"]):
+            with self.subTest(form):
+                plain = self.run_program("check", "wrong.glsl", *form)
+                self.assertEqual(plain.returncode, 3)
+                self.assertIn("nowhere", plain.stderr)
+                self.expect_failure(["check", "--fix", "wrong.glsl", *form], 3, plain.stderr[:-1])
+
     def test_rays_that_run_out_of_steps_get_more(self):
         scene = self.write("march.glsl", MARCH % (ROOM, 9))
         cure, = self.fix("march.glsl", "--write")["cures"]

@@ -1,6 +1,7 @@
 """`completion`: scripts that shells take and that complete commands, options, what a scene names, and files."""
 import os
 import pathlib
+import pty
 import shutil
 import subprocess
 import unittest
@@ -66,6 +67,44 @@ class Completion(ProgramTest):
         self.assertEqual(self.completed("check", "--probe", "no_"), {"no_nan"})
         self.assertEqual(self.completed("capture", "--precision", "d"), {"double"})
         self.assertEqual(self.completed("inspect", "--device", "au"), {"auto"})
+
+    def test_a_scene_without_a_command_is_viewed(self):
+        self.write("wave.glsl", SCENE)
+        self.assertEqual(self.completed("wave.glsl", "--set", "h"), {"height=", "hue="})
+        self.assertEqual(self.completed("wave.glsl", "--se"), {"--set"})
+
+    def test_topics(self):
+        self.assertEqual(self.completed("help", "record"), {"recordings"})
+
+    def test_on_a_line_that_is_typed(self):
+        """In a terminal: what readline makes of a word, its backslashes and blanks, too."""
+        self.write("wave.glsl", SCENE)
+        self.write("my waves.glsl", SCENE)
+        for typed, becomes in (("capture wave.glsl --set heig", "capture wave.glsl --set height="),
+                               ("inspect --device aut", "inspect --device auto "),
+                               ("capture my", "capture my\\ waves.glsl ")):
+            with self.subTest(typed):
+                self.assertEqual(self.typed(typed), becomes)
+
+    def typed(self, words: str) -> str:
+        """The line behind `tidemark` after a Tab, as bash has it in its history."""
+        shell, terminal = pty.openpty()
+        process = subprocess.Popen(["bash", "--norc", "--noprofile", "-i"], cwd=self.folder, stdin=terminal, stdout=terminal,
+                                   stderr=terminal, env=WITH_PROGRAM | {"PS1": "ready> ", "TERM": "dumb"}, start_new_session=True)
+        os.close(terminal)
+        # With `:` before it the line does nothing; then the history says what it was.
+        os.write(shell, b"source completion.bash; bind 'set enable-bracketed-paste off'\r")
+        os.write(shell, f"tidemark {words}\t\x01: \x05;\r".encode())
+        os.write(shell, b"fc -ln -1 > line.txt; exit\r")
+        try:
+            while os.read(shell, 4096):
+                pass
+        except OSError:  # it has ended
+            pass
+        os.close(shell)
+        process.wait(timeout=60)
+        line = (self.folder / "line.txt").read_text().strip()
+        return line.removeprefix(": tidemark ").removesuffix(";")
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
     def test_fish(self):

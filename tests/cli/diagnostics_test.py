@@ -88,7 +88,19 @@ class Forms(ProgramTest):
         done = self.run_program("inspect", "two", "--device", "none", "--diagnostics", "gcc")
         self.assertIn("two/buffer_a.glsl:1:1: warning: no other pass reads 'Buffer A'", done.stderr)
         done = self.run_program("inspect", "empty", "--device", "none", "--diagnostics", "gcc")
-        self.assertRegex(done.stderr, r"^tidemark: error: 'empty' has no image.glsl")
+        self.assertRegex(done.stderr, r"^empty:1:1: error: 'empty' has no image.glsl")
+
+    def test_what_cannot_be_read_has_a_place(self) -> None:
+        why = "cannot read 'none.glsl': no such file"
+        self.expect_failure(["capture", "none.glsl", "--diagnostics", "gcc"], 3, f"none.glsl:1:1: error: {why}")
+        found = self.json_lines("capture", "none.glsl")
+        self.assertEqual([(each["file"], each["line"], each["message"]) for each in found], [("none.glsl", 0, why)])
+        result, = self.sarif("capture", "none.glsl", code=3)["results"]
+        place = result["locations"][0]["physicalLocation"]
+        self.assertEqual((place["artifactLocation"]["uri"], place["region"]["startLine"]), ("none.glsl", 1))
+        self.write("good.glsl", GOOD)
+        self.expect_failure(["capture", "good.glsl", "--size", "nothing", "--diagnostics", "gcc"], 2,
+                            self.run_program("capture", "good.glsl", "--size", "nothing").stderr[:-1])
 
     def test_json_gives_places_with_ends(self) -> None:
         first = self.json_lines("capture", "broken.glsl")[0]

@@ -95,6 +95,12 @@ class Export(ProgramTest):
         self.assertEqual(passes[1]["code"], "const float speed = 3.0;\n")
         self.assertEqual(project["Shader"]["info"]["name"], "a")
 
+    def test_to_embed_is_ascii(self):
+        """The page around it says in which encoding it is read, or nothing at all."""
+        self.write("wäve.glsl", "// é 🌊\n" + SHADER)
+        self.succeed("export", "wäve.glsl", "--html", "figure.html", "--embed")
+        self.assertTrue((self.folder / "figure.html").read_bytes().isascii())
+
     def test_usage(self):
         self.write("x.json", "[]")
         self.expect_failure(["export", "x.json"], 2, "tidemark: error: 'x.json' is ShaderToy's JSON already")

@@ -36,6 +36,15 @@ class Installed(ProgramTest):
         self.assertEqual((self.folder / name).read_bytes(), (self.folder / ("build-" + name)).read_bytes())
         return done.stderr
 
+    def test_without_its_library_says_so(self) -> None:
+        shutil.move(self.prefix / "share", self.folder / "elsewhere")
+        self.write("mine.glsl", OF_LIBRARY)
+        for more in ([], ["--allow-outside"]):
+            done = self.installed("inspect", "mine.glsl", "--device", "none", *more)
+            self.assertEqual(done.returncode, 3)
+            self.assertRegex(done.stderr, r"^mine\.glsl:1: error: cannot read '.*/noise\.glsl': the shader library that comes with "
+                             r"tidemark is not there: it was looked for in '.*/bin/shaders/lib' and in '.*/share/tidemark/shaders/lib'")
+
     def test_runs(self) -> None:
         self.assertEqual(self.installed("--version").stdout, self.succeed("--version").stdout.decode())
 
@@ -56,6 +65,11 @@ class Installed(ProgramTest):
                 roff = gzip.decompress(page.read_bytes()).decode().replace("\\-", "-")
                 for head, _ in option_table.options_of(command):
                     self.assertIn(f"\\fB{head.split(' ')[0]}\\fR", roff)
+                for heading in ("NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS", "SEE ALSO"):
+                    self.assertIn(f"\n.SH {heading}\n", roff)
+        capture = gzip.decompress((self.prefix / "share/man/man1/tidemark-capture.1.gz").read_bytes()).decode().replace("\\-", "-")
+        self.assertIn(".TP\n`capture SCENE`\nframes with no display;", capture)
+        self.assertIn("\ntidemark capture my_shader.glsl -o frame.png --time 2.5\n", capture.partition(".SH EXAMPLES\n")[2])
         self.assertIn(b".SH COMMANDS", gzip.decompress((self.prefix / "share/man/man1/tidemark.1.gz").read_bytes()))
 
     @unittest.skipUnless(has_context(), "no OpenGL context")

@@ -74,6 +74,28 @@ class Diagnostics(Lsp):
         client.diagnostics(scene, lambda found: not errors(found))
         self.assertEqual(client.close(), 0)
 
+    def test_of_scenes_with_a_main_of_their_own(self) -> None:
+        client = self.client()
+        glslsandbox = "uniform float time;\nvoid main() { gl_FragColor = vec4(sin(tiem)); }\n"
+        glslviewer = "#version 330\nuniform float u_time;\nout vec4 color;\nvoid main() { color = vec4(sin(u_tiem)); }\n"
+        for name, text, line in (("sandbox.glsl", glslsandbox, 1), ("viewer.frag", glslviewer, 3)):
+            with self.subTest(name):
+                scene = self.write(name, text)
+                client.open(scene)
+                self.assertEqual([span(each)[0] for each in errors(client.diagnostics(scene, errors))], [line])
+                client.change(scene, text.replace("tiem", "time"), 2)
+                client.diagnostics(scene, lambda found: not errors(found))
+
+    def test_of_no_vertex_shader(self) -> None:
+        vertex = self.write("vertex.glsl", "void main() { gl_Position = vec4(nowhere); }\n")
+        scene = self.write("scene.glsl", SHAPES + "void main() { gl_FragColor = vec4(disc(nowhere)); }\n")
+        client = self.client()
+        client.open(vertex)
+        client.open(scene)  # looked at after the one before it
+        client.diagnostics(scene, errors)
+        told = [message["params"] for message in client.kept if message.get("method") == "textDocument/publishDiagnostics"]
+        self.assertEqual([each for each in told if each["uri"] == vertex.as_uri() and each["diagnostics"]], [])
+
     def test_an_error_in_an_include_stands_in_it(self) -> None:
         client, scene, shapes = self.scene()
         client.diagnostics(scene)

@@ -84,6 +84,8 @@ class Steering(Page):
         self.browser.wait_for(f"{FIGURE}.head.seconds === 0")
         self.press_button("Play")
         self.browser.wait_for(f"{FIGURE}.head.seconds > 0.2")
+        words = "[...document.querySelectorAll('button')].filter(b => /^[AB]$/.test(b.textContent)).map(b => [b.title, b.ariaLabel])"
+        self.assertEqual(self.browser.evaluate(words), [[f"A loop of time {verb} here"] * 2 for verb in ("begins", "ends")])
         self.press_button("B")
         self.browser.wait_for(f"{FIGURE}.state.time.to > 0.2")
         self.browser.evaluate(f"{FIGURE}.link.send('loop', {{from: 0.01, to: 0.05}})")

@@ -110,6 +110,24 @@ class Pictures(Serve):
         self.seen_until(viewer, lambda r, g, b: r > 200 and g < 50)
 
 
+    def test_that_are_drawn_in_parts_take_all_of_their_parts(self):
+        """By the program's own clock: a slow frame is drawn over many turns of its loop, not in the last one."""
+        slow = """\
+void mainImage(out vec4 c, in vec2 p) {
+    float x = 0.0;
+    for (int i = 0; i < 60000; ++i)
+        x += sin(float(i) * 0.01 + p.x + iMouse.x) * cos(p.y);
+    c = vec4(fract(x));
+}
+"""
+        viewer = self.viewer(self.serve("a.glsl", text=slow))
+        viewer.picture()
+        for i in range(3):  # the first frames are drawn whole, or may be
+            viewer.send("press" if i == 0 else "move", x=1 + i, y=1, **({"button": "left"} if i == 0 else {}))
+            head, _ = viewer.picture()
+        self.assertGreaterEqual(head["draw"], head["costs"][0])
+
+
 class Hands(Serve):
     def test_mouse_and_knobs(self):
         viewer = self.viewer(self.serve("a.glsl", "--quality", "95", text=GRADIENT))
@@ -209,6 +227,12 @@ class Viewers(Serve):
         self.assertRegex(errors[0]["text"], r"^a\.glsl:5:\d+: error: .*nowhere")
         self.assertIn("nowhere", errors[0]["line"])
         self.assertTrue(errors[0]["mark"].endswith("^"))
+        self.assertEqual(errors[-1]["text"], "error: 'a.glsl' does not compile", "said of the whole, behind the errors")
+        self.write("a.glsl", "#define TWICE(x) (2.0 * nowhere(x))\n" + GRADIENT.replace("uv.x", "TWICE(uv.x) + there"))
+        errors = viewer.text("state", lambda state: state["errors"] and len(state["errors"]) > 2)["errors"]
+        places = [each["text"].split(": ")[0] for each in errors[:-1]]
+        for before, place, error in zip(places, places[1:], errors[1:]):
+            self.assertEqual(bool(error["line"] or error["mark"]), place != before, "no line twice in a row")
         self.write("a.glsl", GRADIENT.replace("uv.x", "1.0"))
         self.seen_until(viewer, lambda r, g, b: r > 240)
         viewer.text("state", lambda state: not state["errors"])

@@ -7,6 +7,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 namespace tidemark::cli {
 namespace {
 
@@ -75,15 +79,43 @@ std::string inner_commands(const CLI::App& command) {
     return roff;
 }
 
-/// The section of the manual, less its heading, line by line.
-std::string exit_codes() {
-    for (const Topic& topic : topics_of(help_pages())) {
-        if (topic.name != "exit-codes")
-            continue;
-        const std::string text = plain_text(topic.markdown);
-        return fmt::format(".SH EXIT STATUS\n.nf\n{}.fi\n", plain(text.substr(text.find('\n') + 1)));
-    }
+/// A section of the manual.
+std::string_view section(std::string_view name) {
+    for (const Topic& topic : topics_of(help_pages()))
+        if (topic.name == name)
+            return topic.markdown;
     return "";
+}
+
+/// Less the heading, line by line.
+std::string exit_codes() {
+    const std::string text = plain_text(section("exit-codes"));
+    return fmt::format(".SH EXIT STATUS\n.nf\n{}.fi\n", plain(text.substr(text.find('\n') + 1)));
+}
+
+/// The command's sentence, and what the manual's table of commands says of it, form by form.
+std::string description(const CLI::App& command) {
+    const std::string sentence = command.get_description();
+    std::string roff =
+        fmt::format(".SH DESCRIPTION\n{}{}\n", plain(sentence), sentence.ends_with('.') ? "" : ".");
+    for (const auto& cells : rows_of(section("commands")))
+        for (const std::string_view end : {" ", "`"})
+            if (cells.size() > 1 && cells[0].starts_with(fmt::format("`{}{}", command.get_name(), end)))
+                roff += fmt::format(".TP\n{}\n{}\n", plain(cells[0]), plain(cells[1]));
+    return roff;
+}
+
+/// All that the manual has of it.
+std::string examples(const CLI::App& command) {
+    std::vector<std::string> lines;
+    for (const std::string_view page : help_pages())
+        for (std::string& line : example_lines(page))
+            if (line.starts_with(words_of(command, " ") + " ") &&
+                std::find(lines.begin(), lines.end(), line) == lines.end())
+                lines.push_back(std::move(line));
+    return lines.empty()
+               ? ""
+               : fmt::format(".SH EXAMPLES\n.nf\n{}\n.fi\n", plain(fmt::to_string(fmt::join(lines, "\n"))));
 }
 
 } // namespace
@@ -95,9 +127,11 @@ ManPage man_page(const CLI::App& command) {
         fmt::format(".TH \"{}\" 1 \"\" \"Tidemark {}\" \"User Commands\"\n", plain(name), k_version);
     roff += fmt::format(".SH NAME\n{} \\- {}\n", plain(name), plain(command.get_description()));
     roff += fmt::format(".SH SYNOPSIS\n{}\n", synopsis(command));
+    roff += description(command);
     roff += ".SH OPTIONS\n" + options(command);
     roff += whole ? commands(command) : inner_commands(command);
     roff += exit_codes();
+    roff += whole ? "" : examples(command);
     roff += fmt::format(".SH SEE ALSO\n{}The whole manual: \\fBtidemark help\\fR.\n",
                         whole ? "" : "\\fBtidemark\\fR(1). ");
     return {name, std::move(roff)};

@@ -54,6 +54,16 @@ std::string without_marks(std::string_view line) {
     return text;
 }
 
+std::vector<std::string_view> lines_of(std::string_view text) {
+    std::vector<std::string_view> lines;
+    while (!text.empty()) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        lines.push_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines;
+}
+
 using Row = std::vector<std::string>;
 
 /// The cells of `| a | b |`; `\|` is part of a cell.
@@ -149,12 +159,33 @@ std::vector<Topic> topics_of(std::span<const std::string_view> pages) {
 
 std::string plain_text(std::string_view markdown) {
     PlainText plain;
-    while (!markdown.empty()) {
-        const size_t end = std::min(markdown.find('\n'), markdown.size() - 1);
-        plain.add(markdown.substr(0, markdown[end] == '\n' ? end : end + 1));
-        markdown.remove_prefix(end + 1);
-    }
+    for (const std::string_view line : lines_of(markdown))
+        plain.add(line);
     return std::move(plain).finish();
+}
+
+std::vector<Row> rows_of(std::string_view markdown) {
+    std::vector<Row> rows;
+    for (const std::string_view line : lines_of(markdown))
+        if (line.starts_with('|') && !line.starts_with("|--"))
+            rows.push_back(cells_of(line));
+    return rows;
+}
+
+std::vector<std::string> example_lines(std::string_view markdown) {
+    std::vector<std::string> examples;
+    bool in_shell = false, goes_on = false;
+    for (const std::string_view line : lines_of(markdown)) {
+        if (line.starts_with("```")) {
+            in_shell = line == "```sh";
+        } else if (in_shell && goes_on) {
+            examples.back().append("\n").append(line);
+        } else if (in_shell) {
+            examples.emplace_back(line);
+        }
+        goes_on = in_shell && line.ends_with('\\');
+    }
+    return examples;
 }
 
 } // namespace tidemark::cli

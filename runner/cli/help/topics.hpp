@@ -22,4 +22,10 @@ std::vector<Topic> topics_of(std::span<const std::string_view> pages);
 /// cells of a row below each other.
 std::string plain_text(std::string_view markdown);
 
+/// The cells of its tables, row by row, headings too, without the targets of links.
+std::vector<std::vector<std::string>> rows_of(std::string_view markdown);
+
+/// Lines of its shell examples, each with the comment behind it; what goes on in a second line is one.
+std::vector<std::string> example_lines(std::string_view markdown);
+
 } // namespace tidemark::cli

@@ -114,14 +114,15 @@ Result<void> RemoteScreen::finish(live::Model model, const ShownMoment& moment) 
 }
 
 void RemoteScreen::send_picture(const live::Model& model, const ShownMoment& moment) {
-    fresh_ = false;
+    // One that was there already is only read back: since this turn began.
+    const double begun = std::exchange(fresh_, false) ? moment.begun : woken_at_;
     large_ = model.large;
     const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
     image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
     serve::PictureHead head{.number = ++number_, .seconds = moment.seconds, .frame = moment.frame};
     for (const live::PictureField& field : model.pictures)
         head.costs.push_back(field.milliseconds);
-    head.draw_ms = (now_seconds() - woken_at_) * 1000;
+    head.draw_ms = (now_seconds() - begun) * 1000;
     encoder_->push({std::move(picture), std::move(head)});
 }
 

@@ -19,19 +19,27 @@ std::string line_at(const SourceLocation& where) {
     return begin < text.size() ? text.substr(begin, text.find('\n', begin) - begin) : "";
 }
 
-/// Errors first: what only warns is not what people wait for.
+/// The first error comes first, with its notes: what only warns is not what people wait for. Then the others,
+/// and last what is said of the whole scene. A note has no line where that stands above it.
 std::vector<live::ErrorField> fields_of(const Error& error) {
     std::vector<live::ErrorField> fields;
-    if (!error.message.empty())
-        fields.push_back({{{}, Severity::error, error.message}});
-    for (const Diagnostic& diagnostic : error.diagnostics)
-        fields.push_back({diagnostic, line_at(diagnostic.where)});
-    const auto is_error = [](const live::ErrorField& field) {
+    const SourceLocation* before = nullptr;
+    for (const Diagnostic& diagnostic : error.diagnostics) {
+        const bool again = before && diagnostic.where == *before;
+        fields.push_back({diagnostic, again ? "" : line_at(diagnostic.where)});
+        before = &diagnostic.where;
+    }
+    const auto first = std::ranges::find_if(fields, [](const live::ErrorField& field) {
         return field.diagnostic.severity == Severity::error && field.diagnostic.where.line > 0;
-    };
-    const auto first = std::ranges::find_if(fields, is_error);
+    });
     if (first != fields.end())
-        std::rotate(fields.begin(), first, first + 1);
+        std::rotate(fields.begin(), first,
+                    std::find_if(first + 1, fields.end(), [](const live::ErrorField& field) {
+                        return field.diagnostic.severity != Severity::note;
+                    }));
+    if (!error.message.empty())
+        fields.insert(first == fields.end() ? fields.begin() : fields.end(),
+                      {{{}, Severity::error, error.message}});
     return fields;
 }
 

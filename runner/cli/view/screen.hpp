@@ -24,6 +24,7 @@ struct ShownMoment {
     double seconds = 0; ///< iTime
     int frame = 0;
     bool reads_keyboard = false; ///< keys are the scene's
+    double begun = 0;            ///< when drawing it was, as now_seconds counts
 };
 
 class Screen {

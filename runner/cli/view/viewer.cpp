@@ -219,7 +219,7 @@ void Viewer::present(bool fresh) {
 }
 
 ShownMoment Viewer::shown_moment() const {
-    return {shown_.seconds(), shown_.frame, stage_ && reads_keyboard(stage_->renderer())};
+    return {shown_.seconds(), shown_.frame, stage_ && reads_keyboard(stage_->renderer()), shown_begun_};
 }
 
 /// Said once of a text: a window shows them as what it likes.

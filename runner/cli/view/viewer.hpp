@@ -208,11 +208,12 @@ private:
     // Frames, whole or in parts: viewer_drawing.cpp
     void draw(double now);
     render::FrameState next_state(double now);
-    void draw_whole(const render::FrameState& state, bool wanted, std::vector<render::PassTimer>* timers);
+    void draw_whole(const render::FrameState& state, bool wanted, double now,
+                    std::vector<render::PassTimer>* timers);
     void begin_frame(const render::FrameState& state, bool wanted, double now);
     void carry_on(double now);
     void frame_is_made(bool drawn);
-    void frame_is_drawn(const render::FrameState& state, bool drawn, bool wanted);
+    void frame_is_drawn(const render::FrameState& state, double begun, bool drawn, bool wanted);
     void drop_frame();
     void give_frames_up(double now);
     void say_what_holds(double now);
@@ -260,6 +261,7 @@ private:
     std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
     std::string title_;
     render::FrameState shown_; ///< the frame on show
+    double shown_begun_ = 0;   ///< when drawing it was
     double next_draw_ = 0;
     double listened_at_ = 0;   ///< to what people do, last
     double held_seconds_ = 0;  ///< so long nobody listened before that

@@ -38,7 +38,7 @@ void Viewer::draw(double now) {
     std::vector<render::PassTimer>* timers = time_next_frame();
     const render::FrameState state = next_state(now);
     if (parts_fail_ || pace_.way(state.extent) == Way::whole)
-        draw_whole(state, wanted, timers);
+        draw_whole(state, wanted, now, timers);
     else
         begin_frame(state, wanted, now);
 }
@@ -56,13 +56,13 @@ render::FrameState Viewer::next_state(double now) {
     return state;
 }
 
-void Viewer::draw_whole(const render::FrameState& state, bool wanted,
+void Viewer::draw_whole(const render::FrameState& state, bool wanted, double now,
                         std::vector<render::PassTimer>* timers) {
     render::Renderer& renderer = stage_->renderer();
     const size_t before = renderer.passes_drawn();
     renderer.draw(heard_inputs(state), timers);
     drew_ = renderer.passes_drawn() != before;
-    frame_is_drawn(state, drew_, wanted);
+    frame_is_drawn(state, now, drew_, wanted);
 }
 
 void Viewer::begin_frame(const render::FrameState& state, bool wanted, double now) {
@@ -98,12 +98,13 @@ void Viewer::frame_is_made(bool drawn) {
         pace_.took(made.state.extent, Way::in_parts, seconds);
         slow_ = now_seconds() - made.begun > k_long_seconds;
     }
-    frame_is_drawn(made.state, drawn, made.wanted);
+    frame_is_drawn(made.state, made.begun, drawn, made.wanted);
 }
 
 /// It is the one on show from now on.
-void Viewer::frame_is_drawn(const render::FrameState& state, bool drawn, bool wanted) {
+void Viewer::frame_is_drawn(const render::FrameState& state, double begun, bool drawn, bool wanted) {
     shown_ = state;
+    shown_begun_ = begun;
     has_frame_ = true;
     if (drawn || wanted || stale_overlay_ || screen_->wants_frame())
         present(drawn);

@@ -19,6 +19,7 @@ public:
           now_(std::make_unique<DrawnScene>(scene, promises)) {}
 
     Result<void> run() {
+        TRY(now_->bench().compiled()); // where it does not compile, that is the answer
         for (int round = 0; round < k_most_rounds; ++round) {
             refused_.clear();
             const CurableFindings found = TRY(find_curable(now_->bench(), mending_.hashes));

@@ -83,8 +83,11 @@ class Remote {
     }
 
     #showTime(time) {
-        for (const [end, letter] of [["from", "A"], ["to", "B"]])
-            this.loop[end].textContent = time[end] === null ? letter : `${letter} ${time[end].toFixed(2)} s`;
+        for (const [end, letter, verb] of [["from", "A", "begins"], ["to", "B", "ends"]]) {
+            const at = time[end] === null ? null : `${time[end].toFixed(2)} s`;
+            const words = at === null ? `A loop of time ${verb} here` : `No loop of time that ${verb} at ${at}`;
+            Object.assign(this.loop[end], {textContent: at === null ? letter : `${letter} ${at}`, title: words, ariaLabel: words});
+        }
         offer(this.speed, SPEEDS.filter(speed => speed > 0 || time.turnsBack).map(speed => [speed, `${speed}×`]), time.speed);
         this.speed.element.hidden = !time.hasSpeed;
         this.stay.hidden = !time.stepping; // on the way to a frame, through all that lead to it

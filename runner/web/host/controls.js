@@ -44,7 +44,7 @@ class TimeBar {
         while (Number(this.time.max) < time)
             this.time.max = 2 * this.time.max; // the bar doubles as time comes near
         this.time.value = time;
-        this.clock.textContent = `${time.toFixed(2)} s · frame ${frame} · ${rate.toFixed(0)} fps`;
+        this.clock.textContent = `${time.toFixed(2)} s \u00b7 frame ${frame} \u00b7 ${rate.toFixed(0)} fps`;
         label(this.pause, paused ? "Play" : "Pause", paused ? "play" : "pause");
         label(this.sound, audible ? "Sound off" : "Sound on", audible ? "audible" : "silent");
     }

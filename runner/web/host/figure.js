@@ -33,7 +33,7 @@ class Figure {
             this.canvas.style.setProperty("--proportion", this.scene.size[0] / this.scene.size[1]);
         if (this.asked.size)
             Object.assign(this.canvas.style, {aspectRatio: this.asked.size.join("/"), maxHeight: "none"});
-        this.message = element("pre", {className: "tidemark-message", textContent: "compiling …"});
+        this.message = element("pre", {className: "tidemark-message", textContent: "compiling \u2026"});
         div.append(this.canvas, this.message);
     }
 
