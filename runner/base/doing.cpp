@@ -32,6 +32,11 @@ DoingPage::Seen DoingPage::seen() const {
     return {std::string(what_, size), double(now_nanoseconds() - since_) / 1e9, starting_};
 }
 
+std::optional<int> DoingPage::frame() const {
+    const int frame = frame_;
+    return frame == k_no_frame ? std::nullopt : std::optional(frame);
+}
+
 void DoingPage::note(std::string_view what, int64_t since, bool starting) {
     size_ = 0;
     what.copy(what_, k_longest);
@@ -57,6 +62,16 @@ Doing::~Doing() {
 
 void Doing::note_on(DoingPage* page) {
     the_page = page;
+}
+
+void Doing::note_frame(std::optional<int> frame) {
+    if (DoingPage* page = the_page)
+        page->frame_ = frame.value_or(DoingPage::k_no_frame);
+}
+
+void Doing::note_resumable() {
+    if (DoingPage* page = the_page)
+        page->resumable_ = true;
 }
 
 std::string Doing::left_behind() {

@@ -3,8 +3,8 @@ killed, is what one machine makes, byte for byte. How much faster two nodes are 
 import os
 import pathlib
 import re
+import shutil
 import statistics
-import subprocess
 import sys
 import time
 import unittest
@@ -12,7 +12,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 
 from cluster.slurm import CannotStart, Slurm, why_not
-from support.program import PROGRAM, ROOT, SKIPPED, ProgramTest, environment, has_context
+from support.program import PROGRAM, ROOT, SKIPPED, ProgramTest, has_context
 
 PAGE = ROOT / "runner/cli/capture/README.md"
 RUNS = int(os.environ.get("TIDEMARK_CLUSTER_RUNS", "3"))
@@ -113,6 +113,19 @@ class Cluster(ProgramTest):
         self.slurm.wait_for_job(job)
         self.assertRegex(self.logs(), r"kept \d+ of 125 frames")
         self.expect_one_machines(script)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_a_video(self):
+        """Encoded by the tasks; one machine's is encoded on one core, too, for libx264 goes by their number."""
+        video = "capture wave.glsl --frames 0-199 --size 128x72 --state-every 20 -o {}/a.mp4"
+        script = re.sub(r"^tidemark capture .*? --shard", f"tidemark {video.format('frames')} --shard", job_script(),
+                        flags=re.MULTILINE)
+        self.slurm.wait_for_job(self.submit(script))
+        self.assertEqual(self.succeed("gather", "frames").stderr.splitlines()[-1], "wrote frames/a.mp4: 200 frames")
+        (self.folder / "one").mkdir()
+        core = min(os.sched_getaffinity(0))
+        self.succeed(*video.format("one").split(), preexec_fn=lambda: os.sched_setaffinity(0, {core}))
+        self.assertEqual(self.contents("frames"), self.contents("one"))
 
     def seconds(self, *options: str) -> float:
         """Of an array of two, from `sbatch` to its end."""

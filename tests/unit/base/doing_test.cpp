@@ -67,6 +67,22 @@ TEST_F(DoingTest, ADriverThatWasStartedStays) {
     EXPECT_TRUE(page_->has_driver());
 }
 
+TEST_F(DoingTest, TheFrameInHand) {
+    EXPECT_EQ(page_->frame(), std::nullopt);
+    EXPECT_FALSE(page_->resumable());
+    if (const pid_t child = ::fork(); child == 0) {
+        Doing::note_frame(-7);
+        Doing::note_resumable();
+        ::_exit(0);
+    } else {
+        ::waitpid(child, nullptr, 0);
+    }
+    EXPECT_EQ(page_->frame(), -7);
+    EXPECT_TRUE(page_->resumable());
+    Doing::note_frame({});
+    EXPECT_EQ(page_->frame(), std::nullopt);
+}
+
 TEST_F(DoingTest, NowhereToNote) {
     Doing::note_on(nullptr);
     const Doing compiling("compiling");
