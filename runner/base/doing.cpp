@@ -32,9 +32,9 @@ DoingPage::Seen DoingPage::seen() const {
     return {std::string(what_, size), double(now_nanoseconds() - since_) / 1e9, starting_};
 }
 
-std::optional<int> DoingPage::frame() const {
-    const int frame = frame_;
-    return frame == k_no_frame ? std::nullopt : std::optional(frame);
+std::optional<DoingPage::Frame> DoingPage::frame() const {
+    const int number = frame_;
+    return number == k_no_frame ? std::nullopt : std::optional(Frame{number, begun_});
 }
 
 void DoingPage::note(std::string_view what, int64_t since, bool starting) {
@@ -64,9 +64,12 @@ void Doing::note_on(DoingPage* page) {
     the_page = page;
 }
 
-void Doing::note_frame(std::optional<int> frame) {
-    if (DoingPage* page = the_page)
-        page->frame_ = frame.value_or(DoingPage::k_no_frame);
+void Doing::note_frame(std::optional<DoingPage::Frame> frame) {
+    DoingPage* page = the_page;
+    if (!page)
+        return;
+    page->begun_ = frame && frame->begun;
+    page->frame_ = frame ? frame->number : DoingPage::k_no_frame;
 }
 
 void Doing::note_resumable() {

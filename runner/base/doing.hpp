@@ -25,8 +25,13 @@ public:
     Seen seen() const;
     /// Whether a driver was ever started: then it has threads of its own.
     bool has_driver() const { return has_driver_; }
-    /// The frame of a capture that is in hand, from being drawn until the next one is.
-    std::optional<int> frame() const;
+    /// The frame of a capture that is in hand, from being drawn until the next one is; not begun: the first
+    /// is next.
+    struct Frame {
+        int number = 0;
+        bool begun = false;
+    };
+    std::optional<Frame> frame() const;
     /// Whether what is cut short can be gone on with.
     bool resumable() const { return resumable_; }
 
@@ -41,6 +46,7 @@ private:
     std::atomic<bool> has_driver_;
     std::atomic<bool> resumable_;
     std::atomic<int> frame_ = k_no_frame;
+    std::atomic<bool> begun_;
     std::atomic<int64_t> since_; ///< nanoseconds of the steady clock
     char what_[k_longest];
 };
@@ -59,7 +65,7 @@ public:
     /// Where everything of this process is noted from now on; nullptr: nowhere.
     static void note_on(DoingPage* page);
     /// Which frame of a capture is in hand from now on; nothing: none is.
-    static void note_frame(std::optional<int> frame);
+    static void note_frame(std::optional<DoingPage::Frame> frame);
     /// What is cut short from now on can be gone on with.
     static void note_resumable();
     /// What a process that noted on the same page, and has crashed since, was at; it is at nothing any more.

@@ -148,14 +148,15 @@ private:
     int give_up(const std::string& limit) const {
         const std::string what = page_ ? page_->seen().what : std::string();
         end_child();
-        return refuse(ErrorCode::timed_out,
-                      fmt::format("{} takes {}{}", what.empty() ? "the command" : what, limit, cut_short()));
+        return refuse(ErrorCode::timed_out, fmt::format("{} takes {}{}", what.empty() ? "the command" : what,
+                                                        limit, cut_short(what)));
     }
 
-    /// Where a capture was, and how it goes on.
-    std::string cut_short() const {
+    /// Where a capture was, unless `what` says it, and how it goes on.
+    std::string cut_short(const std::string& what) const {
         const auto frame = page_ ? page_->frame() : std::nullopt;
-        return (frame ? fmt::format(" (in frame {})", *frame) : "") +
+        const bool named = frame && (frame->begun || what.empty());
+        return (named ? fmt::format(" ({} frame {})", frame->begun ? "in" : "before", frame->number) : "") +
                (page_ && page_->resumable() ? k_words_on_resuming : "");
     }
 
@@ -170,15 +171,15 @@ private:
             return refuse(ErrorCode::timed_out,
                           fmt::format("{} was ended from outside (SIGKILL), which is what a system does "
                                       "that has no memory left: --memory ends it before{}",
-                                      seen.what.empty() ? "the command" : seen.what, cut_short()));
+                                      seen.what.empty() ? "the command" : seen.what, cut_short(seen.what)));
         if (!is_crash(signal))
             end_by(signal);
         if (!seen.what.empty())
             return refuse(seen.starting ? ErrorCode::no_context : ErrorCode::load,
                           crash_text(signal, seen.what) +
-                              (seen.starting ? "; --device names another" : cut_short()));
+                              (seen.starting ? "; --device names another" : cut_short(seen.what)));
         if (page_ && page_->has_driver()) // whose threads work on when nothing is asked of it
-            return refuse(ErrorCode::load, crash_text(signal, "") + ", or tidemark itself" + cut_short());
+            return refuse(ErrorCode::load, crash_text(signal, "") + ", or tidemark itself" + cut_short(""));
         say(fmt::format("tidemark: error: tidemark itself crashed ({}), which is a defect of its own",
                         name_of(signal)));
         return k_internal_error;

@@ -219,7 +219,7 @@ class Memory(Failures):
         done = self.run_program("capture", "fb", "--size", "3000x3000", "--frames", "0-1", "-o", "out/f_%d.png", "--memory", "250M")
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertRegex(done.stderr, r"error: .* takes more than 250 MiB of memory \(--memory\)")
-        self.assertRegex(done.stderr, r"preparing the first frame|\(in frame \d\)")
+        self.assertRegex(done.stderr, r"preparing the first frame|\((before|in) frame \d\)")
 
     def test_what_the_system_ends(self):
         """As it does where memory has run out: the process that draws, not the one that looks after it."""

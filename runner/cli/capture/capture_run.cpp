@@ -58,7 +58,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
-        Doing::note_frame(frame);
+        Doing::note_frame(DoingPage::Frame{frame, true});
         if (resumable && whole_frames() > 0)
             Doing::note_resumable();
         const auto outcome =

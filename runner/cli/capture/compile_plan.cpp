@@ -1,5 +1,6 @@
 #include "cli/capture/compile_plan.hpp"
 
+#include "base/doing.hpp"
 #include "base/try.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/console.hpp"
@@ -70,6 +71,8 @@ Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
 } // namespace
 
 Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
+    if (!plan.frames.frames.empty())
+        Doing::note_frame(DoingPage::Frame{plan.frames.frames.front(), false});
     return compile_all(plan, interrupt).map_error([&](Error error) {
         if (error.code == ErrorCode::no_memory && !plan.frames.frames.empty())
             error.message += fmt::format(" (before frame {})", plan.frames.frames.front());

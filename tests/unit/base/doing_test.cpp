@@ -68,19 +68,21 @@ TEST_F(DoingTest, ADriverThatWasStartedStays) {
 }
 
 TEST_F(DoingTest, TheFrameInHand) {
-    EXPECT_EQ(page_->frame(), std::nullopt);
+    EXPECT_FALSE(page_->frame());
     EXPECT_FALSE(page_->resumable());
     if (const pid_t child = ::fork(); child == 0) {
-        Doing::note_frame(-7);
+        Doing::note_frame(DoingPage::Frame{-7, true});
         Doing::note_resumable();
         ::_exit(0);
     } else {
         ::waitpid(child, nullptr, 0);
     }
-    EXPECT_EQ(page_->frame(), -7);
+    ASSERT_TRUE(page_->frame());
+    EXPECT_EQ(page_->frame()->number, -7);
+    EXPECT_TRUE(page_->frame()->begun);
     EXPECT_TRUE(page_->resumable());
     Doing::note_frame({});
-    EXPECT_EQ(page_->frame(), std::nullopt);
+    EXPECT_FALSE(page_->frame());
 }
 
 TEST_F(DoingTest, NowhereToNote) {
