@@ -32,6 +32,11 @@ DoingPage::Seen DoingPage::seen() const {
     return {std::string(what_, size), double(now_nanoseconds() - since_) / 1e9, starting_};
 }
 
+std::optional<DoingPage::Frame> DoingPage::frame() const {
+    const int number = frame_;
+    return number == k_no_frame ? std::nullopt : std::optional(Frame{number, begun_});
+}
+
 void DoingPage::note(std::string_view what, int64_t since, bool starting) {
     size_ = 0;
     what.copy(what_, k_longest);
@@ -57,6 +62,19 @@ Doing::~Doing() {
 
 void Doing::note_on(DoingPage* page) {
     the_page = page;
+}
+
+void Doing::note_frame(std::optional<DoingPage::Frame> frame) {
+    DoingPage* page = the_page;
+    if (!page)
+        return;
+    page->begun_ = frame && frame->begun;
+    page->frame_ = frame ? frame->number : DoingPage::k_no_frame;
+}
+
+void Doing::note_resumable() {
+    if (DoingPage* page = the_page)
+        page->resumable_ = true;
 }
 
 std::string Doing::left_behind() {

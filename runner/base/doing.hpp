@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,15 +25,28 @@ public:
     Seen seen() const;
     /// Whether a driver was ever started: then it has threads of its own.
     bool has_driver() const { return has_driver_; }
+    /// The frame of a capture that is in hand, from being drawn until the next one is; not begun: the first
+    /// is next.
+    struct Frame {
+        int number = 0;
+        bool begun = false;
+    };
+    std::optional<Frame> frame() const;
+    /// Whether what is cut short can be gone on with.
+    bool resumable() const { return resumable_; }
 
 private:
     friend class Doing;
     void note(std::string_view what, int64_t since, bool starting);
 
     static constexpr size_t k_longest = 480;
+    static constexpr int k_no_frame = std::numeric_limits<int>::min();
     std::atomic<uint32_t> size_;
     std::atomic<bool> starting_;
     std::atomic<bool> has_driver_;
+    std::atomic<bool> resumable_;
+    std::atomic<int> frame_ = k_no_frame;
+    std::atomic<bool> begun_;
     std::atomic<int64_t> since_; ///< nanoseconds of the steady clock
     char what_[k_longest];
 };
@@ -49,6 +64,10 @@ public:
 
     /// Where everything of this process is noted from now on; nullptr: nowhere.
     static void note_on(DoingPage* page);
+    /// Which frame of a capture is in hand from now on; nothing: none is.
+    static void note_frame(std::optional<DoingPage::Frame> frame);
+    /// What is cut short from now on can be gone on with.
+    static void note_resumable();
     /// What a process that noted on the same page, and has crashed since, was at; it is at nothing any more.
     static std::string left_behind();
 

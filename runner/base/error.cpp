@@ -52,7 +52,8 @@ int exit_code(ErrorCode code) {
     case ErrorCode::check_failed: return 1;
     case ErrorCode::usage: return 2;
     case ErrorCode::load: return 3;
-    case ErrorCode::write: return 4;
+    case ErrorCode::write:
+    case ErrorCode::no_memory: return 4;
     case ErrorCode::timed_out: return 5;
     case ErrorCode::no_context: return 77;
     }

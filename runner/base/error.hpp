@@ -41,6 +41,7 @@ enum class ErrorCode {
     usage,        ///< the command line
     load,         ///< a scene, shader or picture does not load or compile
     write,        ///< an output cannot be written
+    no_memory,    ///< the machine has no more, or the driver
     timed_out,
     no_context, ///< there is no OpenGL context to be had
 };

@@ -15,6 +15,7 @@ Rule rule_of(ErrorCode code) {
     case ErrorCode::usage: return {"usage", "The command line asks for something that there is"};
     case ErrorCode::load: return scene_rule();
     case ErrorCode::write: return {"output", "The output can be written"};
+    case ErrorCode::no_memory: return {"memory", "The machine and its driver have the memory that it takes"};
     case ErrorCode::timed_out: return {"limits", "Compiling and drawing keep to --timeout and --memory"};
     case ErrorCode::no_context: return {"driver", "There is an OpenGL driver that works"};
     }

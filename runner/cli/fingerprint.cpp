@@ -196,6 +196,11 @@ Fingerprint Fingerprint::on_device_of(const Fingerprint& other) const {
     return moved;
 }
 
+std::string Fingerprint::device() const {
+    const std::string* device = find(k_device);
+    return device ? *device : "";
+}
+
 std::string Fingerprint::differences(const Fingerprint& other) const {
     std::vector<std::string_view> words;
     const auto add = [&](const std::string& part) {

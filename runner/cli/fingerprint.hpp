@@ -40,6 +40,9 @@ public:
     /// The same, with the device of that one.
     Fingerprint on_device_of(const Fingerprint& other) const;
 
+    /// The hash of the device alone; empty where there is none.
+    std::string device() const;
+
     bool operator==(const Fingerprint&) const = default;
 
 private:

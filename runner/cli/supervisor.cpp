@@ -22,6 +22,10 @@
 namespace tidemark::cli {
 namespace {
 
+/// Of files that appear whole or not at all, however their process ends.
+constexpr const char* k_words_on_resuming =
+    "; what is on disk is whole, and the same command with --resume goes on";
+
 /// So often memory is looked at: a process grows by some hundred MiB meanwhile at most.
 constexpr double k_look_seconds = 0.05;
 /// Which processes there are takes a hundred times as long to ask as what they take.
@@ -144,8 +148,16 @@ private:
     int give_up(const std::string& limit) const {
         const std::string what = page_ ? page_->seen().what : std::string();
         end_child();
-        return refuse(ErrorCode::timed_out,
-                      fmt::format("{} takes {}", what.empty() ? "the command" : what, limit));
+        return refuse(ErrorCode::timed_out, fmt::format("{} takes {}{}", what.empty() ? "the command" : what,
+                                                        limit, cut_short(what)));
+    }
+
+    /// Where a capture was, unless `what` says it, and how it goes on.
+    std::string cut_short(const std::string& what) const {
+        const auto frame = page_ ? page_->frame() : std::nullopt;
+        const bool named = frame && (frame->begun || what.empty());
+        return (named ? fmt::format(" ({} frame {})", frame->begun ? "in" : "before", frame->number) : "") +
+               (page_ && page_->resumable() ? k_words_on_resuming : "");
     }
 
     int after(int status) const {
@@ -158,15 +170,16 @@ private:
         if (signal == SIGKILL)
             return refuse(ErrorCode::timed_out,
                           fmt::format("{} was ended from outside (SIGKILL), which is what a system does "
-                                      "that has no memory left: --memory ends it before",
-                                      seen.what.empty() ? "the command" : seen.what));
+                                      "that has no memory left: --memory ends it before{}",
+                                      seen.what.empty() ? "the command" : seen.what, cut_short(seen.what)));
         if (!is_crash(signal))
             end_by(signal);
         if (!seen.what.empty())
             return refuse(seen.starting ? ErrorCode::no_context : ErrorCode::load,
-                          crash_text(signal, seen.what) + (seen.starting ? "; --device names another" : ""));
+                          crash_text(signal, seen.what) +
+                              (seen.starting ? "; --device names another" : cut_short(seen.what)));
         if (page_ && page_->has_driver()) // whose threads work on when nothing is asked of it
-            return refuse(ErrorCode::load, crash_text(signal, "") + ", or tidemark itself");
+            return refuse(ErrorCode::load, crash_text(signal, "") + ", or tidemark itself" + cut_short(""));
         say(fmt::format("tidemark: error: tidemark itself crashed ({}), which is a defect of its own",
                         name_of(signal)));
         return k_internal_error;

@@ -4,57 +4,16 @@ import hashlib
 import json
 import os
 import random
-import re
-import resource
 import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from support.program import PROGRAM, ProgramTest, environment, main
+from support.program import PROGRAM, environment, main
+from support.resume import SCENE, SEQUENCE, Resume
 
 KILLS = int(os.environ.get("TIDEMARK_KILLS", "4"))
-
-SCENE = """#iUniform float speed = 0.5
-void mainImage(out vec4 c, in vec2 p) {
-    float x = 0.0;
-    for (int i = 0; i < 400; ++i) x += sin(p.x * float(i) + iTime * speed);
-    c = vec4(p / iResolution.xy, fract(x), 1.0);
-}
-"""
-SEQUENCE = ("capture", "a.glsl", "--size", "64x36", "--frames", "0-19", "-o", "out/f_%04d.png")
-
-
-class Resume(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.write("a.glsl", SCENE)
-        (self.folder / "out").mkdir()
-
-    def write_feedback(self) -> None:
-        """`fb`: Buffer A adds to itself and keeps pixels that it discards."""
-        self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'
-                                    "void mainImage(out vec4 c, in vec2 p) { c = fract(texelFetch(iChannel0, ivec2(p), 0)); }\n")
-        self.write("fb/buffer_a.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) {\n'
-                                       "  if (iFrame % 3 == 1 && int(p.x) % 5 == 2) discard;\n"
-                                       "  c = texelFetch(iChannel0, ivec2(p), 0) * 1.01 + vec4(p.x, p.y, 1.0, iTime) * 0.001;\n}\n")
-
-    def contents(self, folder: str = "out") -> dict[str, bytes]:
-        """Hidden files too."""
-        return {path.name: path.read_bytes() for path in (self.folder / folder).iterdir()}
-
-    def whole(self, *arguments: str) -> dict[str, bytes]:
-        """What a capture makes that nobody cuts short; the folder is empty again."""
-        self.succeed(*arguments)
-        files = self.contents()
-        for name in files:
-            (self.folder / "out" / name).unlink()
-        return files
-
-    def resume(self, *arguments: str, **options) -> list[str]:
-        return self.succeed(*arguments, "--resume", **options).stderr.splitlines()
-
 
 class Sequences(Resume):
     def test_keeps_what_is_there(self):
@@ -257,73 +216,6 @@ class Videos(Resume):
                                       r"20 frames are whole, and the same command with --resume goes on\n\Z")
         self.assertEqual(self.resume(*arguments)[0], "kept 20 of 50 frames")
         self.assertEqual(self.contents(), whole)
-
-
-class Failures(Resume):
-    """What is on disk is whole, the frame is named, and --resume goes on."""
-
-    WORDS = r"(\d+) frames? (?:is|are) whole, and the same command with --resume goes on\n"
-
-    def expect_cut(self, done: subprocess.CompletedProcess, code: int, error: str) -> int:
-        """How many frames are whole."""
-        self.assertEqual(done.returncode, code, done.stderr)
-        self.assertRegex(done.stderr, error)
-        words = re.search(self.WORDS, done.stderr)
-        self.assertIsNotNone(words, done.stderr)
-        return int(words.group(1))
-
-    def test_a_full_disk(self):
-        """A limit on the size of files, which the one noisy frame is beyond."""
-        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5); if (iFrame == 7) "
-                             "c = vec4(fract(sin(dot(p, vec2(91.7, 3.1))) * 4311.3)); }\n")
-        whole = self.whole(*SEQUENCE)
-        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-        done = self.run_program(*SEQUENCE, preexec_fn=limit)
-        kept = self.expect_cut(done, 4, "error: cannot write 'out/f_0007.png': File too large; ")
-        self.assertEqual(self.contents(), {name: whole[name] for name in self.contents()})
-        self.assertEqual(len(self.contents()), kept)
-        self.assertEqual(self.resume(*SEQUENCE)[0], f"kept {kept} of 20 frames")
-        self.assertEqual(self.contents(), whole)
-
-    def start_slow(self) -> subprocess.Popen:
-        """Until its third frame is there."""
-        self.write("a.glsl", SCENE.replace("400", "40000"))
-        process = subprocess.Popen([PROGRAM, *SEQUENCE], cwd=self.folder, env=environment(), text=True,
-                                   stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        while not (self.folder / "out/f_0002.png").exists():
-            self.assertIsNone(process.poll())
-            time.sleep(0.002)
-        return process
-
-    def finished(self, process: subprocess.Popen) -> subprocess.CompletedProcess:
-        stderr = process.communicate()[1]
-        return subprocess.CompletedProcess(process.args, process.returncode, None, stderr)
-
-    def test_the_folder_goes(self):
-        process = self.start_slow()
-        (self.folder / "out").rename(self.folder / "gone")
-        self.expect_cut(self.finished(process), 4, r"error: cannot write 'out/f_00\d\d.png': No such file or directory; ")
-        (self.folder / "gone").rename(self.folder / "out")
-        self.assertRegex(self.resume(*SEQUENCE)[0], r"kept \d+ of 20 frames")
-        self.assertEqual(len(self.contents()), 20)
-
-    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
-    def test_the_permission_goes(self):
-        process = self.start_slow()
-        (self.folder / "out").chmod(0o555)
-        self.expect_cut(self.finished(process), 4, r"error: cannot write 'out/f_00\d\d.png': Permission denied; ")
-        (self.folder / "out").chmod(0o755)
-        self.resume(*SEQUENCE)
-        self.assertEqual(len(self.contents()), 20)
-
-    def test_a_frame_takes_too_long(self):
-        self.write_feedback()
-        done = self.run_program("capture", "fb", "--size", "8x8", "--frames", "0-6,100000000", "-o", "out/f_%d.png",
-                                "--timeout", "2")
-        self.assertEqual(self.expect_cut(done, 5, r"error: gave up drawing frame \d+ after 2(\.\d+)? s \(--timeout\)"), 7)
-        self.assertEqual(set(self.contents()), {f"f_{i}.png" for i in range(7)})
-        self.assertEqual(self.resume("capture", "fb", "--size", "8x8", "--frames", "0-6", "-o", "out/f_%d.png"),
-                         ["kept 7 of 7 frames"])
 
 
 class Killed(Resume):

@@ -83,6 +83,58 @@ class Shards(ProgramTest):
             self.succeed(*SEQUENCE, f"whole/{name}")
             self.assertEqual((self.folder / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
 
+    FILM = ("--state-every", "3", "-o")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_segments_of_a_video(self):
+        self.write("s/image.glsl", SCENE)
+        self.write("s/sound.glsl", "vec2 mainSound(int s, float t) { return vec2(sin(6283.0 * t), sin(4000.0 * t)) * 0.3; }\n")
+        for name in ("a.mp4", "a.webm", "a.gif", "a.mov"):
+            run = ("capture", "s", *SEQUENCE[2:-1], *self.FILM)
+            for k in (3, 1):
+                said = self.succeed(*run, f"out/{name}", "--shard", f"{k}/3").stderr.splitlines()
+                self.assertEqual(said[-1], f"wrote {'3' if k == 3 else '4'} frames of out/{name}, in segments that "
+                                           "`tidemark gather` joins")
+            extension = ".mov" if name == "a.mov" else ".mp4"
+            self.expect_failure(["gather", "out"], 1, f"1 of 4 segments: missing, out/{name}.segment-0001{extension} first "
+                                                      "(shard 2/3)")
+            self.succeed(*run, f"out/{name}", "--shard", "2/3")
+            middle = self.folder / f"out/{name}.segment-0001{extension}"
+            whole = middle.read_bytes()
+            middle.write_bytes(whole[:-100])
+            self.expect_failure(["gather", "out"], 1, f"1 of 4 segments: not whole, out/{name}.segment-0001{extension} first "
+                                                      "(shard 2/3)")
+            self.assertIn("kept 0 of 3 frames", self.succeed(*run, f"out/{name}", "--shard", "2/3", "--resume").stderr)
+            self.assertEqual(middle.read_bytes(), whole)
+            self.assertIn("kept 3 of 3 frames", self.succeed(*run, f"out/{name}", "--shard", "2/3", "--resume").stderr)
+            lines = self.succeed("gather", "out").stderr.splitlines()
+            self.assertEqual(lines, ["10 frames are there, whole and with one fingerprint, drawn by this device",
+                                     f"wrote out/{name}: 10 frames"])
+            self.succeed(*run, f"whole/{name}")
+            self.assertEqual(self.contents("out"), self.contents("whole"))
+            for folder in ("out", "whole"):
+                for path in (self.folder / folder).iterdir():
+                    path.unlink()
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_segments_of_a_video_with_feedback(self):
+        self.write_feedback()
+        run = ("capture", "fb", *SEQUENCE[2:-1], *self.FILM)
+        self.succeed(*run, "whole/a.mp4")
+        for k in (1, 2, 3):
+            self.succeed(*run, "out/a.mp4", "--shard", f"{k}/3")
+        self.succeed("gather", "out")
+        self.assertEqual(self.contents("out"), self.contents("whole"))
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_segments_refused(self):
+        run = (*SEQUENCE[:-1], "-o", "out/a.mp4", "--shard")
+        self.succeed(*run, "1/2")
+        self.assertIn("this shard has no frame: there are more shards than segments of the video, which --state-every makes "
+                      "shorter", self.succeed(*run, "2/2").stderr)
+        self.expect_failure_like(["gather", "out", "-o", "b.mp4"], 2, r".*\ntidemark: error: -o b.mp4: the shards made segments "
+                                 "of 'out/a.mp4', which they are joined to: leave it out")
+
     def luma(self, name: str) -> array.array:
         return array.array("H", subprocess.run(["ffmpeg", "-v", "error", "-i", name, "-pix_fmt", "gray12le", "-f", "rawvideo", "-"],
                                                cwd=self.folder, stdout=subprocess.PIPE, check=True).stdout)
@@ -113,11 +165,14 @@ class Shards(ProgramTest):
         self.expect_failure_like(["gather", "straight", "--sample", "0", "-o", "a2.mp4"], 2,
                                  ".*\ntidemark: error: -o a2.mp4: the frames have an alpha that it cannot hold: give a .mov")
 
-    def test_feedback_goes_on_from_the_shard_before(self):
+    def write_feedback(self) -> None:
         self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'
                                     "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n")
         self.write("fb/buffer_a.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) '
                                        "{ c = texelFetch(iChannel0, ivec2(p), 0) + vec4(p, 1, 1) * 0.001; }\n")
+
+    def test_feedback_goes_on_from_the_shard_before(self):
+        self.write_feedback()
         run = ("capture", "fb", *SEQUENCE[2:])
         self.succeed(*run, "whole/f_%04d.png")
         for order in ((1, 2), (2, 1)):
@@ -150,8 +205,8 @@ class Shards(ProgramTest):
         self.expect_failure([*SEQUENCE, "out/f_%04d.png", "--shard", "1/3"], 2,
                             "tidemark: error: --shard: 'out/shards.json' is of another capture: give a folder of its own, "
                             "or remove it")
-        self.expect_failure([*SEQUENCE, "a.mp4", "--shard", "1/2"], 2, "tidemark: error: --shard: give a sequence of "
-                            "pictures, which `tidemark gather -o` joins to a video")
+        self.expect_failure([*SEQUENCE, "-", "--shard", "1/2"], 2, "tidemark: error: --shard: give a sequence of "
+                            "pictures, or a video: `tidemark gather` reads them")
         self.expect_failure(["gather", "whole"], 3, "tidemark: error: cannot read 'whole/shards.json': no such file")
         for note in ("", "[]", '{"capture": ["x"], "shards": 0}', '{"capture": [1], "shards": 2}'):
             self.write("whole/shards.json", note)

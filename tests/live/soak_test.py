@@ -1,15 +1,18 @@
-"""Random edits of a scene while its window shows it: whatever is done to the files, the last one is on show."""
+"""Random edits of a scene while its window shows it: whatever is done to the files, the last one is on show, and what
+the window holds of the machine stays what it was: handles, threads, OpenGL objects. Memory is printed."""
 import os
 import random
 import time
 
-from support import probe
-from support.live import LiveTest, View, main
+from support import footprint, probe
+from support.live import LiveTest, View, main, wait_for
+from support.program import is_sanitized
 
 # $TIDEMARK_SOAK_EDITS asks for more.
 EDITS = int(os.environ.get("TIDEMARK_SOAK_EDITS", "40"))
 VALUES = {"mark": "MARK", "from the include": "included()"}
 SIZE = ("--size", "200x100")
+WARM = 20  # edits until everything that is loaded when it is first needed is there
 
 
 class Soak(LiveTest):
@@ -69,9 +72,23 @@ class Soak(LiveTest):
         mark = float(self.mark)
         view.wait_until_told(VALUES, lambda told: list(told.values()) == [mark, mark])
 
+    def held(self, view: View) -> tuple:
+        """What must not grow. A scene that is not compiled yet holds more for a moment."""
+        process = view.program.pid
+        return footprint.handles(process), footprint.threads(process), footprint.objects(self.counts)
+
+    def tell(self, view: View, edit: int) -> None:
+        handles, threads, objects = self.held(view)
+        print(f"after {edit} edits: {footprint.kibibytes(view.program.pid) / 1024:.1f} MiB, {len(handles)} handles, "
+              f"{len(threads)} threads, " + ", ".join(f"{count} {kind}" for kind, count in objects.items()), flush=True)
+
     def test_whatever_is_saved(self):
         self.restore()
-        view = self.view("s/a.glsl", *SIZE, "--set", "level=0.25")
+        self.counts = self.folder / "counts"
+        counted = not is_sanitized()
+        view = self.view("s/a.glsl", *SIZE, "--set", "level=0.25",
+                         **(footprint.variables(self.counts) if counted else {}))
+        warm = None
         for edit in range(EDITS):
             self.edit()
             if self.random.randrange(3) == 0:
@@ -79,7 +96,14 @@ class Soak(LiveTest):
             if edit % 5 == 4:
                 self.restore()
                 self.expect_what_is_there(view)
+                if counted and edit + 1 >= WARM and warm is None:
+                    warm = self.held(view)
+                if counted and (edit + 1 == WARM or (edit + 1) % 500 == 0):
+                    self.tell(view, edit + 1)
         self.assertNotRegex(view.title(), "error")
+        if warm is not None:
+            self.tell(view, EDITS)
+            wait_for(lambda: self.held(view) == warm, f"{warm} instead of {self.held(view)}")
         view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)
 

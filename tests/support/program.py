@@ -36,11 +36,14 @@ def let_it_crash() -> None:
         os.environ.get("ASAN_OPTIONS"), "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:handle_abort=0"]))
 
 
+def is_sanitized() -> bool:
+    binary = pathlib.Path(PROGRAM)
+    return binary.is_file() and b"__asan_init" in binary.read_bytes()
+
+
 def not_sanitized(test):
     """For tests of how much memory the program takes, or does with: a sanitizer needs some terabytes of addresses itself."""
-    binary = pathlib.Path(PROGRAM)
-    sanitized = binary.is_file() and b"__asan_init" in binary.read_bytes()
-    return unittest.skipIf(sanitized, "the program is sanitized")(test)
+    return unittest.skipIf(is_sanitized(), "the program is sanitized")(test)
 
 
 def has_context() -> bool:

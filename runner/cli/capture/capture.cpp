@@ -48,7 +48,10 @@ std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint&
 }
 
 void say_what_was_written(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
-    if (plan.output.video())
+    if (plan.output.video() && plan.shard)
+        say(fmt::format("wrote {} frames of {}, in segments that `tidemark gather` joins", records.size(),
+                        plan.output.pattern().string()));
+    else if (plan.output.video())
         say(fmt::format(
             "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.size(),
             plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
@@ -125,7 +128,10 @@ std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerpr
     if (plan.resume)
         keep_what_is_there(plan, fingerprint);
     else if (plan.frames.frames.empty())
-        say("this shard has no frame: there are more shards than frames");
+        say(plan.output.video()
+                ? "this shard has no frame: there are more shards than segments of the video, "
+                  "which --state-every makes shorter"
+                : "this shard has no frame: there are more shards than frames");
     if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
         return std::nullopt;
     auto state = find_state(plan, fingerprint);
@@ -168,7 +174,7 @@ Result<int> capture_frames(CapturePlan plan) {
     say_what_is_unlike(plan, fingerprint);
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     const std::optional<SavedState> state = take_up(plan, fingerprint);
-    if (plan.frames.frames.empty() && plan.to_picture_files() && !plan.json) {
+    if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.json) {
         tidy_up(plan);
         return 0;
     }

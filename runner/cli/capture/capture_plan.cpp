@@ -191,9 +191,9 @@ Result<void> check_shard(const CaptureOptions& options, const OutputName& output
     const auto refuse = [](std::string_view why) {
         return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
     };
-    if (output.standard_output() || output.video())
-        return refuse("give a sequence of pictures, which `tidemark gather -o` joins to a video");
-    if (!image::holds_metadata(output.pattern()))
+    if (output.standard_output())
+        return refuse("give a sequence of pictures, or a video: `tidemark gather` reads them");
+    if (!output.video() && !image::holds_metadata(output.pattern()))
         return check_resume(output);
     if (options.allowed_difference)
         return refuse("--allow-difference may choose another program on each machine");
@@ -363,13 +363,28 @@ Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, co
                          options.allowed_difference}};
 }
 
+/// A video is shared segment by segment, as it is encoded.
+void take_segments(const Shard& shard, CapturePlan& plan) {
+    for (VideoSegment& segment : plan.segments)
+        segment.others = true;
+    plan.frames.frames.clear();
+    for (const size_t index : segments_of_shard(shard, plan.segments.size(), plan.scene)) {
+        VideoSegment& own = plan.segments[index];
+        own.others = false;
+        plan.frames.frames.insert(plan.frames.frames.end(), own.frames.begin(), own.frames.end());
+    }
+}
+
 /// All shards draw the same program: there is no trial.
 Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
     plan.shard = TRY(parse_shard(options.shard));
     const std::filesystem::path folder = plan.output.of_frame(0).path().parent_path();
     TRY(leave_note(OutputPath::typed(folder.empty() ? "." : folder) / k_shard_note,
                    {options.words, plan.shard->count}));
-    plan.frames.frames = frames_of(*plan.shard, plan.frames.frames, plan.scene);
+    if (plan.output.video())
+        take_segments(*plan.shard, plan);
+    else
+        plan.frames.frames = frames_of(*plan.shard, plan.frames.frames, plan.scene);
     return {};
 }
 
@@ -414,8 +429,12 @@ Transfer drawn_transfer(const std::string& pass) {
     return pass.empty() || pass == "Image" ? Transfer::srgb : Transfer::data;
 }
 
+bool can_be_resumed(const CapturePlan& plan) {
+    return !plan.sheet && check_resume(plan.output).has_value();
+}
+
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames) {
-    if (whole_frames == 0 || !check_resume(plan.output))
+    if (whole_frames == 0 || !can_be_resumed(plan))
         return {};
     return fmt::format("{} frame{} whole, and the same command with --resume goes on", whole_frames,
                        whole_frames == 1 ? " is" : "s are");

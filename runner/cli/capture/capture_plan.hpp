@@ -66,6 +66,9 @@ struct VideoSegment {
     std::vector<int> frames;
     std::vector<int> ticks; ///< of the video that each of them is shown
     bool kept = false;      ///< it is there already
+    bool others = false;    ///< another shard makes it
+
+    bool is_to_be_made() const { return !kept && !others; }
 };
 
 struct CapturePlan {
@@ -106,6 +109,9 @@ image::Transfer drawn_transfer(const std::string& pass);
 
 /// --codec, where a file of that name may have it (ErrorCode::usage otherwise).
 Result<std::string> parse_codec(const std::string& text, const OutputName& output);
+
+/// Whether --resume could go on with it.
+bool can_be_resumed(const CapturePlan& plan);
 
 /// How to go on where a capture is cut short after so many whole frames; empty: it begins anew.
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);

@@ -1,5 +1,6 @@
 #include "cli/capture/capture_run.hpp"
 
+#include "base/doing.hpp"
 #include "base/try.hpp"
 #include "cli/capture/kept_frames.hpp"
 #include "cli/capture/pass_layers.hpp"
@@ -53,9 +54,13 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         if (in_doubt_ && !plan_.output.standard_output())
             TRY(saver_.save_program());
     }
+    const bool resumable = can_be_resumed(plan_);
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
         FrameRecord record;
+        Doing::note_frame(DoingPage::Frame{frame, true});
+        if (resumable && whole_frames() > 0)
+            Doing::note_resumable();
         const auto outcome =
             TRY(in_bands() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record));
         if (outcome == Outcome::interrupted) {
@@ -72,6 +77,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         records_.push_back(std::move(record));
         progress.advance();
     }
+    Doing::note_frame({});
     if (plan_.loop && whole_frames() > 0)
         TRY(close_loop(interrupt));
     TRY(close_output());
@@ -103,7 +109,7 @@ Result<void> Capture::open_output() {
 
 Result<void> Capture::close_output() {
     if (video_)
-        return video_->finish(sound_);
+        return plan_.shard ? Result<void>() : video_->finish(sound_); // which `gather` does
     if (sheet_)
         return image::write_picture(plan_.output.of_frame(plan_.frames.frames.front()), sheet_->picture(),
                                     format_of_sheet());

@@ -37,7 +37,7 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precisi
 /// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong
 /// is said, and nothing else.
 std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt) {
-    if (!plan.output.video())
+    if (!plan.output.video() || plan.shard) // `gather` draws it
         return std::nullopt;
     const std::vector<int>& frames = plan.frames.frames;
     const VideoPace& pace = plan.pace;

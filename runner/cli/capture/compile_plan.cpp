@@ -1,5 +1,6 @@
 #include "cli/capture/compile_plan.hpp"
 
+#include "base/doing.hpp"
 #include "base/try.hpp"
 #include "cli/capture/watchdog.hpp"
 #include "cli/console.hpp"
@@ -55,9 +56,7 @@ Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions dra
     return trial;
 }
 
-} // namespace
-
-Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
+Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     Watchdog watchdog;
     const Watchdog::Watch watch(watchdog, "compiling", plan.timeout);
@@ -67,6 +66,18 @@ Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
     auto compiled = TRY(choose_renderer(plan, drawing));
     TRY(check_compiled(plan, compiled.renderer));
     return compiled;
+}
+
+} // namespace
+
+Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
+    if (!plan.frames.frames.empty())
+        Doing::note_frame(DoingPage::Frame{plan.frames.frames.front(), false});
+    return compile_all(plan, interrupt).map_error([&](Error error) {
+        if (error.code == ErrorCode::no_memory && !plan.frames.frames.empty())
+            error.message += fmt::format(" (before frame {})", plan.frames.frames.front());
+        return error;
+    });
 }
 
 } // namespace tidemark::cli

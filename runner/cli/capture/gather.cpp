@@ -174,6 +174,22 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
     return {};
 }
 
+/// What the shards made segments of. Nothing of it is drawn again: to compare it had to be decoded.
+Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, const Fingerprint& run,
+                        Interrupt& interrupt) {
+    const std::string name = plan.output.pattern().string();
+    if (options.video)
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: the shards made segments of '{}', which they are joined to: leave it "
+                                "out",
+                                *options.video, name));
+    const auto sound = draw_sound_of_video(plan, interrupt);
+    TRY(join(plan, run, sound ? sound->path() : fs::path()));
+    say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
+    StagedFile::remove_abandoned(segment_file(plan.output, 0), StagedFile::Machines::all);
+    return {};
+}
+
 int report(const std::vector<std::string>& wrong) {
     for (const std::string& line : wrong)
         say(line);
@@ -193,11 +209,13 @@ Result<int> gather(const GatherOptions& options) {
         return report(found.wrong);
     say(fmt::format("{} frames are there, whole and with one fingerprint, drawn by {}",
                     plan.frames.frames.size(), found.devices.begin()->first));
-    if (options.samples > 0)
+    if (plan.output.video())
+        TRY(join_video(options, plan, run, interrupt));
+    else if (options.samples > 0)
         if (const auto wrong = TRY(compare_sample(options, plan, found.drawn_here, interrupt));
             !wrong.empty())
             return report(wrong);
-    if (options.video)
+    if (options.video && !plan.output.video())
         TRY(make_video(plan, options, run, interrupt));
     remove_states(plan.output);
     for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})

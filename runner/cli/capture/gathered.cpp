@@ -1,6 +1,7 @@
 #include "cli/capture/gathered.hpp"
 
 #include "cli/capture/kept_frames.hpp"
+#include "cli/capture/segmented_video.hpp"
 #include "cli/picture_facts.hpp"
 #include "image/files/picture_metadata.hpp"
 
@@ -45,6 +46,31 @@ void note(std::vector<Wrong>& all, std::string what, const std::string& file) {
         all.push_back({std::move(what), file, 1});
 }
 
+/// What is wrong with one segment of a video; empty: nothing.
+std::string look_at_segment(const std::filesystem::path& file, const Fingerprint& wanted,
+                            Gathered& gathered) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        return "missing";
+    const auto note = image::note_of_segment(file);
+    if (!note)
+        return "not whole";
+    const Fingerprint found = Fingerprint::parse(*note);
+    const bool here = wanted.on_device_of(found) == wanted;
+    ++gathered.devices[here ? "this device" : fmt::format("device {}", found.device())];
+    gathered.drawn_here &= here;
+    const std::string others = wanted.on_device_of(found).differences(found);
+    return others.empty() ? "" : "drawn with " + others;
+}
+
+int shard_of_segment(const CapturePlan& plan, int shards, const std::string& file) {
+    for (int index = 0; index < shards; ++index)
+        for (const int segment : segments_of_shard({index, shards}, plan.segments.size(), plan.scene))
+            if (segment_file(plan.output, size_t(segment)).path().string() == file)
+                return index + 1;
+    return 0;
+}
+
 /// Which shard makes the frame of that file.
 int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
     for (int index = 0; index < shards; ++index)
@@ -55,9 +81,34 @@ int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
     return 0;
 }
 
+void count_devices(Gathered& result, std::string_view what) {
+    if (result.devices.size() > 1)
+        for (const auto& [device, count] : result.devices)
+            result.wrong.push_back(fmt::format("{} {} were drawn by {}", count, what, device));
+}
+
+Gathered gathered_segments(const CapturePlan& plan, const Fingerprint& run, int shards) {
+    Gathered result;
+    std::vector<Wrong> all;
+    for (size_t i = 0; i < plan.segments.size(); ++i) {
+        const auto file = segment_file(plan.output, i).path();
+        const Fingerprint wanted = Fingerprint::parse(note_of(plan, plan.segments[i], run));
+        if (auto what = look_at_segment(file, wanted, result); !what.empty())
+            note(all, std::move(what), file.string());
+    }
+    for (const auto& [what, first, count] : all)
+        result.wrong.push_back(fmt::format("{} of {} segments: {}, {} first (shard {}/{})", count,
+                                           plan.segments.size(), what, first,
+                                           shard_of_segment(plan, shards, first), shards));
+    count_devices(result, "segments");
+    return result;
+}
+
 } // namespace
 
 Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards) {
+    if (plan.output.video())
+        return gathered_segments(plan, run, shards);
     Gathered result;
     std::vector<Wrong> all;
     const render::FrameStates states = states_of(plan.frames);
@@ -69,9 +120,7 @@ Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards) {
         result.wrong.push_back(fmt::format("{} of {} frames: {}, {} first (shard {}/{})", count,
                                            plan.frames.frames.size(), what, first,
                                            shard_of(plan, shards, first), shards));
-    if (result.devices.size() > 1)
-        for (const auto& [device, count] : result.devices)
-            result.wrong.push_back(fmt::format("{} frames were drawn by {}", count, device));
+    count_devices(result, "frames");
     return result;
 }
 

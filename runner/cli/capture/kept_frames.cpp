@@ -67,6 +67,8 @@ KeptFrames leave_out_segments(CapturePlan& plan, const Fingerprint& run) {
     std::vector<int> missing;
     for (size_t i = 0; i < plan.segments.size(); ++i) {
         VideoSegment& segment = plan.segments[i];
+        if (segment.others)
+            continue;
         const auto note = image::note_of_segment(segment_file(plan.output, i).path());
         segment.kept = note && *note == note_of(plan, segment, run);
         std::vector<int>& into = segment.kept ? kept.frames : missing;

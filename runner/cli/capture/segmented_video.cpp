@@ -54,7 +54,7 @@ Result<SegmentedVideo> SegmentedVideo::create(const CapturePlan& plan, Fingerpri
 
 Result<void> SegmentedVideo::open_next() {
     const std::vector<VideoSegment>& segments = plan_.segments;
-    while (next_ < segments.size() && segments[next_].kept)
+    while (next_ < segments.size() && !segments[next_].is_to_be_made())
         ++next_;
     if (next_ == segments.size())
         return {};
@@ -88,6 +88,13 @@ Result<void> SegmentedVideo::finish(const std::filesystem::path& sound) {
     TRY(image::join_segments(plan_.output.of_frame(0), files, format(), sound));
     remove_segments();
     return {};
+}
+
+Result<void> join(CapturePlan plan, const Fingerprint& run, const std::filesystem::path& sound) {
+    for (VideoSegment& segment : plan.segments)
+        segment.kept = true;
+    SegmentedVideo video = TRY(SegmentedVideo::create(plan, run, plan.drawing.extent));
+    return video.finish(sound);
 }
 
 /// Those of a longer capture that was given up, too.

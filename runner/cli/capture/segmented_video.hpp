@@ -51,4 +51,7 @@ private:
     std::optional<image::SegmentWriter> writer_;
 };
 
+/// Of segments that are all there.
+Result<void> join(CapturePlan plan, const Fingerprint& run, const std::filesystem::path& sound);
+
 } // namespace tidemark::cli

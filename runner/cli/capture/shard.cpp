@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <numeric>
 
 namespace tidemark::cli {
 namespace {
@@ -68,6 +69,12 @@ std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, c
     for (size_t i = index; i < frames.size(); i += count)
         own.push_back(frames[i]);
     return own;
+}
+
+std::vector<int> segments_of_shard(const Shard& shard, size_t segments, const scene::Scene& scene) {
+    std::vector<int> all(segments);
+    std::iota(all.begin(), all.end(), 0);
+    return frames_of(shard, all, scene);
 }
 
 } // namespace tidemark::cli

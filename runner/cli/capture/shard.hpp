@@ -25,4 +25,7 @@ Result<Shard> parse_shard(std::string_view text);
 /// them.
 std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, const scene::Scene& scene);
 
+/// The same of so many segments of a video, counted from 0.
+std::vector<int> segments_of_shard(const Shard& shard, size_t segments, const scene::Scene& scene);
+
 } // namespace tidemark::cli

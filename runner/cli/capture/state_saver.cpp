@@ -16,7 +16,7 @@ bool StateSaver::is_due(int frame) const {
     if (!plan_.output.video())
         return frame % plan_.state_every == 0;
     return std::ranges::any_of(plan_.segments, [&](const VideoSegment& segment) {
-        return !segment.kept && segment.frames.front() == frame;
+        return segment.is_to_be_made() && segment.frames.front() == frame;
     });
 }
 

@@ -67,6 +67,24 @@ TEST_F(DoingTest, ADriverThatWasStartedStays) {
     EXPECT_TRUE(page_->has_driver());
 }
 
+TEST_F(DoingTest, TheFrameInHand) {
+    EXPECT_FALSE(page_->frame());
+    EXPECT_FALSE(page_->resumable());
+    if (const pid_t child = ::fork(); child == 0) {
+        Doing::note_frame(DoingPage::Frame{-7, true});
+        Doing::note_resumable();
+        ::_exit(0);
+    } else {
+        ::waitpid(child, nullptr, 0);
+    }
+    ASSERT_TRUE(page_->frame());
+    EXPECT_EQ(page_->frame()->number, -7);
+    EXPECT_TRUE(page_->frame()->begun);
+    EXPECT_TRUE(page_->resumable());
+    Doing::note_frame({});
+    EXPECT_FALSE(page_->frame());
+}
+
 TEST_F(DoingTest, NowhereToNote) {
     Doing::note_on(nullptr);
     const Doing compiling("compiling");
