@@ -47,8 +47,10 @@ bool library_runs() {
 }
 
 /// Hidden: it is moved first.
-GLFWwindow* open_window(Extent size, const char* title, bool on_top) {
+GLFWwindow* open_window(Extent size, const char* title, bool on_top, ResetNotice notice) {
     hint_window();
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS,
+                   notice == ResetNotice::yes ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
     glfwWindowHint(GLFW_FLOATING, on_top ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     return glfwCreateWindow(size.width, size.height, title, nullptr, nullptr);
@@ -66,6 +68,7 @@ Button button_from_glfw(int button) {
 struct Window::State {
     Library library;
     GlfwWindow window;
+    ResetNotice notice = ResetNotice::no;
     std::vector<InputEvent> events{};
     Extent framebuffer{};
     Extent screen{};     ///< the same area in GLFW's screen coordinates
@@ -156,7 +159,12 @@ Result<Window> Window::create(Extent logical_size, const std::string& title, con
     if (!glfwInit())
         return cannot_open(last_glfw_error());
     auto state = std::make_unique<State>();
-    state->window.reset(open_window(logical_size, printable_line(title).c_str(), wishes.on_top));
+    for (const ResetNotice notice : {ResetNotice::yes, ResetNotice::no}) {
+        if (state->window)
+            break;
+        state->notice = notice;
+        state->window.reset(open_window(logical_size, printable_line(title).c_str(), wishes.on_top, notice));
+    }
     if (!state->window)
         return cannot_open(last_glfw_error());
     TRY(move_to_wished(state->window.get(), wishes));
@@ -173,7 +181,8 @@ void Window::make_current() {
 
 Result<SharedContext> Window::create_context() {
     GLFWwindow* window = state_->window.get();
-    return SharedContext::create(glfwGetEGLDisplay(), glfwGetEGLContext(window), glfwGetEGLSurface(window));
+    return SharedContext::create(glfwGetEGLDisplay(), glfwGetEGLContext(window), glfwGetEGLSurface(window),
+                                 state_->notice);
 }
 
 std::vector<InputEvent> Window::poll() {

@@ -5,6 +5,7 @@
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/view/rehearsal.hpp"
+#include "cli/view/wall_clock.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
 #include "render/sound_renderer.hpp"
@@ -16,6 +17,9 @@ namespace tidemark::cli {
 namespace {
 
 constexpr Extent k_played{16, 16};
+
+/// Seconds. A scene whose first frames are too much for the driver would have it reset for ever.
+constexpr double k_shortest_life = 5;
 
 /// In a process of its own: all that the screen will have its driver do, once, small and unseen. What
 /// is wrong otherwise, the screen's own driver says.
@@ -69,16 +73,30 @@ Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence fra
 
 Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
     Interrupt interrupt;
-    auto viewer = TRY(Viewer::open(std::move(settings), open_screen));
-    const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
-    auto outcome = viewer.run(interrupt);
-    if (viewer.busy()) {
-        if (!outcome)
-            say(outcome.error());
-        finish_diagnostics(true);
-        ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+    while (true) {
+        const double opened = now_seconds();
+        auto viewer = TRY(Viewer::open(settings, open_screen));
+        const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
+        auto outcome = viewer.run(interrupt);
+        if (viewer.busy()) {
+            if (!outcome)
+                say(outcome.error());
+            finish_diagnostics(true);
+            ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+        }
+        if (!viewer.was_reset() || settings.frames.input || !settings.record.empty())
+            return outcome; // a recording cannot go on in another window
+        if (now_seconds() - opened < k_shortest_life) {
+            outcome.error().message +=
+                "; so soon after it was opened, the window is not opened again: `tidemark "
+                "capture` draws this scene in small parts with --tile 64";
+            return outcome;
+        }
+        outcome.error().message += "; the window is opened again";
+        say(outcome.error());
+        settings.left = viewer.state();
+        settings.scene = viewer.request();
     }
-    return outcome;
 }
 
 } // namespace tidemark::cli
