@@ -11,6 +11,7 @@
 #include "render/sound_renderer.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace tidemark::cli {
@@ -40,6 +41,19 @@ void play(const SceneRequest& request, const std::string& pass) {
     renderer->warm_up({});
     renderer->draw({});
     renderer->read_back();
+}
+
+/// Empty: a scene whose driver was reset goes on in another window.
+std::string why_not_again(const Viewer::Settings& settings, double life) {
+    if (!settings.record.empty())
+        return fmt::format("what was recorded is in {}", settings.record.path().string());
+    if (settings.frames.input)
+        return "the recording cannot go on from there";
+    if (life < k_shortest_life)
+        return "so soon after it was opened, the window is not opened again: `tidemark capture` draws this "
+               "scene "
+               "in small parts with --tile 64";
+    return "";
 }
 
 } // namespace
@@ -84,12 +98,10 @@ Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
             finish_diagnostics(true);
             ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
         }
-        if (!viewer.was_reset() || settings.frames.input || !settings.record.empty())
-            return outcome; // a recording cannot go on in another window
-        if (now_seconds() - opened < k_shortest_life) {
-            outcome.error().message +=
-                "; so soon after it was opened, the window is not opened again: `tidemark "
-                "capture` draws this scene in small parts with --tile 64";
+        if (!viewer.was_reset())
+            return outcome;
+        if (const std::string why = why_not_again(settings, now_seconds() - opened); !why.empty()) {
+            outcome.error().message += "; " + why;
             return outcome;
         }
         outcome.error().message += "; the window is opened again";
