@@ -12,4 +12,8 @@ std::filesystem::path program_folder();
 /// is installed (which need not be there).
 std::filesystem::path library_folder();
 
+/// The projects that a device is held against: conformance beside the program, else where they are installed
+/// (which need not be there).
+std::filesystem::path conformance_folder();
+
 } // namespace tidemark

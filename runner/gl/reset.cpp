@@ -31,6 +31,12 @@ std::optional<std::string_view> reset_reason() {
     }
 }
 
+bool tells_resets() {
+    GLint strategy = 0;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    return strategy == GL_LOSE_CONTEXT_ON_RESET;
+}
+
 Result<void> check_work(std::string_view what) {
     if (const auto reason = reset_reason())
         return fail(ErrorCode::timed_out,

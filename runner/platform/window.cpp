@@ -56,6 +56,14 @@ GLFWwindow* open_window(Extent size, const char* title, bool on_top, ResetNotice
     return glfwCreateWindow(size.width, size.height, title, nullptr, nullptr);
 }
 
+/// On Wayland a swap that waits, waits for a hidden window to be shown, and events and Ctrl-C with it. A
+/// compositor there tears no picture, and frames go by our own clock in any case.
+int swap_interval() {
+    const bool wayland = is_set("WAYLAND_DISPLAY") &&
+                         std::string_view(glfwGetVersionString()).find("Wayland") != std::string_view::npos;
+    return wayland ? 0 : 1;
+}
+
 Button button_from_glfw(int button) {
     return button == GLFW_MOUSE_BUTTON_LEFT    ? Button::left
            : button == GLFW_MOUSE_BUTTON_RIGHT ? Button::right
@@ -170,7 +178,7 @@ Result<Window> Window::create(Extent logical_size, const std::string& title, con
     TRY(move_to_wished(state->window.get(), wishes));
     glfwShowWindow(state->window.get());
     glfwMakeContextCurrent(state->window.get());
-    glfwSwapInterval(1);
+    glfwSwapInterval(swap_interval());
     state->listen();
     return Window(std::move(state));
 }

@@ -417,7 +417,7 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
                            {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
                             {"Pass", renderer_.shown_pass().name},
                             {"Precision", name_of(renderer_.precision())},
-                            {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)}});
+                            {"Driver", fmt::format("{}, OpenGL {}", driver_.device(), driver_.version)}});
     if (keeps_alpha())
         format.metadata.emplace_back("Alpha",
                                      plan_.alpha == image::Alpha::straight ? "straight" : "premultiplied");
