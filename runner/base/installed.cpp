@@ -14,20 +14,30 @@ fs::path program_folder() {
 
 namespace {
 
-fs::path beside_program() {
-    return program_folder() / "shaders/lib";
+fs::path beside_program(const char* name) {
+    return program_folder() / name;
 }
 
-fs::path installed_folder() {
-    return (program_folder() / "../share/tidemark/shaders/lib").lexically_normal();
+fs::path installed_folder(const char* name) {
+    return (program_folder() / "../share/tidemark" / name).lexically_normal();
 }
+
+fs::path beside_or_installed(const char* name) {
+    std::error_code ignored;
+    fs::path beside = fs::canonical(beside_program(name), ignored);
+    return beside.empty() ? installed_folder(name) : beside;
+}
+
+constexpr const char* k_library = "shaders/lib";
 
 } // namespace
 
 fs::path library_folder() {
-    std::error_code ignored;
-    fs::path beside = fs::canonical(beside_program(), ignored);
-    return beside.empty() ? installed_folder() : beside;
+    return beside_or_installed(k_library);
+}
+
+fs::path conformance_folder() {
+    return beside_or_installed("conformance");
 }
 
 std::string why_no_library() {
@@ -37,7 +47,7 @@ std::string why_no_library() {
     return fmt::format(
         "the shader library that comes with tidemark is not there: it was looked for in '{}' and "
         "in '{}'; install tidemark again, or leave its share/ where it is",
-        beside_program().string(), installed_folder().string());
+        beside_program(k_library).string(), installed_folder(k_library).string());
 }
 
 } // namespace tidemark

@@ -16,4 +16,8 @@ std::filesystem::path library_folder();
 /// Why there is none, and where it was looked for; empty: there is one.
 std::string why_no_library();
 
+/// The projects that a device is held against: conformance beside the program, else where they are installed
+/// (which need not be there).
+std::filesystem::path conformance_folder();
+
 } // namespace tidemark

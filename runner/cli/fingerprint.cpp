@@ -130,7 +130,7 @@ Fingerprint Fingerprint::of_scene(const scene::Scene& scene, const std::vector<s
                                   const FrameSequence& frames, const gl::Capabilities& driver) {
     Fingerprint fingerprint;
     fingerprint.parts_ = {{"version", hash_of(std::string(k_version))},
-                          {std::string(k_device), hash_of(Json::array({driver.renderer, driver.version}))},
+                          {std::string(k_device), hash_of(Json::array({driver.device(), driver.version}))},
                           {"text", hash_of(text_facts(scene, defines))},
                           {"inputs", hash_of(input_facts(scene, frames))}};
     return fingerprint;

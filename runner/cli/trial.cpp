@@ -1,5 +1,6 @@
 #include "cli/trial.hpp"
 
+#include "base/software_renderer.hpp"
 #include "base/try.hpp"
 #include "cli/omissions.hpp"
 #include "gl/capabilities.hpp"
@@ -35,7 +36,7 @@ constexpr double k_longest_timing_ms = 10'000;
 /// processes do not stretch it.
 using ElapsedClock = double lab::Elapsed::*;
 ElapsedClock clock_of(const TrialPlan& plan) {
-    const bool in_software = gl::query_capabilities().renderer.starts_with("llvmpipe");
+    const bool in_software = is_software_renderer(gl::query_capabilities().renderer);
     return in_software && !plan.in_window ? &lab::Elapsed::cpu : &lab::Elapsed::wall;
 }
 

@@ -1,5 +1,8 @@
 #include "gl/capabilities.hpp"
 
+#include "base/processor.hpp"
+#include "base/software_renderer.hpp"
+
 #include <GL/glcorearb.h>
 
 #include <algorithm>
@@ -19,8 +22,9 @@ Capabilities query_capabilities() {
     GLint viewport[2] = {};
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
-    return {text_of(GL_VENDOR), text_of(GL_RENDERER), text_of(GL_VERSION),
-            std::min({texture, viewport[0], viewport[1]})};
+    const std::string renderer = text_of(GL_RENDERER);
+    return {text_of(GL_VENDOR), renderer, text_of(GL_VERSION), std::min({texture, viewport[0], viewport[1]}),
+            is_software_renderer(renderer) ? processor_maker() : ""};
 }
 
 std::vector<std::string> query_extensions() {

@@ -10,7 +10,11 @@ struct Capabilities {
     std::string vendor;
     std::string renderer;
     std::string version;
-    int largest_target = 0; ///< pixels on a side
+    int largest_target = 0;  ///< pixels on a side
+    std::string processor{}; ///< its maker, where it draws
+
+    /// What rounds a picture: the renderer, and the processor behind one that is software.
+    std::string device() const { return processor.empty() ? renderer : renderer + " on " + processor; }
 };
 
 Capabilities query_capabilities();

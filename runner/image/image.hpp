@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tidemark::image {
@@ -31,6 +32,8 @@ struct Image {
     Image(Extent size, int channel_count, SampleType sample_type)
         : extent(size), channels(channel_count), type(sample_type),
           bytes(size.pixels() * size_t(channel_count) * size_of(sample_type)) {}
+    Image(Extent size, int channel_count, SampleType sample_type, std::vector<std::byte> its_bytes)
+        : extent(size), channels(channel_count), type(sample_type), bytes(std::move(its_bytes)) {}
 
     size_t samples() const { return extent.pixels() * size_t(channels); }
     size_t row_bytes() const { return size_t(extent.width) * size_t(channels) * size_of(type); }

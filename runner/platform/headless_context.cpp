@@ -1,6 +1,7 @@
 #include "platform/headless_context.hpp"
 
 #include "base/doing.hpp"
+#include "base/software_renderer.hpp"
 #include "platform/device_identity.hpp"
 #include "platform/device_order.hpp"
 
@@ -65,12 +66,6 @@ DeviceKind kind_of_display(EGLDisplay display) {
     if (!query || !query(display, EGL_DEVICE_EXT, &device) || device == 0)
         return DeviceKind::unknown;
     return kind_of(reinterpret_cast<EGLDeviceEXT>(device));
-}
-
-bool is_software(std::string_view renderer) {
-    constexpr std::array<std::string_view, 4> k_software{"llvmpipe", "softpipe", "SwiftShader", "Software"};
-    return std::ranges::any_of(
-        k_software, [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
 }
 
 /// See HeadlessDevice::lasting_names.
@@ -142,9 +137,10 @@ tl::expected<EGLDisplay, std::string> open_display(const Place& place) {
 struct CurrentContext {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
+    ResetNotice notice = ResetNotice::no;
 
-    CurrentContext(EGLDisplay its_display, EGLContext its_context)
-        : display(its_display), context(its_context) {}
+    CurrentContext(EGLDisplay its_display, EGLContext its_context, ResetNotice its_notice)
+        : display(its_display), context(its_context), notice(its_notice) {}
     CurrentContext(const CurrentContext&) = delete;
     CurrentContext& operator=(const CurrentContext&) = delete;
     ~CurrentContext() {
@@ -157,11 +153,7 @@ struct CurrentContext {
 
 using ContextOrReason = tl::expected<std::unique_ptr<CurrentContext>, std::string>;
 
-ContextOrReason make_context(const Place& place, DebugContext debug) {
-    const Doing starting(fmt::format("starting OpenGL on '{}'", place.name), Doing::Kind::start);
-    const auto display = open_display(place);
-    if (!display)
-        return tl::unexpected(display.error());
+EGLContext create_context(EGLDisplay display, DebugContext debug, ResetNotice notice) {
     const EGLint attributes[] = {
         EGL_CONTEXT_MAJOR_VERSION,
         4,
@@ -171,13 +163,29 @@ ContextOrReason make_context(const Place& place, DebugContext debug) {
         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
         EGL_CONTEXT_OPENGL_DEBUG,
         debug == DebugContext::yes ? EGL_TRUE : EGL_FALSE,
+        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+        reset_strategy(notice),
         EGL_NONE,
     };
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+}
+
+/// One that tells when the driver was reset, where there is such a one.
+ContextOrReason make_context(const Place& place, DebugContext debug) {
+    const Doing starting(fmt::format("starting OpenGL on '{}'", place.name), Doing::Kind::start);
+    const auto display = open_display(place);
+    if (!display)
+        return tl::unexpected(display.error());
     eglBindAPI(EGL_OPENGL_API);
-    EGLContext made = eglCreateContext(*display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    const bool offered =
+        has_word(eglQueryString(*display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness");
+    auto notice = offered ? ResetNotice::yes : ResetNotice::no;
+    EGLContext made = create_context(*display, debug, notice);
+    if (made == EGL_NO_CONTEXT && offered)
+        made = create_context(*display, debug, notice = ResetNotice::no);
     if (made == EGL_NO_CONTEXT)
         return tl::unexpected(fmt::format("the driver has no OpenGL 4.5 core ({})", last_egl_error()));
-    auto context = std::make_unique<CurrentContext>(*display, made);
+    auto context = std::make_unique<CurrentContext>(*display, made, notice);
     if (!context->make_current())
         return tl::unexpected(fmt::format("the driver needs a surface ({})", last_egl_error()));
     return context;
@@ -280,7 +288,7 @@ Result<HeadlessContext> HeadlessContext::create(const DeviceChoice& choice, Debu
     for (const Place& place : chosen) {
         ContextOrReason context = make_context(place, debug);
         // What EGL calls a card may still hand out the CPU: the renderer's own name decides.
-        if (context && choice.gpu_only && is_software(gl_string(GL_RENDERER)))
+        if (context && choice.gpu_only && is_software_renderer(gl_string(GL_RENDERER)))
             context = tl::unexpected(fmt::format("draws on the CPU ({})", gl_string(GL_RENDERER)));
         if (context)
             return HeadlessContext(std::make_unique<State>(State{std::move(*context), place.name}));
@@ -297,7 +305,8 @@ Result<void> HeadlessContext::make_current() {
 }
 
 Result<SharedContext> HeadlessContext::create_context() {
-    return SharedContext::create(state_->context->display, state_->context->context, EGL_NO_SURFACE);
+    return SharedContext::create(state_->context->display, state_->context->context, EGL_NO_SURFACE,
+                                 state_->context->notice);
 }
 
 const std::string& HeadlessContext::device() const {

@@ -8,25 +8,31 @@
 
 namespace tidemark::platform {
 
-Result<SharedContext> SharedContext::create(void* display, void* first, void* surface) {
+int reset_strategy(ResetNotice notice) {
+    return notice == ResetNotice::yes ? EGL_LOSE_CONTEXT_ON_RESET : EGL_NO_RESET_NOTIFICATION;
+}
+
+Result<SharedContext> SharedContext::create(void* display, void* first, void* surface, ResetNotice notice) {
     EGLint wanted[] = {EGL_CONFIG_ID, 0, EGL_NONE};
     EGLConfig config = EGL_NO_CONFIG_KHR; // as a context without surfaces has it
     EGLint count = 0;
     eglQueryContext(display, first, EGL_CONFIG_ID, &wanted[1]);
     if (wanted[1] != 0)
         eglChooseConfig(display, wanted, &config, 1, &count);
-    constexpr EGLint k_version[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    4,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    5,
-                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                    EGL_NONE};
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                 4,
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                 reset_strategy(notice),
+                                 EGL_NONE};
     eglBindAPI(EGL_OPENGL_API); // each thread has its own
     SharedContext made;
     made.display_ = display;
     made.window_ = surface;
-    made.context_ = eglCreateContext(display, config, first, k_version);
+    made.context_ = eglCreateContext(display, config, first, attributes);
     if (made.context_)
         return made;
     return fail(ErrorCode::no_context,

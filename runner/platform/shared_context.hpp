@@ -7,11 +7,18 @@
 namespace tidemark::platform {
 
 /// Must not outlive the one that it was made beside. Current on one thread at a time.
+/// Whether a context is made so that it tells when the driver was reset. Those that share are alike in that.
+enum class ResetNotice { no, yes };
+
+/// The value of EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY.
+int reset_strategy(ResetNotice notice);
+
 class SharedContext {
 public:
     /// Beside `first`, which belongs to `display`; `surface`: of its window, null where it has none. All are
-    /// EGL's. ErrorCode::no_context, with the reason, when the driver gives none.
-    static Result<SharedContext> create(void* display, void* first, void* surface);
+    /// EGL's; `notice` is that of `first`. ErrorCode::no_context, with the reason, when the driver gives
+    /// none.
+    static Result<SharedContext> create(void* display, void* first, void* surface, ResetNotice notice);
     SharedContext(SharedContext&& other) noexcept;
     SharedContext& operator=(SharedContext&& other) noexcept;
     /// Must be current on no other thread.

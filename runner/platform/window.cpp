@@ -47,11 +47,21 @@ bool library_runs() {
 }
 
 /// Hidden: it is moved first.
-GLFWwindow* open_window(Extent size, const char* title, bool on_top) {
+GLFWwindow* open_window(Extent size, const char* title, bool on_top, ResetNotice notice) {
     hint_window();
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS,
+                   notice == ResetNotice::yes ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
     glfwWindowHint(GLFW_FLOATING, on_top ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     return glfwCreateWindow(size.width, size.height, title, nullptr, nullptr);
+}
+
+/// On Wayland a swap that waits, waits for a hidden window to be shown, and events and Ctrl-C with it. A
+/// compositor there tears no picture, and frames go by our own clock in any case.
+int swap_interval() {
+    const bool wayland = is_set("WAYLAND_DISPLAY") &&
+                         std::string_view(glfwGetVersionString()).find("Wayland") != std::string_view::npos;
+    return wayland ? 0 : 1;
 }
 
 Button button_from_glfw(int button) {
@@ -66,6 +76,7 @@ Button button_from_glfw(int button) {
 struct Window::State {
     Library library;
     GlfwWindow window;
+    ResetNotice notice = ResetNotice::no;
     std::vector<InputEvent> events{};
     Extent framebuffer{};
     Extent screen{};     ///< the same area in GLFW's screen coordinates
@@ -156,13 +167,18 @@ Result<Window> Window::create(Extent logical_size, const std::string& title, con
     if (!glfwInit())
         return cannot_open(last_glfw_error());
     auto state = std::make_unique<State>();
-    state->window.reset(open_window(logical_size, printable_line(title).c_str(), wishes.on_top));
+    for (const ResetNotice notice : {ResetNotice::yes, ResetNotice::no}) {
+        if (state->window)
+            break;
+        state->notice = notice;
+        state->window.reset(open_window(logical_size, printable_line(title).c_str(), wishes.on_top, notice));
+    }
     if (!state->window)
         return cannot_open(last_glfw_error());
     TRY(move_to_wished(state->window.get(), wishes));
     glfwShowWindow(state->window.get());
     glfwMakeContextCurrent(state->window.get());
-    glfwSwapInterval(1);
+    glfwSwapInterval(swap_interval());
     state->listen();
     return Window(std::move(state));
 }
@@ -173,7 +189,8 @@ void Window::make_current() {
 
 Result<SharedContext> Window::create_context() {
     GLFWwindow* window = state_->window.get();
-    return SharedContext::create(glfwGetEGLDisplay(), glfwGetEGLContext(window), glfwGetEGLSurface(window));
+    return SharedContext::create(glfwGetEGLDisplay(), glfwGetEGLContext(window), glfwGetEGLSurface(window),
+                                 state_->notice);
 }
 
 std::vector<InputEvent> Window::poll() {

@@ -382,6 +382,19 @@ Image Renderer::read_back(size_t pass) const {
     return image;
 }
 
+bool Renderer::read_ahead(gl::PixelRing& ring) const {
+    const Doing drawing = doing(k_drawing, scene());
+    const Extent extent = target().extent();
+    return ring.read(target(), extent, GL_RGBA, type_of(samples()),
+                     extent.pixels() * 4 * image::size_of(samples()));
+}
+
+Image Renderer::take(gl::PixelRing& ring) const {
+    const Doing drawing = doing(k_drawing, scene());
+    const auto pixels = ring.take();
+    return {target().extent(), 4, samples(), {pixels.begin(), pixels.end()}};
+}
+
 Image Renderer::read_floats(size_t pass, int face) const {
     const Doing drawing = doing(k_drawing, scene());
     const gl::RenderTarget& from = passes_[pass].target.latest();

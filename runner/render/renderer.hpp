@@ -4,6 +4,7 @@
 
 #include "base/result.hpp"
 #include "gl/elapsed_time.hpp"
+#include "gl/pixel_ring.hpp"
 #include "gl/program.hpp"
 #include "image/image.hpp"
 #include "render/bound_channel.hpp"
@@ -96,6 +97,12 @@ public:
 
     /// The pixels of a pass in the plan, a cubemap's +x.
     image::Image read_back(size_t pass) const;
+
+    /// Begins to read the shown pass back; false where the driver has no memory for that. What is drawn from
+    /// then on is not seen.
+    bool read_ahead(gl::PixelRing& ring) const;
+    /// The oldest that is on its way, as `read_back` would have given it then.
+    image::Image take(gl::PixelRing& ring) const;
 
     /// Other values for the scene's knobs, in their order, from the next frame on.
     void turn(std::vector<scene::Knob> knobs) {

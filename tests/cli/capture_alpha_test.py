@@ -142,9 +142,10 @@ class Pictures(Alpha):
         def refused(words: str, *options: str) -> None:
             self.expect_failure(["capture", "a.glsl", "--alpha", *options], 2, f"tidemark: error: --alpha {options[0]}: {words}")
 
-        for name in ("a.jpg", "a.hdr", "a.mp4", "a.webm", "a.gif", "-"):
-            refused("that has no alpha: give a .png, .tif, .exr, .mov or .webp", "keep", "-o", name)
-        for name in ("a.png", "a.webp"):
+        for name in ("a.jpg", "a.hdr", "a.mp4", "a.gif", "-"):
+            refused("that has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", name)
+        refused("that has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", "a.webm", "--codec", "av1")
+        for name in ("a.png", "a.webp", "a.webm"):
             refused(f"readers of a {name[1:]} multiply themselves: give keep, or a .tif, .exr or .mov", "premultiplied", "-o", name)
         refused("what another pass holds is numbers: all four are in the file", "keep", "-o", "a.png", "--pass", "Buffer A")
         refused("give opaque, keep or premultiplied", "straight", "-o", "a.png")
@@ -169,6 +170,50 @@ class Videos(Alpha):
                 self.assertLessEqual(abs(planes[3 * 256 + 8 * 16 + x] - 4095 * alpha), 5, (kind, x))
         self.capture("b.mov", "--frames", "0-2")
         self.assertNotEqual((self.folder / "a.mov").read_bytes(), (self.folder / "b.mov").read_bytes())
+
+    def test_vp9(self):
+        """Halves of other colours and coverage, from segments with a sound."""
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = p.x < 32.0 ? vec4(1, 0, 0, 0.5) : vec4(0, 0, 1, 1); }\n")
+        self.capture("a.webm", "--alpha", "keep", "--frames", "0-6", "--size", "64x36", "--state-every", "3")
+        probed = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", "a.webm"],
+                                cwd=self.folder, stdout=subprocess.PIPE, check=True).stdout
+        stream, = json.loads(probed)["streams"]
+        self.assertEqual((stream["codec_name"], stream["nb_read_frames"], stream["color_space"]), ("vp9", "7", "bt709"))
+        self.assertEqual({key.lower(): value for key, value in stream["tags"].items()}["alpha_mode"], "1")
+        # ffmpeg's own decoder drops the alpha.
+        raw = subprocess.run(["ffmpeg", "-v", "error", "-c:v", "libvpx-vp9", "-i", "a.webm", "-pix_fmt", "rgba", "-f", "rawvideo", "-"],
+                             cwd=self.folder, stdout=subprocess.PIPE, check=True).stdout
+        self.assertEqual(len(raw), 7 * 64 * 36 * 4)
+        for frame in range(7):
+            for x, wanted in ((8, (255, 0, 0, 128)), (56, (0, 0, 255, 255))):
+                at = 4 * (frame * 64 * 36 + 18 * 64 + x)
+                for got, want in zip(raw[at:at + 4], wanted, strict=True):
+                    self.assertLessEqual(abs(got - want), 4, (frame, x, tuple(raw[at:at + 4])))
+        once = (self.folder / "a.webm").read_bytes()
+        self.assertEqual(self.capture("a.webm", "--alpha", "keep", "--frames", "0-6", "--size", "64x36"), once)
+
+    def test_webp_is_read_as_it_is_written(self):
+        """Its colours not multiplied by alpha: 0 where that is 0, which WebP drops."""
+        self.write("reads.glsl", '#iChannel0 "a.webp"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
+        self.capture("a.webp", "--alpha", "keep", "--frame", "0")
+        self.capture("b.png", "--alpha", "keep", scene="reads.glsl")
+        picture = png.read(self.folder / "b.png")
+        for x in range(1, 16):
+            self.assertEqual(picture.pixel(x, 5), (128, 64, 255, 17 * x))
+        self.write("a.glsl", SCENE.replace("0.5, 0.25, 1.0", "p / iResolution.xy, 1.0"))  # rows are where they were
+        self.capture("a.webp", "--alpha", "keep", "--frame", "0")
+        self.capture("b.png", "--alpha", "keep", scene="reads.glsl")
+        picture = png.read(self.folder / "b.png")
+        self.assertEqual([picture.pixel(9, y)[1] for y in (0, 15)], [8, 247])
+
+    def test_an_animation_is_divided_again(self):
+        self.write("reads.glsl", '#iChannel0 "a.webp"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
+        self.capture("a.webp", "--alpha", "keep", "--frames", "0-2")
+        self.capture("b.png", "--alpha", "keep", scene="reads.glsl")
+        picture = png.read(self.folder / "b.png")
+        for x in range(1, 16):
+            for got, want in zip(picture.pixel(x, 5), (128, 64, 255, 17 * x), strict=True):
+                self.assertLessEqual(abs(got - want), 128 / (17 * x) + 1)
 
     def test_webp_keeps_every_byte_that_is_seen(self):
         self.write("a.glsl", SCENE.replace("floor(p.x) / 15.0", "(floor(p.x) + 1.0) / 16.0"))

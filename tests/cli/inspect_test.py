@@ -283,7 +283,7 @@ class SelfTest(ProgramTest):
         self.assertTrue(devices)
         for device in devices:
             verdicts = {check["check"]: check for check in device["checks"]}
-            for name in ("read-back", "bytes", "arithmetic", "repeatability", "tiles", "doubles"):
+            for name in ("read-back", "read-ahead", "bytes", "arithmetic", "repeatability", "tiles", "doubles", "conformance"):
                 self.assertEqual(verdicts[name]["verdict"], "pass", verdicts[name])
             if "llvmpipe" in device["renderer"]:
                 self.assertEqual(verdicts["loops"]["verdict"], "warn")

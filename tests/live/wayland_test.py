@@ -1,4 +1,7 @@
 """The window on a Wayland compositor."""
+import signal
+import time
+
 from support import png, probe
 from support.live import wait_for
 from support.wayland import WaylandTest, main
@@ -46,6 +49,21 @@ class Wayland(WaylandTest):
         view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)
         self.assertEqual(view.stderr(), "")
+
+
+class Hidden(WaylandTest):
+    """On another workspace, where a compositor asks for no frames."""
+    CONFIG = "[shell]\nnum-workspaces=2\n"
+
+    def test_the_program_goes_on_and_can_be_ended(self):
+        self.write("a.glsl", PATTERN)
+        view = self.view("a.glsl", "--size", "200x100")
+        view.key("super+F2")
+        time.sleep(1)  # a second of frames that nobody sees
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(nothing); }")
+        view.wait_for_words(r"^a\.glsl:1:\d+: error: ")
+        view.program.send_signal(signal.SIGINT)
+        self.assertEqual(view.wait_for_end(), 130)
 
 
 if __name__ == "__main__":

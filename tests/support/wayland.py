@@ -42,12 +42,15 @@ def main() -> None:
 class Compositor(Screen):
     """A Screen with weston on it, whose windows are Wayland's."""
 
-    def __init__(self, *options: str) -> None:
+    def __init__(self, *options: str, config: str = "") -> None:
+        """`config`: what stands in a weston.ini; empty: there is none."""
         super().__init__()
         self.runtime = tempfile.mkdtemp(prefix="tidemark-wayland-")  # only its owner's: XDG_RUNTIME_DIR has to be
         self.log = open(pathlib.Path(self.runtime) / "log", "wb")
+        file = pathlib.Path(self.runtime) / "weston.ini"
+        file.write_text(config)
         self.weston = subprocess.Popen(
-            ["weston", "--no-config", "--backend=x11-backend.so", "--use-pixman", f"--socket={SOCKET}", "--idle-time=0",
+            ["weston", f"--config={file}" if config else "--no-config", "--backend=x11-backend.so", "--use-pixman", f"--socket={SOCKET}", "--idle-time=0",
              f"--width={SIZE[0]}", f"--height={SIZE[1]}", *options],
             env=environment(DISPLAY=self.display, XDG_RUNTIME_DIR=self.runtime), stdout=self.log, stderr=self.log)
         wait_for((pathlib.Path(self.runtime) / SOCKET).exists, "weston")
@@ -108,10 +111,11 @@ class WaylandView(View):
 
 class WaylandTest(LiveTest):
     screen: Compositor
+    CONFIG = ""
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.screen = Compositor()
+        cls.screen = Compositor(config=cls.CONFIG)
         cls.addClassCleanup(cls.screen.close)
 
     def view(self, scene: str, *options: str, **variables: str) -> WaylandView:

@@ -85,12 +85,13 @@ Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
     const Alpha alpha = text == "keep" ? Alpha::straight : Alpha::premultiplied;
     const auto holds = [&](Alpha kind) {
         const std::filesystem::path& name = plan.output.pattern();
-        return plan.output.video() ? image::video_holds_alpha(name, kind) : image::holds_alpha(name, kind);
+        return plan.output.video() ? image::video_holds_alpha(name, plan.codec, kind)
+                                   : image::holds_alpha(name, kind);
     };
     if (drawn_transfer(plan.frames.state.pass) == Transfer::data)
         return refuse("what another pass holds is numbers: all four are in the file");
     if (plan.output.standard_output() || !holds(Alpha::straight))
-        return refuse("that has no alpha: give a .png, .tif, .exr, .mov or .webp");
+        return refuse("that has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp");
     if (!holds(alpha))
         return refuse(fmt::format("readers of a {} multiply themselves: give keep, or a .tif, .exr or .mov",
                                   plan.output.pattern().extension().string()));

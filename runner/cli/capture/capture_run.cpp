@@ -11,6 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/scene_facts.hpp"
 #include "cli/version.hpp"
+#include "gl/reset.hpp"
 #include "image/census.hpp"
 #include "image/files/cubemap_file.hpp"
 #include "image/files/file_samples.hpp"
@@ -48,8 +49,11 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
     TRY(open_output());
+    if (draws_ahead())
+        ahead_.emplace(renderer_, watchdog_, plan_.timeout);
     if (!plan_.frames.frames.empty()) {
         prepare(interrupt);
+        TRY(check_driver("preparing the first frame"));
         restore();
         if (in_doubt_ && !plan_.output.standard_output())
             TRY(saver_.save_program());
@@ -57,13 +61,12 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     const bool resumable = can_be_resumed(plan_);
     Progress progress("frames", plan_.frames.frames.size());
     for (const int frame : plan_.frames.frames) {
-        FrameRecord record;
         Doing::note_frame(DoingPage::Frame{frame, true});
         if (resumable && whole_frames() > 0)
             Doing::note_resumable();
-        const auto outcome =
-            TRY(in_bands() ? make_in_tiles(frame, interrupt, record) : make(frame, interrupt, record));
+        const auto outcome = TRY(make(frame, interrupt));
         if (outcome == Outcome::interrupted) {
+            TRY(hand_over_all_ahead());
             if (video_)
                 video_->drop();
             else if (!sheet_)
@@ -74,9 +77,9 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         }
         if (outcome == Outcome::unwanted)
             break;
-        records_.push_back(std::move(record));
         progress.advance();
     }
+    TRY(hand_over_all_ahead());
     Doing::note_frame({});
     if (plan_.loop && whole_frames() > 0)
         TRY(close_loop(interrupt));
@@ -89,6 +92,18 @@ Result<bool> Capture::run(Interrupt& interrupt) {
 /// Else the frame is in memory as a whole: samples that are one tile each are, as videos want it.
 bool Capture::in_bands() const {
     return renderer_.tiles() && !(plan_.exposure.several() && renderer_.tiles()->count() == 1);
+}
+
+/// Not with --json, which says of each frame what it took by itself; nor where more is read of a frame than
+/// the picture on show, or in another way.
+bool Capture::draws_ahead() const {
+    const scene::PassKind shown = renderer_.shown_pass().kind;
+    const bool whole_in_memory =
+        !in_bands() && !plan_.exposure.several() && shown != scene::PassKind::cubemap;
+    const bool tells_non_finite =
+        shown == scene::PassKind::image || renderer_.samples() == image::SampleType::f32;
+    return plan_.frames.frames.size() > 1 && whole_in_memory && tells_non_finite && !plan_.layers &&
+           !plan_.json && FramesAhead::pays(driver_.renderer);
 }
 
 Result<void> Capture::open_output() {
@@ -139,24 +154,21 @@ Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord
     std::optional<Progress> steps;
     record.file = plan_.output.of_frame(frame).string();
     record.frame = frame;
-    const auto begun = Clock::now(); // the limit is on the frame and on all that lead to it
-    Result<void> saved;
+    work.begun = Clock::now(); // the limit is on the frame and on all that lead to it
+    Result<bool> saved = true;
     const auto steps_drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
             return false;
-        if (saver_.is_due(step)) {
-            if (writer_ && !writer_->drain()) // a state is newer than no frame in front of it
-                return false;
-            saved = saver_.save_buffers(step);
-            if (!saved)
-                return false;
-        }
-        if (step < last && !steps)
+        const bool long_way = step < last && !steps;
+        saved = prepare_for(step, long_way);
+        if (!saved || !*saved)
+            return false;
+        if (long_way)
             steps.emplace("frames stepped", size_t(last - step));
         else if (steps)
             steps->advance();
         work.start = Clock::now();
-        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout, begun);
+        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout, work.begun);
         return true;
     });
     TRY(std::move(saved));
@@ -164,18 +176,49 @@ Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord
     return steps_drawn.complete;
 }
 
+/// Hands over what is drawn before a long way, and saves the state where one is due: it is newer than no
+/// frame in front of it. False: a frame could not be written, and no more are wanted.
+Result<bool> Capture::prepare_for(int frame, bool long_way) {
+    const bool due = saver_.is_due(frame);
+    if ((due || long_way) && TRY(hand_over_all_ahead()) == Outcome::unwanted)
+        return false;
+    if (!due)
+        return true;
+    if (writer_ && !writer_->drain())
+        return false;
+    TRY(saver_.save_buffers(frame));
+    return true;
+}
+
 /// Nothing where it is interrupted.
-Result<std::optional<image::Image>> Capture::picture_of(int frame, const Interrupt& interrupt,
-                                                        FrameRecord& record) {
+Result<std::optional<DrawnFrame>> Capture::draw(int frame, const Interrupt& interrupt) {
+    DrawnFrame drawn;
     std::optional<Work> work(std::in_place);
-    if (!TRY(step_to(frame, interrupt, record, *work)))
+    if (!TRY(step_to(frame, interrupt, drawn.record, *work)))
         return std::nullopt;
-    auto drawn = plan_.exposure.several() ? draw_samples(frame, interrupt) : read_back();
-    if (!drawn)
+    auto picture = plan_.exposure.several() ? draw_samples(frame, interrupt) : read_back();
+    if (!picture)
         return std::nullopt;
-    image::Image image = *std::move(drawn);
-    record.milliseconds = milliseconds_since(work->start);
+    TRY(check_driver(fmt::format("drawing frame {}", frame)));
+    drawn.picture = *std::move(picture);
+    drawn.record.milliseconds = milliseconds_since(work->start);
     work.reset();
+    look_at(drawn);
+    return drawn;
+}
+
+/// Before pixels go anywhere. Those of frames in front are on disk where it fails.
+Result<void> Capture::check_driver(const std::string& doing) {
+    return gl::check_work(doing).map_error([&](Error error) {
+        if (writer_)
+            writer_->drain();
+        error.message += "; a smaller --size or --tile gives it less at once";
+        return error;
+    });
+}
+
+void Capture::look_at(DrawnFrame& drawn) {
+    auto& [record, image] = drawn;
     record.not_finite = count_not_finite(renderer_, image);
     if (keeps_alpha())
         record.no_coverage = image::pixels_of_no_coverage(image);
@@ -183,34 +226,71 @@ Result<std::optional<image::Image>> Capture::picture_of(int frame, const Interru
         image = image::in_bytes(std::move(image));
     if (plan_.loop)
         loop_.see(image);
-    return image;
 }
 
 /// Behind the last frame: one more is drawn, and goes nowhere.
 Result<bool> Capture::close_loop(const Interrupt& interrupt) {
-    FrameRecord behind;
-    return picture_of(frame_behind(plan_.frames.frames), interrupt, behind).map([](const auto& picture) {
-        return picture.has_value();
+    return draw(frame_behind(plan_.frames.frames), interrupt).map([](const auto& drawn) {
+        return drawn.has_value();
     });
 }
 
-Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt, FrameRecord& record) {
-    auto drawn = TRY(picture_of(frame, interrupt, record));
-    if (!drawn)
+Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt) {
+    if (in_bands())
+        return make_in_tiles(frame, interrupt);
+    if (ahead_)
+        return make_ahead(frame, interrupt);
+    auto drawn = TRY(draw(frame, interrupt));
+    return drawn ? hand_over(*std::move(drawn)) : Outcome::interrupted;
+}
+
+/// The frame is drawn while those before it are read back and handed over.
+Result<Capture::Outcome> Capture::make_ahead(int frame, const Interrupt& interrupt) {
+    FrameRecord record;
+    Work work;
+    if (!TRY(step_to(frame, interrupt, record, work)))
         return Outcome::interrupted;
-    image::Image image = *std::move(drawn);
+    work.watch.reset();
+    std::optional<DrawnFrame> before;
+    if (ahead_->full())
+        before = ahead_->take();
+    const bool added = ahead_->add(record, work.begun);
+    auto outcome = before ? TRY(hand_over_ahead(*std::move(before))) : Outcome::made;
+    if (added || outcome == Outcome::unwanted)
+        return outcome;
+    outcome = TRY(hand_over_all_ahead()); // the driver has no memory for one more: each waits from now on
+    ahead_.reset();
+    return outcome == Outcome::made ? hand_over_ahead({record, read_back()}) : outcome;
+}
+
+Result<Capture::Outcome> Capture::hand_over_ahead(DrawnFrame drawn) {
+    TRY(check_driver(fmt::format("drawing frame {}", drawn.record.frame)));
+    look_at(drawn);
+    return hand_over(std::move(drawn));
+}
+
+Result<Capture::Outcome> Capture::hand_over_all_ahead() {
+    auto outcome = Outcome::made;
+    while (ahead_ && !ahead_->empty() && outcome == Outcome::made)
+        outcome = TRY(hand_over_ahead(ahead_->take()));
+    return outcome;
+}
+
+Result<Capture::Outcome> Capture::hand_over(DrawnFrame drawn) {
     if (plan_.json) {
         Sha256 hash;
-        add_rows(hash, image);
-        record.sha256 = hash.digits();
+        add_rows(hash, drawn.picture);
+        drawn.record.sha256 = hash.digits();
     }
-    return deliver(record, std::move(image)).map([](bool wanted) {
-        return wanted ? Outcome::made : Outcome::unwanted;
-    });
+    if (!TRY(deliver(drawn.record, std::move(drawn.picture))))
+        return Outcome::unwanted;
+    records_.push_back(std::move(drawn.record));
+    return Outcome::made;
 }
 
 /// The limit is on the frame; what is told to go on for long is a tile.
-Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record) {
+Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& interrupt) {
+    FrameRecord record;
     Work work;
     if (!TRY(step_to(frame, interrupt, record, work)))
         return Outcome::interrupted;
@@ -226,8 +306,11 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
         return !interrupt.requested();
     };
-    auto drawn = render::draw_bands(renderer_, exposed, before_tile,
-                                    [&](image::Image band) { return bands.take(std::move(band)); });
+    auto drawn = render::draw_bands(renderer_, exposed, before_tile, [&](image::Image band) {
+        return check_driver(fmt::format("drawing frame {}", frame)).and_then([&] {
+            return bands.take(std::move(band));
+        });
+    });
     if (drawn && *drawn) {
         progress.advance();
         drawn = bands.finish().map([] { return true; });
@@ -241,6 +324,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     record.sha256 = bands.sha256();
     record.not_finite = bands.not_finite();
     record.no_coverage = keeps_alpha() ? bands.no_coverage() : 0;
+    records_.push_back(std::move(record));
     return Outcome::made;
 }
 
@@ -339,7 +423,7 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
                            {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
                             {"Pass", renderer_.shown_pass().name},
                             {"Precision", name_of(renderer_.precision())},
-                            {"Driver", fmt::format("{}, OpenGL {}", driver_.renderer, driver_.version)}});
+                            {"Driver", fmt::format("{}, OpenGL {}", driver_.device(), driver_.version)}});
     if (keeps_alpha())
         format.metadata.emplace_back("Alpha",
                                      plan_.alpha == image::Alpha::straight ? "straight" : "premultiplied");

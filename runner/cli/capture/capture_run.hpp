@@ -3,6 +3,7 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
+#include "cli/capture/frames_ahead.hpp"
 #include "cli/capture/loop_check.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/state_saver.hpp"
@@ -16,7 +17,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -24,18 +24,6 @@
 #include <vector>
 
 namespace tidemark::cli {
-
-/// What became of one frame, for `--json`. What it showed is asked of its number anew: of 10,000 frames their
-/// states would be 30 MB.
-struct FrameRecord {
-    int frame = 0;
-    std::string file;
-    std::string sha256;
-    double milliseconds = 0;
-    size_t not_finite = 0;   ///< pixels
-    size_t no_coverage = 0;  ///< pixels of an alpha that is kept and below 0 or above 1
-    size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
-};
 
 class Capture {
 public:
@@ -59,11 +47,12 @@ public:
     nlohmann::ordered_json report() const;
 
 private:
-    using Clock = std::chrono::steady_clock;
+    using Clock = Watchdog::Clock;
     enum class Outcome { made, interrupted, unwanted };
     /// On one frame.
     struct Work {
-        Clock::time_point start = Clock::now();
+        Clock::time_point begun = Clock::now(); ///< with all that leads to it
+        Clock::time_point start = begun;
         std::optional<Watchdog::Watch> watch;
     };
 
@@ -71,12 +60,19 @@ private:
     bool keeps_alpha() const { return plan_.alpha != image::Alpha::where_needed; }
     void prepare(Interrupt& interrupt);
     void restore();
+    bool draws_ahead() const;
+    Result<Outcome> make(int frame, const Interrupt& interrupt);
+    Result<Outcome> make_ahead(int frame, const Interrupt& interrupt);
+    Result<Outcome> hand_over_ahead(DrawnFrame drawn);
+    Result<Outcome> hand_over_all_ahead();
     Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
-    Result<std::optional<image::Image>> picture_of(int frame, const Interrupt& interrupt,
-                                                   FrameRecord& record);
-    Result<Outcome> make(int frame, const Interrupt& interrupt, FrameRecord& record);
+    Result<bool> prepare_for(int frame, bool long_way);
+    Result<std::optional<DrawnFrame>> draw(int frame, const Interrupt& interrupt);
+    Result<void> check_driver(const std::string& doing);
+    void look_at(DrawnFrame& drawn);
+    Result<Outcome> hand_over(DrawnFrame drawn);
     Result<bool> close_loop(const Interrupt& interrupt);
-    Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt, FrameRecord& record);
+    Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt);
     Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
     image::Image read_back() const;
     std::optional<image::Image> draw_samples(int frame, const Interrupt& interrupt);
@@ -103,7 +99,8 @@ private:
     std::optional<SegmentedVideo> video_;
     std::optional<Sheet> sheet_; ///< none of these: frames go to standard output
     LoopCheck loop_;
-    Watchdog watchdog_; ///< last: its thread may use the writer
+    Watchdog watchdog_; ///< its thread may use the writer
+    std::optional<FramesAhead> ahead_;
     std::vector<FrameRecord> records_;
 };
 

@@ -155,7 +155,7 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
                     fmt::format("-o {}: give an .mp4, an .mkv, a .webm, a .mov, a .gif or a .webp", name));
     plan.codec = TRY(parse_codec(options.codec, plan.output));
     if (plan.alpha != image::Alpha::where_needed &&
-        !image::video_holds_alpha(plan.output.pattern(), plan.alpha))
+        !image::video_holds_alpha(plan.output.pattern(), plan.codec, plan.alpha))
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: the frames have an alpha that it cannot hold: give a .mov", name));
     if (plan.alpha == image::Alpha::premultiplied)

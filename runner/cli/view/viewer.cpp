@@ -8,6 +8,7 @@
 #include "cli/not_finite.hpp"
 #include "cli/options.hpp"
 #include "gl/blit.hpp"
+#include "gl/reset.hpp"
 #include "image/files/picture_file.hpp"
 
 #include <fmt/format.h>
@@ -100,12 +101,23 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         rest_unwatched(now);
         if (wants_frame(now))
             draw(now);
+        TRY(check_driver());
         look_for_numbers(now_seconds());
         show_title(now);
         sound_->follow(clock_.time(now), !clock_.paused());
     }
     leave();
     return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
+}
+
+/// What is recorded or being saved is written first.
+Result<void> Viewer::check_driver() {
+    const auto reason = gl::reset_reason();
+    if (!reason)
+        return {};
+    was_reset_ = true;
+    TRY(finish());
+    return fail(ErrorCode::timed_out, fmt::format("the graphics driver was reset: {}", *reason));
 }
 
 /// First to what was done while a frame held the window: it was meant for what people saw then.

@@ -63,6 +63,12 @@ public:
     /// Until the person closes it or interrupts the program. Fails as LiveScene::follow does.
     Result<int> run(const Interrupt& interrupt);
 
+    /// `run` failed because the graphics driver was reset: what it showed goes on in another Viewer.
+    bool was_reset() const { return was_reset_; }
+    /// The scene as it was asked for last, and what the next window begins with.
+    const SceneRequest& request() const { return scene_.request(); }
+    std::optional<Remembered> state() const;
+
     /// Has `run` look after what happened. From any thread.
     void wake() const { screen_->wake(); }
 
@@ -135,6 +141,7 @@ private:
     void keep_moment();
     void take_up(const Remembered& left);
     void leave() const;
+    Result<void> check_driver();
     void carry_out(const live::KeepView&) { keep_moment(); }
     void carry_out(const live::GoToView& command);
     void carry_out(const live::ForgetView& command);
@@ -250,6 +257,7 @@ private:
     double clock_shown_at_ = 0;                            ///< the one of a frame that is drawn for long
     bool parts_fail_ = false;                              ///< there is no memory for them
     bool save_due_ = false;                                ///< the next frame is to be saved
+    bool was_reset_ = false;                               ///< the graphics driver
     bool has_frame_ = false; ///< of the text on show, and nothing began anew since
     Controls controls_;
     render::RenderScale scale_;

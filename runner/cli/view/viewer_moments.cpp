@@ -126,11 +126,16 @@ void Viewer::take_up(const Remembered& left) {
     say(fmt::format("as you left it: {}; --fresh starts anew", words_of(left)));
 }
 
+std::optional<Remembered> Viewer::state() const {
+    if (!stage_)
+        return settings_.left;
+    return Remembered{moment(), screen_->place(), scale_, controls_open_, views_, controllers_.bindings()};
+}
+
 /// For the next window of the scene.
 void Viewer::leave() const {
     if (settings_.remembers && stage_)
-        remember(settings_.scene.path,
-                 {moment(), screen_->place(), scale_, controls_open_, views_, controllers_.bindings()});
+        remember(settings_.scene.path, *state());
 }
 
 } // namespace tidemark::cli

@@ -5,17 +5,22 @@
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/view/rehearsal.hpp"
+#include "cli/view/wall_clock.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
 #include "render/sound_renderer.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace tidemark::cli {
 namespace {
 
 constexpr Extent k_played{16, 16};
+
+/// Seconds. A scene whose first frames are too much for the driver would have it reset for ever.
+constexpr double k_shortest_life = 5;
 
 /// In a process of its own: all that the screen will have its driver do, once, small and unseen. What
 /// is wrong otherwise, the screen's own driver says.
@@ -36,6 +41,19 @@ void play(const SceneRequest& request, const std::string& pass) {
     renderer->warm_up({});
     renderer->draw({});
     renderer->read_back();
+}
+
+/// Empty: a scene whose driver was reset goes on in another window.
+std::string why_not_again(const Viewer::Settings& settings, double life) {
+    if (!settings.record.empty())
+        return fmt::format("what was recorded is in {}", settings.record.path().string());
+    if (settings.frames.input)
+        return "the recording cannot go on from there";
+    if (life < k_shortest_life)
+        return "so soon after it was opened, the window is not opened again: `tidemark capture` draws this "
+               "scene "
+               "in small parts with --tile 64";
+    return "";
 }
 
 } // namespace
@@ -69,16 +87,28 @@ Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence fra
 
 Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
     Interrupt interrupt;
-    auto viewer = TRY(Viewer::open(std::move(settings), open_screen));
-    const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
-    auto outcome = viewer.run(interrupt);
-    if (viewer.busy()) {
-        if (!outcome)
-            say(outcome.error());
-        finish_diagnostics(true);
-        ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+    while (true) {
+        const double opened = now_seconds();
+        auto viewer = TRY(Viewer::open(settings, open_screen));
+        const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
+        auto outcome = viewer.run(interrupt);
+        if (viewer.busy()) {
+            if (!outcome)
+                say(outcome.error());
+            finish_diagnostics(true);
+            ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+        }
+        if (!viewer.was_reset())
+            return outcome;
+        if (const std::string why = why_not_again(settings, now_seconds() - opened); !why.empty()) {
+            outcome.error().message += "; " + why;
+            return outcome;
+        }
+        outcome.error().message += "; the window is opened again";
+        say(outcome.error());
+        settings.left = viewer.state();
+        settings.scene = viewer.request();
     }
-    return outcome;
 }
 
 } // namespace tidemark::cli

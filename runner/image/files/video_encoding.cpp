@@ -16,11 +16,16 @@ using Words = std::vector<std::string>;
 
 /// The filter that makes rows go from the top down and says by which matrix colours were coded.
 constexpr const char* k_upright_bt709 = "vflip,scale=out_color_matrix=bt709:out_range=tv";
+constexpr const char* k_bt709 = "scale=out_color_matrix=bt709:out_range=tv";
 constexpr const char* k_palettes = "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
 
 Words with(Words words, std::initializer_list<const char*> more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
+}
+
+Words libvpx(std::initializer_list<const char*> more) {
+    return with({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-cpu-used", "4", "-row-mt", "1"}, more);
 }
 
 Words tagged(Words encoder) {
@@ -40,8 +45,7 @@ Words h264(const VideoFormat& format, std::string_view) {
 }
 
 Words vp9(const VideoFormat&, std::string_view) {
-    return bt709({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-cpu-used", "4", "-row-mt", "1",
-                  "-pix_fmt", "yuv420p"});
+    return bt709(libvpx({"-pix_fmt", "yuv420p"}));
 }
 
 /// Its own words in the file would name its threads. Players of Apple's want the tag.
@@ -104,6 +108,10 @@ const std::vector<VideoEncoding>& encodings() {
     static const Words mp4{"-c:v", "copy", "-c:a", "aac", "-b:a", "192k", "-movflags", "+faststart"};
     static const Words mkv{"-c:v", "copy", "-c:a", "aac", "-b:a", "192k"};
     static const Words webm{"-c:v", "copy", "-c:a", "libopus"};
+    // A second stream inside, which no other file of segments has a place for, and frames that nobody sees
+    // would put out of step.
+    static const Words webm_alpha =
+        tagged(libvpx({"-vf", k_bt709, "-pix_fmt", "yuva420p", "-auto-alt-ref", "0", "-c:a", "libopus"}));
     static const Words gif{"-filter_complex", k_palettes, "-loop", "0"};
     static const Words webp{"-an", "-c:v", "libwebp_anim", "-lossless", "1", "-loop", "0"};
     static const Words mov{"-c:v", "copy", "-movflags", "+write_colr", "-c:a", "pcm_s16le"};
@@ -115,6 +123,7 @@ const std::vector<VideoEncoding>& encodings() {
         {".mkv", "hevc", true, {}, hevc, mkv},
         {".mkv", "av1", true, {}, av1, mkv},
         {".webm", "vp9", false, {}, vp9, webm},
+        {".webm", "vp9", false, {straight}, lossless, webm_alpha},
         {".webm", "av1", true, {}, av1, webm},
         {".mov", "prores", true, {straight, premultiplied}, prores, mov},
         {".gif", "", false, {}, lossless, gif},
@@ -127,10 +136,11 @@ std::string_view segment_extension(const VideoEncoding& encoding) {
     return encoding.codec == "prores" ? ".mov" : ".mp4";
 }
 
-const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec) {
+const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec, Alpha alpha) {
     const std::string extension = path.extension().string();
     const auto found = std::ranges::find_if(encodings(), [&](const VideoEncoding& encoding) {
-        return encoding.extension == extension && (codec.empty() || encoding.codec == codec);
+        return encoding.extension == extension && (codec.empty() || encoding.codec == codec) &&
+               (alpha == Alpha::where_needed || std::ranges::count(encoding.alphas, alpha) > 0);
     });
     return found == encodings().end() ? nullptr : &*found;
 }

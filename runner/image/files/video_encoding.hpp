@@ -13,8 +13,8 @@
 namespace tidemark::image {
 
 /// H.264, HEVC and AV1 (with AAC) in .mp4 and .mkv, VP9 and AV1 (with Opus) in .webm, ProRes 4444 (with PCM)
-/// in .mov; colours as BT.709. A GIF has a palette for each frame, a WebP all bytes of it: these two are
-/// encoded when they are whole; until then their frames are kept without loss.
+/// in .mov; colours as BT.709. A GIF has a palette for each frame, a WebP all bytes of it: these two, and
+/// VP9 with alpha, are encoded when they are whole; until then their frames are kept without loss.
 struct VideoEncoding {
     std::string_view extension;
     std::string_view codec;    ///< as --codec names it; empty: it has no name there
@@ -31,9 +31,10 @@ const std::vector<VideoEncoding>& encodings();
 /// Of the file that a segment is: MP4 has no ProRes.
 std::string_view segment_extension(const VideoEncoding& encoding);
 
-/// By the name's extension, and the codec (empty: the one that such a file has by nature); null where there
-/// is none.
-const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec = {});
+/// By the name's extension, the codec (empty: the one that such a file has by nature) and the alpha that it
+/// is to hold; null where there is none.
+const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec = {},
+                                 Alpha alpha = Alpha::where_needed);
 
 /// The first of the encoders of that codec which this ffmpeg has and which takes that size, as ffmpeg names
 /// it. Fails (ErrorCode::write) where there is none.

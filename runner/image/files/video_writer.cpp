@@ -119,7 +119,8 @@ bool is_video_name(const fs::path& path) {
 std::vector<std::string_view> codecs_of(const fs::path& path) {
     std::vector<std::string_view> codecs;
     for (const VideoEncoding& encoding : encodings())
-        if (encoding.extension == path.extension().string() && !encoding.codec.empty())
+        if (encoding.extension == path.extension().string() && !encoding.codec.empty() &&
+            std::ranges::find(codecs, encoding.codec) == codecs.end())
             codecs.push_back(encoding.codec);
     return codecs;
 }
@@ -129,9 +130,8 @@ bool has_ten_bits(const fs::path& path, std::string_view codec) {
     return encoding && encoding->ten_bits;
 }
 
-bool video_holds_alpha(const fs::path& path, Alpha alpha) {
-    const VideoEncoding* const encoding = encoding_of(path);
-    return encoding && std::ranges::find(encoding->alphas, alpha) != encoding->alphas.end();
+bool video_holds_alpha(const fs::path& path, std::string_view codec, Alpha alpha) {
+    return encoding_of(path, codec, alpha) != nullptr;
 }
 
 std::string_view segment_extension(const fs::path& video) {
@@ -140,7 +140,7 @@ std::string_view segment_extension(const fs::path& video) {
 
 Result<SegmentWriter> SegmentWriter::create(const OutputPath& segment, const fs::path& video,
                                             const VideoFormat& format) {
-    const VideoEncoding* const encoding = encoding_of(video, format.codec);
+    const VideoEncoding* const encoding = encoding_of(video, format.codec, format.alpha);
     assert(encoding);
     auto staged = TRY(StagedFile::create(segment));
     const auto name = TRY(encoder_of(encoding->codec, format.extent));
@@ -182,7 +182,7 @@ std::optional<std::string> note_of_segment(const fs::path& segment) {
 
 Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile> segments,
                            const VideoFormat& format, const fs::path& sound) {
-    const VideoEncoding* const encoding = encoding_of(video.path(), format.codec);
+    const VideoEncoding* const encoding = encoding_of(video.path(), format.codec, format.alpha);
     assert(encoding);
     auto staged = TRY(StagedFile::create(video));
     auto joiner = TRY(start(words_for_joining(staged.path(), *encoding, sound), video.path()));

@@ -31,8 +31,9 @@ std::vector<std::string_view> codecs_of(const std::filesystem::path& path);
 /// Whether a video of that name and codec (empty: its own) has 10 bits a sample; else it has 8.
 bool has_ten_bits(const std::filesystem::path& path, std::string_view codec);
 
-/// Whether a video of that name may hold alpha in that way: .webp straight, .mov in both.
-bool video_holds_alpha(const std::filesystem::path& path, Alpha alpha);
+/// Whether a video of that name and codec (empty: its own) may hold alpha in that way: .webp and VP9
+/// straight, .mov in both.
+bool video_holds_alpha(const std::filesystem::path& path, std::string_view codec, Alpha alpha);
 
 /// Of the segments of a video of that name: `.mp4`, or `.mov`.
 std::string_view segment_extension(const std::filesystem::path& video);

@@ -1,5 +1,6 @@
 // The picture plug-in: the only place that knows OpenImageIO.
 #include "image/plugin/picture_codec.hpp"
+#include "image/plugin/webp_colours.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -345,6 +346,8 @@ DecodeResult decode_or_throw(FileFormat format, std::span<const std::byte> file)
     Image image({spec.width, spec.height}, channels, bytes ? SampleType::u8 : SampleType::f32);
     if (!read_samples(*input, spec, image))
         return cannot_decode(input->geterror());
+    if (format == FileFormat::webp)
+        restore_colours(file, image);
     return image;
 }
 

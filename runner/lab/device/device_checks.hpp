@@ -15,6 +15,7 @@ Result<DeviceAnswer> ask_large_sines();
 
 // Drawing (drawing_checks.cpp).
 Result<DeviceAnswer> ask_read_back();
+Result<DeviceAnswer> ask_read_ahead();
 Result<DeviceAnswer> ask_bytes();
 Result<DeviceAnswer> ask_repeatability();
 Result<DeviceAnswer> ask_tiles();
@@ -23,5 +24,9 @@ Result<DeviceAnswer> ask_loops();
 // What else the driver offers (driver_checks.cpp).
 Result<DeviceAnswer> ask_program_cache();
 Result<DeviceAnswer> ask_timer();
+Result<DeviceAnswer> ask_reset();
+
+// Whole projects (conformance_check.cpp).
+Result<DeviceAnswer> ask_conformance();
 
 } // namespace tidemark::lab

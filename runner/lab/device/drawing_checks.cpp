@@ -74,6 +74,38 @@ Result<DeviceAnswer> ask_read_back() {
                         fmt::format("{} floats are read bit by bit as they were written", floats)};
 }
 
+Result<DeviceAnswer> ask_read_ahead() {
+    constexpr int k_frames = 7;
+    auto renderer = TRY(renderer_of(k_busy, options_of(k_extent)));
+    std::vector<image::Image> at_once;
+    for (int frame = 0; frame < k_frames; ++frame) {
+        renderer.draw({.time = double(frame)});
+        at_once.push_back(renderer.read_back());
+    }
+    gl::PixelRing ring(2);
+    int taken = 0;
+    int wrong = 0;
+    const auto take = [&] { wrong += !same_bytes(renderer.take(ring), at_once[size_t(taken++)]); };
+    for (int frame = 0; frame < k_frames; ++frame) {
+        renderer.draw({.time = double(frame)});
+        if (ring.full())
+            take();
+        if (!renderer.read_ahead(ring))
+            return DeviceAnswer{Verdict::warn,
+                                "the driver has no memory to read pictures behind the drawing"};
+    }
+    while (!ring.empty())
+        take();
+    if (wrong > 0)
+        return DeviceAnswer{Verdict::fail,
+                            fmt::format("{} of {} pictures that are read behind the drawing have other bytes "
+                                        "(TIDEMARK_READ_BACK=at-once does without)",
+                                        wrong, k_frames)};
+    return DeviceAnswer{
+        Verdict::pass,
+        fmt::format("{} pictures read behind the drawing have the bytes of those read at once", k_frames)};
+}
+
 Result<DeviceAnswer> ask_bytes() {
     auto renderer =
         TRY(renderer_of("void mainImage(out vec4 c, in vec2 p) {"

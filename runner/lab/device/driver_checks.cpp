@@ -1,5 +1,8 @@
+#include "base/software_renderer.hpp"
 #include "base/try.hpp"
+#include "gl/capabilities.hpp"
 #include "gl/elapsed_time.hpp"
+#include "gl/reset.hpp"
 #include "lab/device/device_checks.hpp"
 #include "lab/device/sample_drawing.hpp"
 #include "lab/stopwatch.hpp"
@@ -49,6 +52,17 @@ Result<DeviceAnswer> ask_timer() {
         clocks.agree() ? Verdict::pass : Verdict::warn,
         fmt::format("the driver's timer is {:.2f} to {:.2f} times the wall clock around glFinish{}",
                     clocks.least, clocks.most, clocks.agree() ? "" : ": times are by the wall clock")};
+}
+
+Result<DeviceAnswer> ask_reset() {
+    if (gl::tells_resets())
+        return DeviceAnswer{Verdict::pass,
+                            "the driver says when it was reset: what it drew is not taken for a picture"};
+    if (is_software_renderer(gl::query_capabilities().renderer))
+        return DeviceAnswer{Verdict::pass, "the processor draws: there is no driver to be reset"};
+    return DeviceAnswer{
+        Verdict::warn,
+        "the driver does not say when it was reset: pictures drawn after that are not what they seem"};
 }
 
 } // namespace tidemark::lab

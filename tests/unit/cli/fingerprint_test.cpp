@@ -31,6 +31,10 @@ TEST(Fingerprint, names_what_differs) {
     EXPECT_EQ(run.of_frame({.frame = 3}).differences(run.of_frame({.frame = 4})),
               "another state of the frame");
     EXPECT_EQ(run.differences(run_of(plan_of("b"))), "another text of the scene");
+    gl::Capabilities processor; // whose reciprocals are rounded otherwise
+    processor.renderer = "one";
+    processor.processor = "AuthenticAMD";
+    EXPECT_EQ(run.differences(fingerprint_of_run(plan_of("a"), processor)), "another device or driver");
     CapturePlan channel = plan_of("a");
     channel.scene.passes[0].channels[2].sampling.vflip = false;
     EXPECT_EQ(run.differences(run_of(channel)), "other inputs");

@@ -1,0 +1,17 @@
+// Whether a driver draws on the processor, by the name that it gives itself.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace tidemark {
+
+/// `renderer`: what GL_RENDERER says.
+inline bool is_software_renderer(std::string_view renderer) {
+    constexpr std::array<std::string_view, 4> k_software{"llvmpipe", "softpipe", "SwiftShader", "Software"};
+    return std::ranges::any_of(
+        k_software, [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
+}
+
+} // namespace tidemark

@@ -1,0 +1,56 @@
+#include "gl/pixel_ring.hpp"
+
+#include <cassert>
+#include <limits>
+
+namespace tidemark::gl {
+
+size_t PixelRing::bytes() const {
+    size_t sum = 0;
+    for (const Buffer& buffer : buffers_)
+        sum += buffer.mapped.size();
+    return sum;
+}
+
+/// Mapped for good: nothing is asked of the driver then but whether the copy is done.
+bool PixelRing::make_room(Buffer& buffer, size_t bytes) const {
+    if (buffer.mapped.size() == bytes)
+        return true;
+    while (glGetError() != GL_NO_ERROR) { // an older error is not about this buffer
+    }
+    buffer = {};
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    buffer.handle = BufferHandle(id);
+    constexpr GLbitfield k_access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    glNamedBufferStorage(id, GLsizeiptr(bytes), nullptr, k_access | GL_CLIENT_STORAGE_BIT);
+    const void* const mapped =
+        glGetError() == GL_NO_ERROR ? glMapNamedBufferRange(id, 0, GLsizeiptr(bytes), k_access) : nullptr;
+    if (!mapped)
+        return false;
+    buffer.mapped = {static_cast<const std::byte*>(mapped), bytes};
+    return true;
+}
+
+bool PixelRing::read(const RenderTarget& target, Extent size, GLenum format, GLenum type, size_t bytes) {
+    assert(!full());
+    Buffer& buffer = buffers_[next_];
+    if (!make_room(buffer, bytes))
+        return false;
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.handle.id());
+    read_corner(target, size, format, type, 0, nullptr);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    waiting_.emplace_back();
+    next_ = (next_ + 1) % buffers_.size();
+    return true;
+}
+
+std::span<const std::byte> PixelRing::take() {
+    assert(!empty());
+    const size_t oldest = (next_ + buffers_.size() - waiting_.size()) % buffers_.size();
+    waiting_.front().wait(std::numeric_limits<int>::max());
+    waiting_.pop_front();
+    return buffers_[oldest].mapped;
+}
+
+} // namespace tidemark::gl

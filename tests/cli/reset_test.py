@@ -1,0 +1,80 @@
+"""A graphics driver that is reset, or has no memory: support/reset_driver.cpp, preloaded, says so at a draw of the test's
+choosing. The drawing itself goes on; what a real one loses with its context is for machines that have one."""
+import pathlib
+import shutil
+import unittest
+
+from support.program import PROGRAM, ProgramTest, environment, main, not_sanitized
+
+DRIVER = pathlib.Path(PROGRAM).parent / "tidemark_reset_driver.so"
+SCENE = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, fract(iTime), 1.0); }\n"
+LESS = "a smaller --size or --tile gives it less at once"
+GUILTY = f"what was drawn took too long for its watchdog, or broke it; {LESS}"
+SEQUENCE = ("capture", "a.glsl", "--size", "32x18", "--frames", "0-19", "-o", "out/f_%02d.png")
+
+
+@unittest.skipUnless(DRIVER.exists(), "the library that resets the driver is not built")
+class Reset(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.glsl", SCENE)
+        (self.folder / "out").mkdir()
+
+    def contents(self) -> dict[str, bytes]:
+        return {path.name: path.read_bytes() for path in (self.folder / "out").iterdir()}
+
+    def struck(self, *arguments: str, **faults: str):
+        """The program is prepared by one draw, and each frame is another."""
+        return self.run_program(*arguments, env=environment(LD_PRELOAD=str(DRIVER), **faults))
+
+    def expect_cut(self, fault: str, words: str, code: int, read_back: str) -> None:
+        self.succeed(*SEQUENCE)
+        whole = self.contents()
+        for name in whole:
+            (self.folder / "out" / name).unlink()
+        done = self.struck(*SEQUENCE, TIDEMARK_READ_BACK=read_back, **{fault: "6"})
+        self.assertEqual(done.returncode, code, done.stderr)
+        frame = len(self.contents())  # the next one is named
+        self.assertEqual(done.stderr, f"tidemark: error: the graphics driver {words.format(frame)}; {frame} frames are whole, "
+                                      "and the same command with --resume goes on\n")
+        self.assertEqual(self.contents(), {name: whole[name] for name in sorted(whole)[:frame]})
+        self.assertEqual(self.succeed(*SEQUENCE, "--resume").stderr.splitlines()[0], f"kept {frame} of 20 frames")
+        self.assertEqual(self.contents(), whole)
+
+    @not_sanitized
+    def test_sequences(self):
+        for read_back in ("at-once", "ahead"):
+            with self.subTest(read_back):
+                self.expect_cut("TIDEMARK_TEST_RESET", f"was reset while drawing frame {{}}: {GUILTY}", 5, read_back)
+                self.expect_cut("TIDEMARK_TEST_OUT_OF_MEMORY", f"ran out of memory while drawing frame {{}}; {LESS}", 4, read_back)
+
+    @not_sanitized
+    def test_tiles(self):
+        done = self.struck("capture", "a.glsl", "--size", "64x64", "--tile", "16", "-o", "out/a.png", TIDEMARK_TEST_RESET="6")
+        self.assertEqual(done.stderr, f"tidemark: error: the graphics driver was reset while drawing frame 0: {GUILTY}\n")
+        self.assertEqual((done.returncode, self.contents()), (5, {}))
+
+    @not_sanitized
+    def test_before_the_first_frame(self):
+        done = self.struck("capture", "a.glsl", "--size", "8x8", "-o", "out/a.png", TIDEMARK_TEST_RESET="1")
+        self.assertEqual(done.stderr, "tidemark: error: the graphics driver was reset while preparing the first frame: "
+                                      f"{GUILTY}\n")
+        self.assertEqual((done.returncode, self.contents()), (5, {}))
+
+    @not_sanitized
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_videos(self):
+        run = ("capture", "a.glsl", "--size", "32x18", "--frames", "0-19", "--state-every", "5", "-o", "out/a.mp4")
+        self.succeed(*run)
+        whole = self.contents()
+        (self.folder / "out/a.mp4").unlink()
+        done = self.struck(*run, TIDEMARK_TEST_RESET="14")  # frame 12
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn("reset while drawing frame 12", done.stderr)
+        self.assertIn("; 10 frames are whole, and the same command with --resume goes on\n", done.stderr)
+        self.assertIn("kept 10 of 20 frames", self.succeed(*run, "--resume").stderr)
+        self.assertEqual(self.contents(), whole)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,48 @@
+// Preloaded into the program under test: a graphics driver that is reset, or that has no memory, at a draw of
+// one's choosing. TIDEMARK_TEST_RESET and TIDEMARK_TEST_OUT_OF_MEMORY say at which, counted from 1; it is
+// told once, so that a context made afterwards is a good one.
+#include <dlfcn.h>
+
+#include <atomic>
+#include <cstdlib>
+
+namespace {
+
+constexpr unsigned k_out_of_memory = 0x0505;
+constexpr unsigned k_guilty = 0x8253;
+
+std::atomic<int> draws = 0;
+
+/// Whether that draw was made, and nobody was told yet.
+bool is_due(const char* variable, std::atomic<bool>& told) {
+    const char* const number = std::getenv(variable);
+    return number && draws >= std::atoi(number) && !told.exchange(true);
+}
+
+template <class Function>
+Function next(const char* name) {
+    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+} // namespace
+
+extern "C" {
+
+void glDrawArrays(unsigned mode, int first, int count) {
+    static const auto draw = next<void (*)(unsigned, int, int)>("glDrawArrays");
+    ++draws;
+    draw(mode, first, count);
+}
+
+unsigned glGetGraphicsResetStatus() {
+    static const auto status = next<unsigned (*)()>("glGetGraphicsResetStatus");
+    static std::atomic<bool> told = false;
+    return is_due("TIDEMARK_TEST_RESET", told) ? k_guilty : status();
+}
+
+unsigned glGetError() {
+    static const auto error = next<unsigned (*)()>("glGetError");
+    static std::atomic<bool> told = false;
+    return is_due("TIDEMARK_TEST_OUT_OF_MEMORY", told) ? k_out_of_memory : error();
+}
+}
