@@ -36,12 +36,12 @@ Slots& slots() {
     return *shared;
 }
 
-std::atomic<bool> ending = false;
+std::atomic<bool> process_ends = false;
 constexpr int k_last_moment_ms = 2;
 
 /// -1: they are all taken.
 int take(const char* path, pid_t child) {
-    while (ending)
+    while (process_ends)
         ::pause(); // another thread is about to end the process
     for (Slot& slot : slots()) {
         pid_t free = Slot::k_free;
@@ -63,7 +63,7 @@ void remove_files(pid_t self) {
 
 /// Children first, who may be about to make a file.
 void clear() {
-    ending = true;
+    process_ends = true;
     const pid_t self = ::getpid();
     for (const Slot& slot : slots())
         if (slot.owner == self && slot.child > 0) {

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace tidemark::cli {
 namespace {
@@ -230,9 +231,7 @@ void Capture::look_at(DrawnFrame& drawn) {
 
 /// Behind the last frame: one more is drawn, and goes nowhere.
 Result<bool> Capture::close_loop(const Interrupt& interrupt) {
-    return draw(frame_behind(plan_.frames.frames), interrupt).map([](const auto& drawn) {
-        return drawn.has_value();
-    });
+    return TRY(draw(frame_behind(plan_.frames.frames), interrupt)).has_value();
 }
 
 Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt) {
@@ -316,9 +315,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         drawn = bands.finish().map([] { return true; });
     }
     work.watch.reset();
-    if (!drawn)
-        return fail(std::move(drawn.error()));
-    if (!*drawn)
+    if (!TRY(std::move(drawn)))
         return Outcome::interrupted;
     record.milliseconds = milliseconds_since(work.start);
     record.sha256 = bands.sha256();
@@ -342,8 +339,8 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
 image::Image Capture::read_back() const {
     if (renderer_.shown_pass().kind != scene::PassKind::cubemap)
         return renderer_.read_back();
-    const image::CubeFaces faces = renderer_.read_back_cube();
-    return plan_.output.six_faces() ? image::column_of(faces) : image::equirectangular_of(faces);
+    const image::CubeFaces cube = renderer_.read_back_cube();
+    return plan_.output.six_faces() ? image::column_of(cube) : image::equirectangular_of(cube);
 }
 
 /// Nothing where it is interrupted.
@@ -406,8 +403,7 @@ Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
 std::vector<image::PictureLayer> Capture::layers_of(const FrameRecord& record, image::Image image) const {
     std::vector<image::PictureLayer> layers;
     layers.push_back({renderer_.shown_pass().name, std::move(image), format_of(record)});
-    for (image::PictureLayer& layer : other_layers(renderer_, *plan_.layers))
-        layers.push_back(std::move(layer));
+    std::ranges::move(other_layers(renderer_, *plan_.layers), std::back_inserter(layers));
     return layers;
 }
 
