@@ -3,6 +3,7 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
+#include "cli/capture/frame_records.hpp"
 #include "cli/capture/loop_check.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/state_saver.hpp"
@@ -25,18 +26,6 @@
 
 namespace tidemark::cli {
 
-/// What became of one frame, for `--json`. What it showed is asked of its number anew: of 10,000 frames their
-/// states would be 30 MB.
-struct FrameRecord {
-    int frame = 0;
-    std::string file;
-    std::string sha256;
-    double milliseconds = 0;
-    size_t not_finite = 0;   ///< pixels
-    size_t no_coverage = 0;  ///< pixels of an alpha that is kept and below 0 or above 1
-    size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
-};
-
 class Capture {
 public:
     /// `plan` and `compiled` must outlive it. `sound` is a WAV file for a video; empty: silent.
@@ -52,7 +41,7 @@ public:
     /// Frames that are whole on disk, those that were kept included: `--resume` goes on from them.
     size_t whole_frames();
 
-    const std::vector<FrameRecord>& records() const { return records_; }
+    const FrameRecords& records() const { return records_; }
     /// Of a sequence that is complete.
     const LoopCheck& loop() const { return loop_; }
     /// What `--json` prints.
@@ -103,8 +92,8 @@ private:
     std::optional<SegmentedVideo> video_;
     std::optional<Sheet> sheet_; ///< none of these: frames go to standard output
     LoopCheck loop_;
-    Watchdog watchdog_; ///< last: its thread may use the writer
-    std::vector<FrameRecord> records_;
+    FrameRecords records_;
+    Watchdog watchdog_; ///< last: its thread may use all of them
 };
 
 } // namespace tidemark::cli
