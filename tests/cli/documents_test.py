@@ -179,7 +179,7 @@ class Explained(unittest.TestCase):
         self.needs_the_window()
         there = {name for command in option_table.commands() for head, _ in option_table.options_of(command)
                  for name in option_table.names_of(head)} | {"--help", "--version"}
-        foreign = {"--long", "--rounds", "--preset", "--build", "--install", "--prefix"}  # of ./dev and CMake
+        foreign = {"--long", "--cluster", "--rounds", "--preset", "--build", "--install", "--prefix", "--array"}  # of ./dev, CMake and Slurm
         for page in PAGES:
             for quoted in re.findall(r"`[^`\n]*`", page.read_text()):
                 if "gtest" in quoted:

@@ -47,47 +47,45 @@ std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint&
     return too_new;
 }
 
-void say_what_was_written(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
+void say_what_was_written(const FrameRecords& records, const CapturePlan& plan) {
     if (plan.output.video() && plan.shard)
-        say(fmt::format("wrote {} frames of {}, in segments that `tidemark gather` joins", records.size(),
+        say(fmt::format("wrote {} frames of {}, in segments that `tidemark gather` joins", records.count(),
                         plan.output.pattern().string()));
     else if (plan.output.video())
         say(fmt::format(
-            "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.size(),
+            "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.count(),
             plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
     else if (plan.sheet)
-        say(fmt::format("wrote {}: {} moments, frames {} to {}", records.front().file, records.size(),
-                        records.front().frame, records.back().frame));
-    else if (records.size() == 1)
-        say(fmt::format("wrote {}", records.front().file));
-    else if (!records.empty())
-        say(fmt::format("wrote {} frames, {} to {}", records.size(), records.front().file,
-                        records.back().file));
+        say(fmt::format("wrote {}: {} moments, frames {} to {}", records.first().file, records.count(),
+                        records.first().frame, records.last().frame));
+    else if (records.count() == 1)
+        say(fmt::format("wrote {}", records.first().file));
+    else if (records.count() > 0)
+        say(fmt::format("wrote {} frames, {} to {}", records.count(), records.first().file,
+                        records.last().file));
 }
 
 /// One line for all frames, which begins with the first of them that has such pixels. Nothing where none
 /// has: a file does not show them.
-void warn_of(const std::vector<FrameRecord>& records, size_t FrameRecord::*pixels,
+void warn_of(const FrameRecords::Found& found,
              const std::function<std::string(const FrameRecord&, const std::string& others)>& words) {
-    const auto bad = [&](const FrameRecord& record) { return record.*pixels > 0; };
-    const auto first = std::ranges::find_if(records, bad);
-    if (first == records.end())
+    if (!found.first)
         return;
-    const auto others = std::ranges::count_if(first + 1, records.end(), bad);
+    const size_t others = found.count - 1;
     say("warning: " +
-        words(*first,
+        words(*found.first,
               others == 0 ? "" : fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")));
 }
 
-void say_what_pixels_hold(const std::vector<FrameRecord>& records, const CapturePlan& plan) {
-    warn_of(records, &FrameRecord::not_finite, [&](const FrameRecord& first, const std::string& others) {
+void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) {
+    warn_of(records.not_finite(), [&](const FrameRecord& first, const std::string& others) {
         return fmt::format("{} not finite{}; where from: {}",
                            pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
                            plan.trace_command(states_of(plan.frames)(first.frame)));
     });
     const bool clamped = !plan.to_picture_files() || plan.depth == image::SampleDepth::u8 ||
                          plan.depth == image::SampleDepth::u16;
-    warn_of(records, &FrameRecord::no_coverage, [&](const FrameRecord& first, const std::string& others) {
+    warn_of(records.no_coverage(), [&](const FrameRecord& first, const std::string& others) {
         return fmt::format("alpha is below 0 or above 1 in {} pixel{} of frame {}{}; {}", first.no_coverage,
                            first.no_coverage > 1 ? "s" : "", first.frame, others,
                            clamped ? "the file has 0 or 1" : "the file has it as it is");
@@ -115,7 +113,7 @@ void tidy_up(const CapturePlan& plan) {
 
 std::string interruption(const CapturePlan& plan, Capture& run) {
     const std::string words = words_on_resuming(plan, run.whole_frames());
-    return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().size(),
+    return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().count(),
                        plan.kept.size() + plan.frames.frames.size(),
                        plan.output.video() ? ": no video was written"
                        : plan.sheet        ? ": no sheet was written"

@@ -43,7 +43,7 @@ Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compil
     : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(compiled.renderer),
       in_doubt_(compiled.in_doubt), driver_(gl::query_capabilities()), states_(states_of(plan.frames)),
       stepper_(renderer_, states_), saver_(plan, fingerprint_, renderer_), sound_(std::move(sound)),
-      watchdog_([this] { rescue_output(); }) {}
+      records_(plan.json || plan.sheet.has_value()), watchdog_([this] { rescue_output(); }) {}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
@@ -283,7 +283,7 @@ Result<Capture::Outcome> Capture::hand_over(DrawnFrame drawn) {
     }
     if (!TRY(deliver(drawn.record, std::move(drawn.picture))))
         return Outcome::unwanted;
-    records_.push_back(std::move(drawn.record));
+    records_.add(std::move(drawn.record));
     return Outcome::made;
 }
 
@@ -321,7 +321,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     record.sha256 = bands.sha256();
     record.not_finite = bands.not_finite();
     record.no_coverage = keeps_alpha() ? bands.no_coverage() : 0;
-    records_.push_back(std::move(record));
+    records_.add(std::move(record));
     return Outcome::made;
 }
 
@@ -358,7 +358,7 @@ size_t Capture::whole_frames() {
     const size_t made = video_    ? video_->written()
                         : sheet_  ? size_t{0}
                         : writer_ ? writer_->written() / (plan_.output.six_faces() ? k_faces : 1)
-                                  : records_.size();
+                                  : records_.count();
     return plan_.kept.size() + made;
 }
 
@@ -434,14 +434,14 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
 
 /// What its moments share, and which they are.
 image::PictureFormat Capture::format_of_sheet() const {
-    image::PictureFormat format = format_of(records_.front());
+    image::PictureFormat format = format_of(records_.first());
     constexpr std::string_view k_of_one[] = {k_fingerprint, k_moment, "Frame", "iTime", "iMouse", "Camera"};
     std::erase_if(format.metadata, [&](const auto& fact) {
         return std::ranges::find(k_of_one, fact.first) != std::end(k_of_one);
     });
     std::vector<int> frames;
     std::vector<double> times;
-    for (const FrameRecord& record : records_) {
+    for (const FrameRecord& record : records_.list()) {
         frames.push_back(record.frame);
         times.push_back(states_(record.frame).seconds());
     }
@@ -477,7 +477,7 @@ nlohmann::ordered_json Capture::report() const {
     if (plan_.loop)
         report["loop"] = {{"closing_psnr", loop_.closing()}, {"step_psnr", loop_.step()}};
     report["frames"] = nlohmann::ordered_json::array();
-    for (const FrameRecord& record : records_) {
+    for (const FrameRecord& record : records_.list()) {
         const render::FrameState state = states_(record.frame);
         const glm::vec4 mouse = state.mouse.uniform();
         auto& frame = report["frames"].emplace_back(

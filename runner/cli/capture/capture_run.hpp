@@ -3,6 +3,7 @@
 
 #include "cli/capture/band_output.hpp"
 #include "cli/capture/capture_plan.hpp"
+#include "cli/capture/frame_records.hpp"
 #include "cli/capture/frames_ahead.hpp"
 #include "cli/capture/loop_check.hpp"
 #include "cli/capture/segmented_video.hpp"
@@ -40,7 +41,7 @@ public:
     /// Frames that are whole on disk, those that were kept included: `--resume` goes on from them.
     size_t whole_frames();
 
-    const std::vector<FrameRecord>& records() const { return records_; }
+    const FrameRecords& records() const { return records_; }
     /// Of a sequence that is complete.
     const LoopCheck& loop() const { return loop_; }
     /// What `--json` prints.
@@ -99,9 +100,9 @@ private:
     std::optional<SegmentedVideo> video_;
     std::optional<Sheet> sheet_; ///< none of these: frames go to standard output
     LoopCheck loop_;
-    Watchdog watchdog_; ///< its thread may use the writer
+    FrameRecords records_;
+    Watchdog watchdog_; ///< its thread may use all that stands before it
     std::optional<FramesAhead> ahead_;
-    std::vector<FrameRecord> records_;
 };
 
 } // namespace tidemark::cli
