@@ -1,5 +1,5 @@
 #include "base/try.hpp"
-#include "cli/candidates.hpp"
+#include "cli/help/candidates.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/value_check.hpp"

@@ -1,4 +1,4 @@
-#include "cli/candidates.hpp"
+#include "cli/help/candidates.hpp"
 
 #include "cli/help/pages.hpp"
 #include "cli/help/topics.hpp"
