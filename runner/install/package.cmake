@@ -9,8 +9,10 @@ file(WRITE ${documents}/changelog "${changelog}")
 execute_process(COMMAND gzip -9nc INPUT_FILE ${documents}/changelog
   OUTPUT_FILE ${documents}/changelog.gz COMMAND_ERROR_IS_FATAL ANY)
 
-# LICENSE as a field of a file of fields: indented, with a dot for an empty line.
+# What LICENSE permits, as a field of a file of fields: indented, with a dot for an empty line. Whose it is stands in
+# the fields before: others have given theirs in the same words.
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
+string(REGEX REPLACE "^.*(Permission is hereby)" "\\1" license "${license}")
 string(STRIP "${license}" license)
 string(REPLACE "\n\n" "\n.\n" license "${license}")
 string(REPLACE "\n" "\n " license " ${license}")

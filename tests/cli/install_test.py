@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import option_table
+from support import option_table, package_contents
 from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, has_context, main
 
 BUILD = pathlib.Path(PROGRAM).resolve().parent
@@ -47,6 +47,13 @@ class Installed(ProgramTest):
 
     def test_runs(self) -> None:
         self.assertEqual(self.installed("--version").stdout, self.succeed("--version").stdout.decode())
+
+    @unittest.skipUnless(shutil.which("ninja") and shutil.which("dpkg-query"), "no ninja, or no Debian")
+    def test_its_copyright_names_all_that_is_compiled_in(self) -> None:
+        text = (self.prefix / "share/doc/tidemark/copyright").read_text()
+        self.assertEqual(package_contents.unnamed(text, BUILD), [])
+        self.assertEqual(package_contents.unnamed(text.replace("libcli11-dev", "a library"), BUILD), ["libcli11-dev"])
+        self.assertEqual(package_contents.unnamed(text.replace("License: BSL-1.0\n Boost", "Boost"), BUILD), ["the words of BSL-1.0"])
 
     @unittest.skipUnless(shutil.which("desktop-file-validate"), "desktop-file-utils is not installed")
     def test_its_desktop_entry_is_valid_and_names_its_icon(self) -> None:
