@@ -145,7 +145,8 @@ class Cluster(ProgramTest):
             ratios.append(one / two)
             print(f"1,000 frames in two tasks: one node {one:.1f} s, two nodes {two:.1f} s, {one / two:.2f} times", flush=True)
         print(f"two nodes of one core against one: {statistics.median(ratios):.2f} times "
-              f"({min(ratios):.2f} to {max(ratios):.2f} in {RUNS} runs)", flush=True)
+              f"({min(ratios):.2f} to {max(ratios):.2f} in {RUNS} runs); {os.getloadavg()[0]:.1f} processes wanted "
+              f"{os.cpu_count()} cores", flush=True)
 
 
 if __name__ == "__main__":
