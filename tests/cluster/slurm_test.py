@@ -6,6 +6,7 @@ import re
 import shutil
 import statistics
 import sys
+import tempfile
 import time
 import unittest
 
@@ -46,12 +47,7 @@ class Cluster(ProgramTest):
         self.write("fb/image.glsl", IMAGE)
         self.write("fb/buffer_a.glsl", BUFFER)
         (self.folder / "slurm").mkdir()
-        self.slurm = Slurm(self.folder / "slurm")
-        try:
-            self.slurm.__enter__()
-        except CannotStart as reason:
-            self.fail(str(reason))
-        self.addCleanup(self.slurm.__exit__)
+        self.slurm = self.enterContext(Slurm(self.folder / "slurm"))
 
     def contents(self, name: str) -> dict[str, bytes]:
         return {path.name: path.read_bytes() for path in (self.folder / name).iterdir() if path.name != "shards.json"}
@@ -145,11 +141,22 @@ class Cluster(ProgramTest):
             ratios.append(one / two)
             print(f"1,000 frames in two tasks: one node {one:.1f} s, two nodes {two:.1f} s, {one / two:.2f} times", flush=True)
         print(f"two nodes of one core against one: {statistics.median(ratios):.2f} times "
-              f"({min(ratios):.2f} to {max(ratios):.2f} in {RUNS} runs)", flush=True)
+              f"({min(ratios):.2f} to {max(ratios):.2f} in {RUNS} runs); {os.getloadavg()[0]:.1f} processes wanted "
+              f"{os.cpu_count()} cores", flush=True)
+
+
+def cannot_start() -> str | None:
+    """Tried once, so that nobody has to read it out of a failed test."""
+    with tempfile.TemporaryDirectory(prefix="tidemark-slurm-") as folder:
+        try:
+            with Slurm(pathlib.Path(folder)):
+                return None
+        except CannotStart as reason:
+            return str(reason)
 
 
 if __name__ == "__main__":
-    reason = why_not() or (None if has_context() else "no OpenGL context")
+    reason = why_not() or (None if has_context() else "no OpenGL context") or cannot_start()
     if reason:
         print(f"skipped: {reason}")
         sys.exit(SKIPPED)
