@@ -1,4 +1,5 @@
 #include "base/try.hpp"
+#include "gl/pixel_ring.hpp"
 #include "lab/device/device_checks.hpp"
 #include "lab/device/sample_drawing.hpp"
 #include "render/bands.hpp"
