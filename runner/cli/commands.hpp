@@ -33,6 +33,8 @@ void add_compare(CLI::App& app, Action& chosen);
 void add_study(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);
 void add_help(CLI::App& app, Action& chosen);
+/// What it takes, each once.
+std::vector<std::string> help_topics();
 void add_tune(CLI::App& app, Action& chosen);
 void add_simplify(CLI::App& app, Action& chosen);
 void add_trace(CLI::App& app, Action& chosen);

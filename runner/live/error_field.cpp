@@ -30,7 +30,7 @@ Excerpt excerpt_of(std::string_view line, int column, size_t most) {
     const size_t first = place < most ? 0 : place - most / 2;
     const size_t begin = byte_of(text, first);
     text = text.substr(begin, byte_of(std::string_view(text).substr(begin), most));
-    return {std::move(text), column > 0 && !line.empty() ? std::string(place - first, ' ') + "^" : ""};
+    return {std::move(text), column > 0 ? std::string(place - first, ' ') + "^" : ""};
 }
 
 } // namespace tidemark::live

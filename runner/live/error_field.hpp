@@ -16,7 +16,7 @@ struct ErrorField {
 /// A piece of a line with the place in it that is meant.
 struct Excerpt {
     std::string text; ///< no tabs
-    std::string mark; ///< blanks and a caret for the line below; empty: no place, or no line
+    std::string mark; ///< blanks and a caret for the line below; empty: no place
 };
 
 /// At most so many characters of the line, with those round `column` (in bytes, from 1; 0: none) among them.

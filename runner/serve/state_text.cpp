@@ -62,8 +62,9 @@ Json errors_of(const std::vector<live::ErrorField>& fields) {
             break;
         const live::Excerpt excerpt =
             live::excerpt_of(field.line, field.diagnostic.where.column, k_longest_line);
-        errors.push_back(
-            {{"text", to_string(field.diagnostic)}, {"line", excerpt.text}, {"mark", excerpt.mark}});
+        errors.push_back({{"text", to_string(field.diagnostic)},
+                          {"line", excerpt.text},
+                          {"mark", field.line.empty() ? "" : excerpt.mark}});
     }
     return errors;
 }

@@ -1,7 +1,6 @@
 #include "cli/help/candidates.hpp"
 
-#include "cli/help/pages.hpp"
-#include "cli/help/topics.hpp"
+#include "cli/commands.hpp"
 #include "glsl/overrides.hpp"
 #include "lab/check/probe.hpp"
 #include "platform/headless_context.hpp"
@@ -67,14 +66,6 @@ Words names_in_scene(const Words& before, bool knobs) {
     return names;
 }
 
-Words topic_names() {
-    Words names;
-    for (const Topic& topic : topics_of(help_pages()))
-        if (std::ranges::find(names, topic.name) == names.end())
-            names.push_back(topic.name);
-    return names;
-}
-
 Words probe_names() {
     Words names;
     for (const lab::Probe& probe : lab::all_probes())
@@ -120,7 +111,7 @@ Words candidates(const CLI::App& app, const Words& words) {
     const bool wants_value = option && option->get_items_expected_max() > 0;
     Words found = wants_value ? values_of(*option, before) : commands_and_options(command);
     if (!wants_value && command.get_name() == "help")
-        std::ranges::copy(topic_names(), std::back_inserter(found));
+        std::ranges::copy(help_topics(), std::back_inserter(found));
     std::erase_if(found, [&](const std::string& word) { return !word.starts_with(words.back()); });
     return found;
 }

@@ -31,10 +31,7 @@ Result<int> help(const std::string& name) {
         std::find_if(topics.begin(), topics.end(), [&](const Topic& t) { return t.name == name; });
     if (topic != topics.end())
         return put(plain_text(topic->markdown)).map([] { return 0; });
-    std::vector<std::string> names;
-    for (const Topic& there : topics)
-        names.push_back(there.name);
-    const std::string nearest = nearest_name(name, names);
+    const std::string nearest = nearest_name(name, help_topics());
     return fail(ErrorCode::usage, fmt::format("no topic '{}': {}", name,
                                               nearest.empty() ? "`tidemark help` lists them"
                                                               : fmt::format("did you mean '{}'?", nearest)));
@@ -53,6 +50,14 @@ Result<int> write_man_pages(const CLI::App& program, const std::filesystem::path
 }
 
 } // namespace
+
+std::vector<std::string> help_topics() {
+    std::vector<std::string> names;
+    for (const Topic& topic : topics_of(help_pages()))
+        if (std::ranges::find(names, topic.name) == names.end())
+            names.push_back(topic.name);
+    return names;
+}
 
 void add_help(CLI::App& app, Action& chosen) {
     auto topic = std::make_shared<std::string>();

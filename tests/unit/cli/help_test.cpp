@@ -37,6 +37,13 @@ TEST(HelpText, a_narrow_table_stands_in_columns) {
               "  key  does\n  `S`  saves\n  `é`  half|full\n  H\n");
 }
 
+TEST(PlainText, gives_rows_of_tables_and_lines_of_examples) {
+    EXPECT_THAT(rows_of("a\n| key | [does](x.md) |\n|---|---|\n| `S` | saves |\n"),
+                ElementsAre(ElementsAre("key", "does"), ElementsAre("`S`", "saves")));
+    EXPECT_THAT(example_lines("```sh\none \\\n  more\ntwo\n```\nthree\n```\nfour\n```\n"),
+                ElementsAre("one \\\n  more", "two"));
+}
+
 TEST(HelpText, the_cells_of_a_wide_table_stand_below_each_other) {
     const std::string wide(50, 'x');
     EXPECT_EQ(plain_text("| " + wide + " | b | c |\n\nd\n"), "  " + wide + "\n      b\n      c\n\nd\n");
