@@ -23,7 +23,7 @@ Result<PassTarget> PassTarget::create(Extent extent, GLenum internal_format, con
             gl::make_render_target(gl::make_texture(extent, internal_format, plan.mipmaps ? 0 : 1));
         if (!surface)
             return fail(
-                ErrorCode::usage,
+                ErrorCode::write,
                 fmt::format("--size {}x{}: this driver has no memory for such a picture; give a smaller one",
                             extent.width, extent.height));
         target.surfaces_.push_back(*std::move(surface));
@@ -38,7 +38,7 @@ Result<PassTarget> PassTarget::create_cube(const TargetPlan& plan) {
         auto surface =
             gl::make_render_target(gl::make_cube_texture(k_cube_side, GL_RGBA16F, plan.mipmaps ? 0 : 1));
         if (!surface)
-            return fail(ErrorCode::load, "this driver has no memory for a cubemap pass");
+            return fail(ErrorCode::write, "this driver has no memory for a cubemap pass");
         target.surfaces_.push_back(*std::move(surface));
     }
     return target;
