@@ -19,7 +19,8 @@ inline constexpr int k_cube_side = 1024;
 class PassTarget {
 public:
     PassTarget() = default;
-    /// Fails (ErrorCode::usage) when the driver cannot have targets of that size.
+    /// Fails when the driver cannot have targets of that size (ErrorCode::usage), or has no memory for them
+    /// (ErrorCode::write).
     static Result<PassTarget> create(Extent extent, GLenum internal_format, const TargetPlan& plan);
     static Result<PassTarget> create_cube(const TargetPlan& plan);
 

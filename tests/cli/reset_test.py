@@ -62,6 +62,13 @@ class Reset(ProgramTest):
         self.assertEqual((done.returncode, self.contents()), (5, {}))
 
     @not_sanitized
+    def test_no_memory_for_the_picture(self):
+        done = self.struck("capture", "a.glsl", "--size", "2048x2048", "-o", "out/a.png", TIDEMARK_TEST_NO_TARGET="1")
+        self.assertEqual(done.stderr, "tidemark: error: --size 2048x2048: this driver has no memory for such a picture; "
+                                      "give a smaller one\n")
+        self.assertEqual((done.returncode, self.contents()), (4, {}))
+
+    @not_sanitized
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_videos(self):
         run = ("capture", "a.glsl", "--size", "32x18", "--frames", "0-19", "--state-every", "5", "-o", "out/a.mp4")

@@ -1,6 +1,7 @@
 // Preloaded into the program under test: a graphics driver that is reset, or that has no memory, at a draw of
 // one's choosing. TIDEMARK_TEST_RESET and TIDEMARK_TEST_OUT_OF_MEMORY say at which, counted from 1; it is
-// told once, so that a context made afterwards is a good one.
+// told once, so that a context made afterwards is a good one. With
+// TIDEMARK_TEST_NO_TARGET there is no memory for any picture to draw into.
 #include <dlfcn.h>
 
 #include <atomic>
@@ -12,6 +13,7 @@ constexpr unsigned k_out_of_memory = 0x0505;
 constexpr unsigned k_guilty = 0x8253;
 
 std::atomic<int> draws = 0;
+std::atomic<bool> target_failed = false; ///< and nobody asked yet
 
 /// Whether that draw was made, and nobody was told yet.
 bool is_due(const char* variable, std::atomic<bool>& told) {
@@ -34,6 +36,14 @@ void glDrawArrays(unsigned mode, int first, int count) {
     draw(mode, first, count);
 }
 
+/// Of new targets: that is when drivers take their memory.
+void glClearTexImage(unsigned texture, int level, unsigned format, unsigned type, const void* data) {
+    static const auto clear =
+        next<void (*)(unsigned, int, unsigned, unsigned, const void*)>("glClearTexImage");
+    target_failed = std::getenv("TIDEMARK_TEST_NO_TARGET") != nullptr;
+    clear(texture, level, format, type, data);
+}
+
 unsigned glGetGraphicsResetStatus() {
     static const auto status = next<unsigned (*)()>("glGetGraphicsResetStatus");
     static std::atomic<bool> told = false;
@@ -43,6 +53,8 @@ unsigned glGetGraphicsResetStatus() {
 unsigned glGetError() {
     static const auto error = next<unsigned (*)()>("glGetError");
     static std::atomic<bool> told = false;
+    if (target_failed.exchange(false))
+        return k_out_of_memory;
     return is_due("TIDEMARK_TEST_OUT_OF_MEMORY", told) ? k_out_of_memory : error();
 }
 }

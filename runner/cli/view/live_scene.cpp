@@ -42,7 +42,8 @@ bool touched_since(const fs::path& file, double file_clock) {
 
 /// No save of a file can help.
 bool is_final(const Error& error) {
-    return error.code == ErrorCode::usage || error.code == ErrorCode::no_context;
+    return error.code == ErrorCode::usage || error.code == ErrorCode::write ||
+           error.code == ErrorCode::no_context;
 }
 
 } // namespace
