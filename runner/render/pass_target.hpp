@@ -20,7 +20,7 @@ class PassTarget {
 public:
     PassTarget() = default;
     /// Fails when the driver cannot have targets of that size (ErrorCode::usage), or has no memory for them
-    /// (ErrorCode::write).
+    /// (ErrorCode::no_memory).
     static Result<PassTarget> create(Extent extent, GLenum internal_format, const TargetPlan& plan);
     static Result<PassTarget> create_cube(const TargetPlan& plan);
 

@@ -65,7 +65,7 @@ class Reset(ProgramTest):
     def test_no_memory_for_the_picture(self):
         done = self.struck("capture", "a.glsl", "--size", "2048x2048", "-o", "out/a.png", TIDEMARK_TEST_NO_TARGET="1")
         self.assertEqual(done.stderr, "tidemark: error: --size 2048x2048: this driver has no memory for such a picture; "
-                                      "give a smaller one\n")
+                                      "give a smaller one (before frame 0)\n")
         self.assertEqual((done.returncode, self.contents()), (4, {}))
 
     @not_sanitized

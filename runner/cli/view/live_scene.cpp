@@ -42,7 +42,7 @@ bool touched_since(const fs::path& file, double file_clock) {
 
 /// No save of a file can help.
 bool is_final(const Error& error) {
-    return error.code == ErrorCode::usage || error.code == ErrorCode::write ||
+    return error.code == ErrorCode::usage || error.code == ErrorCode::no_memory ||
            error.code == ErrorCode::no_context;
 }
 
