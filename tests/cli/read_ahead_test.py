@@ -8,6 +8,7 @@ import time
 import unittest
 from unittest import mock
 
+import lost_output_test
 import resume_test
 from support.program import PROGRAM, ProgramTest, environment, main
 
@@ -117,7 +118,11 @@ class Videos(Ahead, resume_test.Videos):
     pass
 
 
-class Failures(Ahead, resume_test.Failures):
+class Folders(Ahead, lost_output_test.Folders):
+    pass
+
+
+class Encoders(Ahead, lost_output_test.Encoders):
     pass
 
 

@@ -53,6 +53,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     if (draws_ahead())
         ahead_.emplace(renderer_, watchdog_, plan_.timeout);
     if (!plan_.frames.frames.empty()) {
+        Doing::note_frame(DoingPage::Frame{plan_.frames.frames.front(), true});
         prepare(interrupt);
         TRY(check_driver("preparing the first frame"));
         restore();
