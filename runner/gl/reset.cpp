@@ -42,7 +42,8 @@ Result<void> check_work(std::string_view what) {
         return fail(ErrorCode::timed_out,
                     fmt::format("the graphics driver was reset while {}: {}", what, *reason));
     if (ran_out_of_memory())
-        return fail(ErrorCode::no_memory, fmt::format("the graphics driver ran out of memory while {}", what));
+        return fail(ErrorCode::no_memory,
+                    fmt::format("the graphics driver ran out of memory while {}", what));
     return {};
 }
 

@@ -16,8 +16,8 @@ std::optional<std::string_view> reset_reason();
 /// Whether the current context was made so that it tells.
 bool tells_resets();
 
-/// Fails with ErrorCode::timed_out where the context was reset, and with ErrorCode::no_memory where memory ran
-/// out since this was last asked. `what` completes "while …".
+/// Fails with ErrorCode::timed_out where the context was reset, and with ErrorCode::no_memory where memory
+/// ran out since this was last asked. `what` completes "while …".
 Result<void> check_work(std::string_view what);
 
 } // namespace tidemark::gl

@@ -71,7 +71,8 @@ TEST_F(ShippedScenes, EveryKnobChangesThePictureAndNeverBreaksIt) {
         orbited.orbit = {0.4, 0.1, 0.9, 1};
         std::vector<Look> looks;
         for (Renderer& drawing : drawings)
-            for (const FrameInputs& inputs : {at(1234.5, 0, 0), at(1234.5, 34, 11), at(1234.5, 20, 1), orbited})
+            for (const FrameInputs& inputs :
+                 {at(1234.5, 0, 0), at(1234.5, 34, 11), at(1234.5, 20, 1), orbited})
                 looks.push_back({&drawing, inputs, frame(drawing, inputs)});
         for (size_t i = 0; i < scene->knobs.size(); ++i) {
             bool changes = false;

@@ -36,9 +36,9 @@ Extent SheetGrid::extent(Extent cell) const {
 Result<SheetGrid> parse_sheet(std::string_view text) {
     const auto cells = parse_extent(text);
     if (!cells || cells->pixels() > k_most_cells)
-        return fail(
-            ErrorCode::usage,
-            fmt::format("--sheet {}: give columns and rows, as in 5x4, {} cells at most", text, k_most_cells));
+        return fail(ErrorCode::usage,
+                    fmt::format("--sheet {}: give columns and rows, as in 5x4, {} cells at most", text,
+                                k_most_cells));
     return SheetGrid{cells->width, cells->height};
 }
 

@@ -1,7 +1,7 @@
 #include "base/try.hpp"
-#include "cli/help/candidates.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help/candidates.hpp"
 #include "cli/value_check.hpp"
 
 #include <CLI/CLI.hpp>

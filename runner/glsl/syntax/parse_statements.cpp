@@ -6,9 +6,11 @@
 namespace tidemark::glsl {
 
 bool is_statement_keyword(std::string_view word) {
-    constexpr std::string_view k_of_statements[] = {"if",   "else",    "for",    "while", "do",       "switch",
-                                               "case", "default", "return", "break", "continue", "discard"};
-    return std::find(std::begin(k_of_statements), std::end(k_of_statements), word) != std::end(k_of_statements);
+    constexpr std::string_view k_of_statements[] = {"if",     "else",   "for",      "while",
+                                                    "do",     "switch", "case",     "default",
+                                                    "return", "break",  "continue", "discard"};
+    return std::find(std::begin(k_of_statements), std::end(k_of_statements), word) !=
+           std::end(k_of_statements);
 }
 
 NodeId Parser::statement() {
