@@ -1,4 +1,4 @@
-"""`tidemark check --fix`: what rounding, counting in floats and parted neighbours do is mended, and measured."""
+"""`tidemark check --fix`: what rounding, counting in floats and divergent neighbours do is mended, and measured."""
 import json
 
 from support.program import ProgramTest, main
@@ -121,7 +121,7 @@ class CheckFixRounding(ProgramTest):
                       scene.read_text())
         self.assertEqual(self.probe("a.glsl", "counters"), "pass")
 
-    def test_derivatives_are_taken_before_neighbours_part(self):
+    def test_derivatives_are_taken_before_neighbours_diverge(self):
         scene = self.write("a.glsl", BODY % "c = vec4(0.2); if (uv.x > 0.4) c = vec4(10.0 * fwidth(uv.y));")
         self.assertEqual(self.probe("a.glsl", "divergence"), "warn")
         self.fix("a.glsl", "--write")

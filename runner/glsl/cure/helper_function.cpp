@@ -1,17 +1,8 @@
 #include "glsl/cure/helper_function.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace tidemark::glsl {
-
-std::string HelperFunction::fresh_name() const {
-    for (size_t n = files_.size() + 1;; ++n) {
-        std::string name = n == 1 ? wanted_ : wanted_ + std::to_string(n);
-        if (std::ranges::none_of(text_.words(), [&](const Word& word) { return word.text == name; }))
-            return name;
-    }
-}
 
 void HelperFunction::use(NodeId expression, const Say& say) {
     const NodeId function = text_.tree().around(expression, NodeKind::function);
@@ -25,7 +16,8 @@ void HelperFunction::use(NodeId expression, const Say& say) {
     if (start.from_macro() || first.first.where.file != file)
         return;
     const auto known = files_.find(file);
-    const std::string name = known == files_.end() ? fresh_name() : known->second.name;
+    const std::string name =
+        known == files_.end() ? fresh_name(text_, wanted_, files_.size() + 1) : known->second.name;
     auto words = say(name);
     if (!words)
         return;

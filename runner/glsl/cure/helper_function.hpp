@@ -31,7 +31,6 @@ private:
         Wrap first; ///< word of the first function
         std::vector<Wrap> wraps{};
     };
-    std::string fresh_name() const;
 
     const ParsedText& text_;
     std::string wanted_;

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 #include <string_view>
 
@@ -38,14 +37,6 @@ bool changes_between(const ParsedText& text, const TreeFacts& facts, NodeId expr
     return false;
 }
 
-std::string fresh_name(const ParsedText& text) {
-    for (int n = 1;; ++n) {
-        std::string name = n == 1 ? "taken_before" : fmt::format("taken_before{}", n);
-        if (std::ranges::none_of(text.words(), [&](const Word& word) { return word.text == name; }))
-            return name;
-    }
-}
-
 } // namespace
 
 std::optional<Cure> hoisted_derivative(const ParsedText& text, const TreeFacts& facts,
@@ -64,11 +55,11 @@ std::optional<Cure> hoisted_derivative(const ParsedText& text, const TreeFacts& 
     const Word& front = text.words()[tree[first].begin];
     if (!type || !words || front.from_macro() || text.words()[tree[fault.call].word].from_macro())
         return std::nullopt;
-    const std::string name = fresh_name(text);
+    const std::string name = fresh_name(text, "taken_before");
     return Cure{{wrapped(text, {front.spelled, front.spelled},
                          fmt::format("{} {} = {}; ", to_string(*type), name, *words), ""),
                  in_place_of(text, *written, name)},
-                fmt::format("takes `{}` in front of where neighbouring pixels part", *words)};
+                fmt::format("takes `{}` in front of where neighbouring pixels diverge", *words)};
 }
 
 } // namespace tidemark::glsl

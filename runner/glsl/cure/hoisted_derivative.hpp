@@ -1,4 +1,4 @@
-// A derivative, or a look-up that chooses its mipmap, taken before neighbouring pixels part.
+// A derivative, or a look-up that chooses its mipmap, taken before neighbouring pixels diverge.
 #pragma once
 
 #include "glsl/analysis/divergence.hpp"
@@ -6,9 +6,9 @@
 
 namespace tidemark::glsl {
 
-/// Its value gets a name in front of the statement of the function's body in which neighbours part. Nothing
-/// where it is called from a place that already parted, where something that it is made of is declared or set
-/// in between, or where its type is not known.
+/// Its value gets a name in front of the statement of the function's body in which neighbours diverge.
+/// Nothing where it is called from a place where they already diverge, where something that it is made of is
+/// declared or set in between, or where its type is not known.
 std::optional<Cure> hoisted_derivative(const ParsedText& text, const TreeFacts& facts,
                                        const Divergent& fault);
 

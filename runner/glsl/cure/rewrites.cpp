@@ -17,6 +17,24 @@ struct Instead {
     std::string reason;
 };
 
+/// Of a difference of two calls of one function.
+struct Rule {
+    std::string_view function;
+    std::string_view instead; ///< {0}, {1}: their arguments
+    std::string_view reason;
+};
+
+constexpr std::string_view k_roots =
+    "√a - √b is (a - b) / (√a + √b), which keeps its digits where a is near b";
+constexpr std::string_view k_sum_to_product =
+    "such a difference is a product, which keeps its digits where the angles are near each other";
+constexpr Rule k_differences[] = {
+    {"sqrt", "({0} - {1}) / (sqrt({0}) + sqrt({1}))", k_roots},
+    {"length", "dot({0} - {1}, {0} + {1}) / (length({0}) + length({1}))", k_roots},
+    {"sin", "2.0 * cos(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", k_sum_to_product},
+    {"cos", "-2.0 * sin(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", k_sum_to_product},
+};
+
 class Rewriter {
 public:
     Rewriter(const ParsedText& text, const TreeFacts& facts)
@@ -45,7 +63,7 @@ private:
             return std::nullopt;
         const NodeId left = bare(tree_.child(id, 0)), right = bare(tree_.child(id, 1));
         for (const auto rule : {&Rewriter::discriminant, &Rewriter::one_less_cosine, &Rewriter::of_squares,
-                                &Rewriter::of_roots, &Rewriter::of_sines})
+                                &Rewriter::of_two_calls})
             if (auto found = (this->*rule)(left, right))
                 return found;
         return std::nullopt;
@@ -111,40 +129,14 @@ private:
                        "a² - b² is (a - b) (a + b), which keeps its digits where a is near b"};
     }
 
-    struct Arguments {
-        std::string a, b;
-    };
-
-    /// Of two calls of one function.
-    std::optional<Arguments> arguments_of(NodeId left, NodeId right, std::string_view function) const {
-        auto a = is_call(left, function) && is_call(right, function) ? argument(left, 0) : std::nullopt;
-        auto b = a ? argument(right, 0) : std::nullopt;
-        return b ? std::optional(Arguments{*std::move(a), *std::move(b)}) : std::nullopt;
-    }
-
-    std::optional<Instead> of_roots(NodeId left, NodeId right) const {
-        constexpr const char* k_reason =
-            "√a - √b is (a - b) / (√a + √b), which keeps its digits where a is near b";
-        if (const auto of = arguments_of(left, right, "sqrt"))
-            return Instead{fmt::format("({0} - {1}) / (sqrt({0}) + sqrt({1}))", of->a, of->b), k_reason};
-        if (const auto of = arguments_of(left, right, "length"))
-            return Instead{
-                fmt::format("dot({0} - {1}, {0} + {1}) / (length({0}) + length({1}))", of->a, of->b),
-                k_reason};
-        return std::nullopt;
-    }
-
-    /// The sum-to-product identities.
-    std::optional<Instead> of_sines(NodeId left, NodeId right) const {
-        constexpr const char* k_reason =
-            "such a difference is a product, which keeps its digits where the angles are near each other";
-        if (const auto of = arguments_of(left, right, "sin"))
-            return Instead{fmt::format("2.0 * cos(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", of->a, of->b),
-                           k_reason};
-        if (const auto of = arguments_of(left, right, "cos"))
-            return Instead{
-                fmt::format("-2.0 * sin(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", of->a, of->b),
-                k_reason};
+    std::optional<Instead> of_two_calls(NodeId left, NodeId right) const {
+        for (const Rule& rule : k_differences) {
+            const bool fits = is_call(left, rule.function) && is_call(right, rule.function);
+            const auto a = fits ? argument(left, 0) : std::nullopt;
+            const auto b = a ? argument(right, 0) : std::nullopt;
+            if (b)
+                return Instead{fmt::format(fmt::runtime(rule.instead), *a, *b), std::string(rule.reason)};
+        }
         return std::nullopt;
     }
 

@@ -2,18 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace tidemark::glsl {
-namespace {
-
-std::string fresh_name(const ParsedText& text, std::string_view counter) {
-    for (std::string name = fmt::format("{}_turn", counter);; name += "_")
-        if (std::ranges::none_of(text.words(), [&](const Word& word) { return word.text == name; }))
-            return name;
-}
-
-} // namespace
 
 std::optional<Cure> whole_counter(const ParsedText& text, const FloatCounter& counter) {
     const SyntaxTree& tree = text.tree();
@@ -23,7 +12,7 @@ std::optional<Cure> whole_counter(const ParsedText& text, const FloatCounter& co
                inside = written_for(text, body, body);
     if (!from || !to || !inside)
         return std::nullopt;
-    const std::string turn = fresh_name(text, counter.name);
+    const std::string turn = fresh_name(text, fmt::format("{}_turn", counter.name));
     Cure cure;
     cure.wraps.push_back(
         in_place_of(text, {from->first, to->last},

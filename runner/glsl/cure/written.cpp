@@ -84,6 +84,14 @@ Wrap in_place_of(const ParsedText& text, WrittenTokens tokens, std::string inste
     return wrap;
 }
 
+std::string fresh_name(const ParsedText& text, std::string_view wanted, size_t number) {
+    for (;; ++number) {
+        std::string name = std::string(wanted) + (number == 1 ? "" : std::to_string(number));
+        if (std::ranges::none_of(text.words(), [&](const Word& word) { return word.text == name; }))
+            return name;
+    }
+}
+
 std::optional<std::string> said_again(const ParsedText& text, const TreeFacts& facts, NodeId id,
                                       WrittenTokens tokens) {
     const text::Token &first = text.tokens()[tokens.first], &last = text.tokens()[tokens.last];

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace tidemark::glsl {
 
@@ -23,6 +24,9 @@ std::optional<WrittenTokens> written_for(const ParsedText& text, NodeId id, Node
 Wrap wrapped(const ParsedText& text, WrittenTokens tokens, std::string front, std::string behind);
 /// `instead` for them.
 Wrap in_place_of(const ParsedText& text, WrittenTokens tokens, std::string instead);
+
+/// `wanted`, or that with a number, from `number` on: one that no word of the text has. 1 is not written.
+std::string fresh_name(const ParsedText& text, std::string_view wanted, size_t number = 1);
 
 /// The tokens of an expression, to be said once more: nothing where that would do something twice, or where
 /// they are long.

@@ -19,7 +19,7 @@ Result<Horizon> find_horizon(ProbeBench& bench) {
         const auto truth = TRY(bench.picture(state, glsl::Precision::promoted));
         const double difference = p99_difference(as_is, truth);
         if (difference > k_visible_gap) {
-            horizon.parting = Parting{time, state, std::move(as_is), difference};
+            horizon.mismatch = Mismatch{time, state, std::move(as_is), difference};
             break;
         }
         horizon.good = time;

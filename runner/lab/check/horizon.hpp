@@ -8,7 +8,7 @@
 namespace tidemark::lab {
 
 /// A moment at which they visibly differ, 99 % of the pixels aside.
-struct Parting {
+struct Mismatch {
     double seconds = 0; ///< a power of ten; the picture is a third of a second later, at a moment like most,
                         ///< which is no binary32
     FrameState state;
@@ -18,7 +18,7 @@ struct Parting {
 
 struct Horizon {
     double good = 0; ///< seconds: the last power of ten up to which they show the same; 0: not even 1
-    std::optional<Parting> parting{};
+    std::optional<Mismatch> mismatch{};
 };
 
 /// Looks at 1, 10, … 10^6 s. Fails where the scene cannot be drawn in double, or not at all.

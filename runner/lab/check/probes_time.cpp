@@ -75,23 +75,23 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
     const auto horizon = find_horizon(bench);
     if (!horizon)
         return Answer{Verdict::not_applicable, "cannot be drawn in double: " + to_string(horizon.error())};
-    if (!horizon->parting)
+    if (!horizon->mismatch)
         return Answer{Verdict::pass, "float and double agree up to 1e6 s"};
-    const double good = horizon->good, time = horizon->parting->seconds;
+    const double good = horizon->good, time = horizon->mismatch->seconds;
     const bool kept = good >= bench.promises().time_horizon;
     const std::string found =
         good == 0
             ? fmt::format("float and double differ already at 1 s, by {:.3g} or more in 1 % of the pixels: "
                           "not because of a large iTime",
-                          horizon->parting->difference)
+                          horizon->mismatch->difference)
             : fmt::format("float and double agree up to {:g} s; at {:g} s, where iTime moves in steps of "
                           "{:.2g} s, 1 % of the pixels are off by {:.3g} or more",
                           good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
-                          horizon->parting->difference);
+                          horizon->mismatch->difference);
     return Answer{kept        ? Verdict::pass
                   : good == 0 ? Verdict::warn
                               : Verdict::fail,
-                  found, horizon->parting->state, horizon->parting->floats};
+                  found, horizon->mismatch->state, horizon->mismatch->floats};
 }
 
 namespace {

@@ -31,6 +31,12 @@ namespace {
 constexpr Result<Answer> (*k_finite_probes[])(ProbeBench&) = {ask_times,  ask_frames, ask_mouse, ask_sizes,
                                                               ask_inputs, ask_knobs,  ask_search};
 
+/// Several probes may come to one place, and what stands in Common is found in several passes.
+void add_once(CurableFindings& found, Finding finding) {
+    if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
+        found.all.push_back(std::move(finding));
+}
+
 class Finder {
 public:
     Finder(ProbeBench& bench, const std::vector<PassText>& texts) : bench_(bench), texts_(texts) {}
@@ -55,16 +61,10 @@ private:
         return found == texts_.end() ? nullptr : &*found;
     }
 
-    void add(Finding finding) {
-        const auto same = std::ranges::find(found_.all, finding.sentence, &Finding::sentence);
-        if (same == found_.all.end())
-            found_.all.push_back(std::move(finding));
-    }
-
     void add_call(const UndefinedCall& call) {
         const PassText* const pass = text_of(call.pass);
-        add({Finding::Kind::undefined, call.sentence, call.where,
-             glsl::domain_guards(*pass->text, pass->facts, call.node)});
+        add_once(found_, {Finding::Kind::undefined, call.sentence, call.where,
+                          glsl::domain_guards(*pass->text, pass->facts, call.node)});
     }
 
     /// Of a picture that is not finite: the first operation that was not, and the one whose cure is said to
@@ -95,7 +95,7 @@ private:
         for (const PassText& pass : texts_)
             if (bench_.scene().passes[pass.pass].name == pass_name)
                 finding.cures = guards_of(pass, origin);
-        add(std::move(finding));
+        add_once(found_, std::move(finding));
     }
 
     /// Of the operation that a trace names by its place and its words.
@@ -117,12 +117,6 @@ private:
     const std::vector<PassText>& texts_;
     CurableFindings found_{};
 };
-
-/// What stands in Common is found in several passes.
-void add_once(CurableFindings& found, Finding finding) {
-    if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
-        found.all.push_back(std::move(finding));
-}
 
 /// A finding of a text, with the one cure that may be known.
 Finding found_in_text(Finding::Kind kind, std::string sentence, std::optional<glsl::Cure> cure) {
@@ -263,7 +257,7 @@ void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<P
     if (cures.empty())
         return;
     const auto horizon = find_horizon(bench);
-    if (!horizon || !horizon->parting || horizon->good >= bench.promises().time_horizon)
+    if (!horizon || !horizon->mismatch || horizon->good >= bench.promises().time_horizon)
         return;
     if (cures.size() > 1) {
         glsl::Cure all = all_of(cures);
@@ -275,8 +269,8 @@ void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<P
          fmt::format(
              "at {:.6g} s the picture in float is off by {:.3g} or more from that in double, in 1 % of "
              "the pixels",
-             horizon->parting->state.seconds(), horizon->parting->difference),
-         horizon->parting->state, std::move(cures), horizon->good == 0});
+             horizon->mismatch->state.seconds(), horizon->mismatch->difference),
+         horizon->mismatch->state, std::move(cures), horizon->good == 0});
 }
 
 /// By file; Common stands in several passes.
