@@ -127,7 +127,7 @@ Result<int> simplify(const SimplifyOptions& options) {
     TRY(prepare_report(folder));
     StudyWatcher watcher(interrupt);
     auto simplified = lab::simplify(scene, request, watcher.watch(), circumstances_of(scene));
-    watcher.finish();
+    TRY(watcher.finish());
     if (!simplified && interrupt.requested())
         return Interrupt::k_exit_code;
     lab::Simplified found = TRY(std::move(simplified));

@@ -148,7 +148,7 @@ Result<int> study(const StudyOptions& options) {
     const auto context = TRY(platform::HeadlessContext::create(options.device));
     StudyWatcher watcher(interrupt);
     auto findings = lab::conduct(scene, plan, options.timing, watcher.watch(), circumstances_of(scene));
-    watcher.finish();
+    TRY(watcher.finish());
     if (!findings && interrupt.requested()) {
         say(findings.error());
         return Interrupt::k_exit_code;

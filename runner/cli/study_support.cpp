@@ -6,6 +6,7 @@
 #include "cli/console.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
+#include "gl/reset.hpp"
 #include "lab/study/curves.hpp"
 #include "lab/study/report.hpp"
 #include "lab/study/verdict.hpp"
@@ -35,7 +36,22 @@ lab::Watch StudyWatcher::watch() {
     return {[this](const std::string& what, size_t total) {
                 progress_ = std::make_unique<Progress>(what, total);
             },
-            [this] { progress_->advance(); }, [this] { return !interrupt_.requested(); }};
+            [this] { progress_->advance(); }, [this] { return goes_on(); }};
+}
+
+bool StudyWatcher::goes_on() {
+    if (driver_)
+        driver_ = gl::check_work("measuring");
+    return driver_ && !interrupt_.requested();
+}
+
+Result<void> StudyWatcher::finish() {
+    progress_.reset();
+    goes_on();
+    return driver_.map_error([](Error error) {
+        error.message += "; nothing is kept of it, and a smaller --size gives the driver less at once";
+        return error;
+    });
 }
 
 lab::Circumstances circumstances_now() {

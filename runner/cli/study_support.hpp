@@ -14,17 +14,22 @@
 
 namespace tidemark::cli {
 
-/// A line of progress for each part of the study.
+/// A line of progress for each part of the study, and an end to it where nobody wants it or the driver
+/// cannot. A context must be current.
 class StudyWatcher {
 public:
     explicit StudyWatcher(Interrupt& interrupt) : interrupt_(interrupt) {}
 
     lab::Watch watch();
-    void finish() { progress_.reset(); }
+    /// Fails where the graphics driver was reset, or had no memory: nothing of what was measured counts then.
+    Result<void> finish();
 
 private:
+    bool goes_on();
+
     Interrupt& interrupt_;
     std::unique_ptr<Progress> progress_;
+    Result<void> driver_; ///< as it was when last asked: it tells of a reset once
 };
 
 /// The program, the moment and the machine's cores.

@@ -5,6 +5,7 @@
 #include "cli/options.hpp"
 #include "cli/trace_report.hpp"
 #include "cli/value_check.hpp"
+#include "gl/reset.hpp"
 #include "lab/pixel/pixel_trace.hpp"
 #include "platform/headless_context.hpp"
 #include "render/frame_stepper.hpp"
@@ -75,6 +76,7 @@ Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& fram
     const int frame = frames.frames.front();
     render::FrameStepper(renderer, states).draw(frame);
     auto found = TRY(lab::trace_pixel(renderer, render::inputs_of(states(frame)), request));
+    TRY(gl::check_work("drawing the pixel"));
     return TraceReport{scene.file.string(), renderer.shown_pass().name, frame, renderer.extent(), request,
                        std::move(found)};
 }

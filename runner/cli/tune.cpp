@@ -117,7 +117,7 @@ Result<int> tune(const TuneOptions& options) {
     TRY(prepare_report(folder));
     StudyWatcher watcher(interrupt);
     auto tuned = lab::tune(scene, request, watcher.watch(), circumstances_of(scene));
-    watcher.finish();
+    TRY(watcher.finish());
     if (!tuned && interrupt.requested())
         return Interrupt::k_exit_code;
     lab::Tuned found = TRY(std::move(tuned));

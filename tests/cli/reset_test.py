@@ -9,7 +9,15 @@ from support.program import PROGRAM, ProgramTest, environment, main, not_sanitiz
 DRIVER = pathlib.Path(PROGRAM).parent / "tidemark_reset_driver.so"
 SCENE = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, fract(iTime), 1.0); }\n"
 LESS = "a smaller --size or --tile gives it less at once"
-GUILTY = f"what was drawn took too long for its watchdog, or broke it; {LESS}"
+WATCHDOG = "what was drawn took too long for its watchdog, or broke it"
+GUILTY = f"{WATCHDOG}; {LESS}"
+KNOBS = """#iUniform int turns = 8 in { 1, 16 }
+void mainImage(out vec4 c, in vec2 p) {
+    float sum = 0.0;
+    for (int i = 0; i < turns; i++) sum += sin(p.x * float(i) + iTime) / float(i + 1);
+    c = vec4(0.5 + 0.2 * sum, sin(p.y), 0.0, 1.0);
+}
+"""
 SEQUENCE = ("capture", "a.glsl", "--size", "32x18", "--frames", "0-19", "-o", "out/f_%02d.png")
 
 
@@ -81,6 +89,40 @@ class Reset(ProgramTest):
         self.assertIn("; 10 frames are whole, and the same command with --resume goes on\n", done.stderr)
         self.assertIn("kept 10 of 20 frames", self.succeed(*run, "--resume").stderr)
         self.assertEqual(self.contents(), whole)
+
+    @not_sanitized
+    def test_what_measures(self):
+        """A number that was taken of a lost context is none: nothing is printed, nothing is written."""
+        self.write("k.glsl", KNOBS)
+        of_measuring = f"was reset while measuring: {WATCHDOG}; nothing is kept of it, and a smaller --size gives the driver less at once"
+        for command, words in {("study", "k.glsl", "--vary", "turns=2,4,8"): of_measuring,
+                               ("tune", "k.glsl", "--max-error", "rmse=0.1"): of_measuring,
+                               ("simplify", "k.glsl"): of_measuring,
+                               ("trace", "k.glsl", "--pixel", "3,3"): f"was reset while drawing the pixel: {WATCHDOG}"}.items():
+            with self.subTest(command[0]):
+                output = () if command[0] == "trace" else ("-o", "out/report")
+                done = self.struck(*command, "--size", "32x18", *output, TIDEMARK_TEST_RESET="1")
+                self.assertEqual((done.returncode, done.stdout), (5, b""), done.stderr)
+                self.assertIn(f"tidemark: error: the graphics driver {words}\n", done.stderr)
+                self.assertEqual([path.name for path in (self.folder / "out").rglob("*") if path.is_file()], [])
+
+    @not_sanitized
+    def test_probes(self):
+        """The probe that it met has that as its answer; the others get a driver that works."""
+        probes = ("check", "a.glsl", "--probe", "times", "--probe", "repeats")
+        self.assertIn(b"2 pass;", self.succeed(*probes).stdout)
+        done = self.struck(*probes, TIDEMARK_TEST_RESET="10")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stdout.decode(), f"(?m)^fail +times +the graphics driver was reset while it drew: {WATCHDOG}")
+        self.assertRegex(done.stdout.decode(), "(?m)^pass +repeats")
+
+    @not_sanitized
+    def test_cures(self):
+        self.write("faulty.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(p.x - 3.0), 0.0, 0.0, 1.0); }\n")
+        self.assertIn(b"+void mainImage", self.run_program("check", "faulty.glsl", "--fix").stdout)
+        done = self.struck("check", "faulty.glsl", "--fix", TIDEMARK_TEST_RESET="2")
+        self.assertEqual((done.returncode, done.stdout), (5, b""), done.stderr)
+        self.assertIn(f"the graphics driver was reset while drawing cures: {WATCHDOG}", done.stderr)
 
 
 if __name__ == "__main__":

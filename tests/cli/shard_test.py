@@ -125,6 +125,10 @@ class Shards(ProgramTest):
             self.succeed(*run, "out/a.mp4", "--shard", f"{k}/3")
         self.succeed("gather", "out")
         self.assertEqual(self.contents("out"), self.contents("whole"))
+        again = self.run_program("gather", "out")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("out/a.mp4 is there, and none of its segments: where it was joined before, nothing is left to do\n",
+                      again.stderr)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_segments_refused(self):

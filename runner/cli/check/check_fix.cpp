@@ -13,6 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/supervisor.hpp"
 #include "cli/version.hpp"
+#include "gl/reset.hpp"
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
@@ -49,7 +50,12 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
             files = *std::move(changed);
         return changed.has_value();
     };
+    Result<void> driver; // a cure is offered for what was drawn: by a driver that works
     mending.offered = [&](const lab::Offer& offer, std::span<const glsl::Cure> cures) {
+        if (driver)
+            driver = gl::check_work("drawing cures");
+        if (!driver)
+            return;
         tell(dump(Json{{"offer", to_json(offer, cures.back())},
                        {"text", to_text(offer, cures.back())},
                        {"files", files_json(files)}}));
@@ -57,7 +63,8 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
     mending.remains = [&](const lab::Remaining& remaining) {
         tell(dump(Json{{"remains", {{"finding", remaining.finding}, {"why", remaining.why}}}}));
     };
-    return lab::mend(scene, promises, mending);
+    TRY(lab::mend(scene, promises, mending));
+    return driver ? gl::check_work("drawing cures") : driver;
 }
 
 /// What was told, shown as it comes.

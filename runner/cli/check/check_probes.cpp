@@ -12,6 +12,7 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/supervisor.hpp"
+#include "gl/reset.hpp"
 #include "glsl/overrides.hpp"
 #include "image/files/picture_file.hpp"
 #include "platform/headless_context.hpp"
@@ -97,7 +98,8 @@ Result<ProbeResult> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by
 
 using Probes = std::span<const lab::Probe* const>;
 
-/// In a process of its own: one line for each probe.
+/// In a process of its own: one line for each probe. A driver that was reset, or had no memory, is the answer
+/// of the probe that it met, and the last one: what is drawn after it is no picture.
 Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, const lab::Promises& promises,
                      Probes probes, Clock::time_point start, const Tell& tell) {
     auto painter = TRY(one_thread_painter(scene, request.device));
@@ -110,10 +112,15 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
     lab::ProbeBench bench(scene, promises, with_one_thread);
     for (const lab::Probe* probe : probes) {
         auto asked = TRY(ask(*probe, bench, !request.probes.empty(), seconds_since(start) < request.budget));
+        const auto driver = gl::check_work("it drew");
+        if (!driver)
+            asked.answer = {Verdict::fail, driver.error().message};
         if (auto kept = keep_picture(OutputPath::typed(request.output).sparing(files_read(scene)), asked);
             !kept)
             return kept;
         tell(dump(to_json(asked)));
+        if (!driver)
+            break;
     }
     return {};
 }
@@ -138,6 +145,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
         double seconds = 0; // of those that answered, and of taking their answers
         double taking = 0;  // the answer before: the next probe waited
         Result<void> heard;
+        const size_t before = probes.size();
         const auto run = run_forked(
             [&](const Tell& tell) {
                 if (auto done = ask_all(request, scene, promises, probes, start, tell); !done)
@@ -165,6 +173,9 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             return heard;
         if (probes.empty())
             break;
+        const bool ended_by_itself = !run->timed_out && run->signal == 0 && probes.size() < before;
+        if (ended_by_itself) // the driver was reset: the next probes get another context
+            continue;
         ProbeResult last{probes.front(), {Verdict::cut, k_not_finished}};
         if (run->signal != 0)
             last.answer = {Verdict::fail, crash_text(run->signal, run->doing)};

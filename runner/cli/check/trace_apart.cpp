@@ -4,6 +4,7 @@
 #include "cli/check/trace_text.hpp"
 #include "cli/forked.hpp"
 #include "cli/supervisor.hpp"
+#include "gl/reset.hpp"
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,9 @@ Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const Trac
             tell(dump(Json{{"frame", frame}}));
         }
     };
-    return lab::trace_nan(renderer, request);
+    auto found = TRY(lab::trace_nan(renderer, request));
+    TRY(gl::check_work("tracing the origin"));
+    return found;
 }
 
 /// The last of what was found, and the frame that was sent last.

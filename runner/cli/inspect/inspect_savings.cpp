@@ -6,6 +6,7 @@
 #include "cli/json_dump.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
+#include "gl/reset.hpp"
 #include "lab/savings.hpp"
 #include "platform/headless_context.hpp"
 
@@ -245,6 +246,7 @@ Result<int> inspect_savings(const SavingsOptions& options) {
     target.precision = precision_of(options.scene);
     target.specialise = glsl::Specialise::unreachable;
     const auto answers = TRY(ask(options, scene, target, questions_of(options), watch));
+    TRY(gl::check_work("measuring"));
     const auto printed = put(options.json ? dump(report_json(options, answers, *libraries), 2) + "\n"
                                           : report_text(options, answers, *libraries));
     const bool same =

@@ -136,6 +136,10 @@ std::string_view segment_extension(const VideoEncoding& encoding) {
     return encoding.codec == "prores" ? ".mov" : ".mp4";
 }
 
+std::string_view muxer_of(std::string_view extension) {
+    return extension == ".mkv" ? "matroska" : extension.substr(1);
+}
+
 const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec, Alpha alpha) {
     const std::string extension = path.extension().string();
     const auto found = std::ranges::find_if(encodings(), [&](const VideoEncoding& encoding) {

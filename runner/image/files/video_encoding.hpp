@@ -30,6 +30,8 @@ const std::vector<VideoEncoding>& encodings();
 
 /// Of the file that a segment is: MP4 has no ProRes.
 std::string_view segment_extension(const VideoEncoding& encoding);
+/// ffmpeg's name of the format that files of that extension have.
+std::string_view muxer_of(std::string_view extension);
 
 /// By the name's extension, the codec (empty: the one that such a file has by nature) and the alpha that it
 /// is to hold; null where there is none.

@@ -37,7 +37,13 @@ const char* layout_of(const VideoEncoding& encoding, Alpha alpha) {
     return has_alpha ? "rgba" : "rgb0";
 }
 
-Words words_for_segment(const fs::path& staged, const VideoEncoding& encoding, const VideoFormat& format,
+/// The staged file by a name that ends with this process: an ffmpeg that outlives us (kill -9) then makes no
+/// file where the next run has tidied up.
+std::string output_for_ffmpeg(const StagedFile& staged) {
+    return fmt::format("file:/proc/{}/fd/{}", ::getpid(), staged.descriptor());
+}
+
+Words words_for_segment(const StagedFile& staged, const VideoEncoding& encoding, const VideoFormat& format,
                         std::string_view encoder) {
     Words input{"-f",         "rawvideo",
                 "-pix_fmt",   layout_of(encoding, format.alpha),
@@ -47,16 +53,16 @@ Words words_for_segment(const fs::path& staged, const VideoEncoding& encoding, c
         input = joined(input, colour_words());
     return joined(ffmpeg_words(), input, Words{"-i", "pipe:0"}, encoding.segment(format, encoder),
                   reproducible_words(),
-                  Words{"-f", segment_extension(encoding).data() + 1, "file:" + staged.string()});
+                  Words{"-f", std::string(muxer_of(segment_extension(encoding))), output_for_ffmpeg(staged)});
 }
 
-Words words_for_joining(const fs::path& staged, const VideoEncoding& encoding, const fs::path& sound) {
+Words words_for_joining(const StagedFile& staged, const VideoEncoding& encoding, const fs::path& sound) {
     Words input{"-f", "concat", "-safe", "0", "-protocol_whitelist", "file,pipe", "-i", "pipe:0"};
     if (!sound.empty())
         input =
             joined(input, Words{"-protocol_whitelist", "file", "-f", "wav", "-i", "file:" + sound.string()});
     return joined(ffmpeg_words(), input, encoding.whole, reproducible_words(),
-                  Words{"file:" + staged.string()});
+                  Words{"-f", std::string(muxer_of(encoding.extension)), output_for_ffmpeg(staged)});
 }
 
 /// As ffmpeg's lists of files want it.
@@ -144,7 +150,7 @@ Result<SegmentWriter> SegmentWriter::create(const OutputPath& segment, const fs:
     assert(encoding);
     auto staged = TRY(StagedFile::create(segment));
     const auto name = TRY(encoder_of(encoding->codec, format.extent));
-    auto encoder = TRY(start(words_for_segment(staged.path(), *encoding, format, name), video));
+    auto encoder = TRY(start(words_for_segment(staged, *encoding, format, name), video));
     return SegmentWriter(video, encoding->ten_bits, format.alpha, std::move(staged), std::move(encoder));
 }
 
@@ -185,7 +191,7 @@ Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile>
     const VideoEncoding* const encoding = encoding_of(video.path(), format.codec, format.alpha);
     assert(encoding);
     auto staged = TRY(StagedFile::create(video));
-    auto joiner = TRY(start(words_for_joining(staged.path(), *encoding, sound), video.path()));
+    auto joiner = TRY(start(words_for_joining(staged, *encoding, sound), video.path()));
     std::string words;
     const std::string list = list_of(segments, format.fps);
     if (!joiner.write(std::as_bytes(std::span(list)), words) || !ended_well(joiner, words))
