@@ -29,6 +29,16 @@ class Compile(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["mark"] == 1)
         return view
 
+    def test_on_the_windows_own_thread(self):
+        self.write("a.glsl", marked(1))
+        view = self.view("a.glsl", *SIZE, TIDEMARK_ASYNC_COMPILE="off")
+        view.wait_until_told(VALUES, lambda told: told["mark"] == 1)
+        for mark in (2, 3):
+            self.write("a.glsl", marked(mark))
+            view.wait_until_told(VALUES, lambda told: told["mark"] == mark)
+        view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
+
     def begin_to_compile(self, view: View, mark: int) -> None:
         self.write("a.glsl", heavy(mark))
         view.wait_for_title(r"\Aa - tidemark - compiling… \d+ s, Esc gives up\Z")

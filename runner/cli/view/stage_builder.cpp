@@ -6,12 +6,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
+#include <string_view>
 #include <system_error>
 
 namespace tidemark::cli {
 namespace {
+
+/// A driver may not bear that two threads compile and draw at once in contexts that share (Dolphin's pull
+/// request 7276 tells of some): then the window waits for what it compiles.
+bool compiles_on_threads() {
+    const char* const wish = std::getenv("TIDEMARK_ASYNC_COMPILE");
+    return !wish || std::string_view(wish) != "off";
+}
 
 /// Compiling keeps a core busy, and the picture on show wants one too.
 constexpr size_t k_most_at_once = 3;
@@ -19,6 +28,8 @@ constexpr size_t k_most_at_once = 3;
 Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
     if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
         TRY(order.rehearsal->try_out(unwanted));
+    if (order.settle && !compiles_on_threads())
+        return fail(ErrorCode::check_failed, "the window would stand still for a trial");
     if (order.settle)
         return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
     return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
@@ -59,21 +70,26 @@ void StageBuilder::start(Order order) {
 
 void StageBuilder::launch(Order order) {
     newest_ = std::make_shared<Job>();
-    try {
-        std::thread thread([job = newest_, wake = wake_, order = std::move(order)]() mutable {
-            {
-                auto built = build_or_say_why(std::move(order), [&job] {
-                    const std::lock_guard lock(job->mutex);
-                    return job->abandoned;
-                });
+    auto work = [job = newest_, wake = wake_, order = std::move(order)]() mutable {
+        {
+            auto built = build_or_say_why(std::move(order), [&job] {
                 const std::lock_guard lock(job->mutex);
-                if (!job->abandoned)
-                    job->outcome.emplace(std::move(built));
-            } // one that nobody wants ends here
+                return job->abandoned;
+            });
             const std::lock_guard lock(job->mutex);
-            job->done = true;
-            wake();
-        });
+            if (!job->abandoned)
+                job->outcome.emplace(std::move(built));
+        } // one that nobody wants ends here
+        const std::lock_guard lock(job->mutex);
+        job->done = true;
+        wake();
+    };
+    if (!compiles_on_threads()) {
+        const platform::KeepCurrent current;
+        return work();
+    }
+    try {
+        std::thread thread(std::move(work));
         running_.emplace_back(std::move(thread), newest_);
     } catch (const std::system_error& no_thread) {
         newest_->outcome.emplace(
