@@ -13,7 +13,7 @@ def checks(program, shaders):
     rows = []
     for scene in sorted(pathlib.Path(shaders).glob("*.glsl")):
         capture = run([program, "capture", str(scene), "-o", "-"])
-        check = run([program, "check", str(scene), "--json"], codes=(0, 1))
+        check = run([program, "check", str(scene), "--budget", "300", "--json"], codes=(0, 1))
         rows.append({"scene": scene.stem, "check": check, "capture": capture, "ratio": check["cpu"] / capture["cpu"]})
     return rows
 
