@@ -1,6 +1,7 @@
 #include "glsl/initialise.hpp"
 
 #include "glsl/flow/assigned.hpp"
+#include "glsl/flow/zero_value.hpp"
 #include "glsl/syntax/gap_edits.hpp"
 
 #include <fmt/format.h>
@@ -11,9 +12,6 @@
 namespace tidemark::glsl {
 namespace {
 
-/// What has no more numbers is written out; more are set by a loop. Mesa takes 0.4 s longer for 64 elements
-/// written out than for none, and 20 s for 512, for which a loop takes none.
-constexpr size_t k_most_written_out = 64;
 /// Sets the global variables that are too large for an initialiser, when `main` begins.
 constexpr std::string_view k_start = "tidemark_start";
 constexpr std::string_view k_value = "tidemark_value";
@@ -56,9 +54,9 @@ private:
         const Node& declaration = tree_[tree_[variable.declared].parent];
         const bool statement = tree_[declaration.parent].kind == NodeKind::block;
         const std::string set = statement ? statements(name_of(variable), *variable.shape) : std::string();
-        if (can_be_written_out(*variable.shape)) {
+        if (const auto value = zero(*variable.shape)) {
             const size_t behind = tree_[variable.declared].end;
-            gaps_.offer(behind, "=" + written_out(*variable.shape), variable.needs_value());
+            gaps_.offer(behind, "=" + *value, variable.needs_value());
             if (statement)
                 gaps_.offer_else(behind, declaration.end, set);
         } else if (statement) {
@@ -67,9 +65,8 @@ private:
     }
 
     void global(const UnsetVariable& variable) {
-        if (can_be_written_out(*variable.shape))
-            gaps_.offer(tree_[variable.declared].end, "=" + written_out(*variable.shape),
-                        variable.needs_value());
+        if (const auto value = zero(*variable.shape))
+            gaps_.offer(tree_[variable.declared].end, "=" + *value, variable.needs_value());
         else if (variable.needs_value())
             start_ += statements(name_of(variable), *variable.shape);
     }
@@ -86,10 +83,10 @@ private:
         const Shape& shape = shapes_.of(tree_.child(function, 0), k_no_node);
         if (!shape.can_be_zero() || shape.type.empty())
             return;
-        const std::string text = can_be_written_out(shape)
-                                     ? fmt::format("return {};", written_out(shape))
-                                     : fmt::format("{} {};{}return {};", type_of(shape), k_value,
-                                                   statements(std::string(k_value), shape), k_value);
+        const auto value = zero(shape);
+        const std::string text = value ? fmt::format("return {};", *value)
+                                       : fmt::format("{} {};{}return {};", constructor_of(shape), k_value,
+                                                     statements(std::string(k_value), shape), k_value);
         gaps_.offer(tree_[function].end - 1, text, true);
     }
 
@@ -120,40 +117,11 @@ private:
         return std::string(text_.word_of(variable.declared));
     }
 
-    /// A constructor of few numbers, by names that mean their types all over the text.
-    bool can_be_written_out(const Shape& shape) const {
-        return shape.numbers > 0 && shape.numbers <= k_most_written_out && is_seen(shape);
-    }
-
-    bool is_seen(const Shape& shape) const {
-        if (shape.kind == Shape::Kind::array)
-            return is_seen(*shape.part);
-        if (shape.kind != Shape::Kind::structure)
-            return true;
-        return !facts_.names.contains(shape.type) && !facts_.functions.contains(shape.type) &&
-               std::ranges::all_of(shape.members, [&](const auto& member) { return is_seen(*member.shape); });
-    }
-
-    static std::string type_of(const Shape& shape) {
-        std::string text(shape.type);
-        for (const Shape* each = &shape; each->kind == Shape::Kind::array; each = each->part)
-            text += fmt::format("[{}]", each->length);
-        return text;
-    }
-
-    static std::string written_out(const Shape& shape) {
-        if (shape.is_plain())
-            return fmt::format("{}(0)", shape.type);
-        std::string text = type_of(shape) + "(";
-        const bool array = shape.kind == Shape::Kind::array;
-        for (size_t i = 0; i < (array ? shape.length : shape.members.size()); ++i)
-            text += (i == 0 ? "" : ",") + written_out(array ? *shape.part : *shape.members[i].shape);
-        return text + ")";
-    }
+    std::optional<std::string> zero(const Shape& shape) const { return zero_value(shape, facts_); }
 
     std::string statements(const std::string& place, const Shape& shape, int depth = 0) const {
-        if (can_be_written_out(shape))
-            return fmt::format("{}={};", place, written_out(shape));
+        if (const auto value = zero(shape))
+            return fmt::format("{}={};", place, *value);
         std::string text;
         if (shape.kind == Shape::Kind::structure) {
             for (const Shape::Member& member : shape.members)

@@ -17,6 +17,8 @@ PLANTED = {
     "c = vec4(0.5 + atan(d.y, d.x) / 6.3);":
         "c = vec4(0.5 + atan(d.y, (d.x + (1.0 - abs(sign(d.x))) * 1e-30)) / 6.3);",
     "float s; s += uv.x; c = vec4(s);": "float s = 0.0; s += uv.x; c = vec4(s);",
+    "float s[2]; s[0] = uv.x; c = vec4(s[0] + s[1]);":
+        "float s[2] = float[2](0.0, 0.0); s[0] = uv.x; c = vec4(s[0] + s[1]);",
 }
 # A ball in a round room: every ray ends somewhere.
 MARCH = """float map(vec3 p) { return min(length(p) - 1.0, %s); }

@@ -37,7 +37,7 @@ std::vector<glsl::Cure> proposed(const glsl::ParsedText& text) {
         if (auto cure = glsl::whole_counter(text, each))
             cures.push_back(*std::move(cure));
     for (const glsl::Unassigned& each : glsl::find_unassigned(text, facts))
-        if (auto cure = glsl::initial_value(text, each))
+        if (auto cure = glsl::initial_value(text, facts, each))
             cures.push_back(*std::move(cure));
     for (const glsl::Divergent& each :
          glsl::find_divergent(text, facts, [](std::string_view) { return true; }))

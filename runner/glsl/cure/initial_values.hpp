@@ -6,7 +6,7 @@
 
 namespace tidemark::glsl {
 
-/// Nothing for an array or a structure, and where the words cannot be changed.
-std::optional<Cure> initial_value(const ParsedText& text, const Unassigned& fault);
+/// Nothing for an array of unknown length or many numbers, and where the words cannot be changed.
+std::optional<Cure> initial_value(const ParsedText& text, const TreeFacts& facts, const Unassigned& fault);
 
 } // namespace tidemark::glsl

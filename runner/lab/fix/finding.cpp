@@ -130,7 +130,7 @@ void add_without_value(CurableFindings& found, const PassText& pass) {
     for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts))
         if (const std::string sentence = sentence_for(*pass.text, each); !sentence.empty())
             add_once(found, found_in_text(Finding::Kind::no_value, sentence + " is read without a value",
-                                          glsl::initial_value(*pass.text, each)));
+                                          glsl::initial_value(*pass.text, pass.facts, each)));
 }
 
 void add_miscounting(CurableFindings& found, const PassText& pass) {

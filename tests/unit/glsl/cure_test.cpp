@@ -31,8 +31,9 @@ std::string in_main(const std::string& expression) {
 std::string with_values(const std::string& text) {
     const auto read = parsed(text);
     std::vector<Cure> cures;
-    for (const Unassigned& each : find_unassigned(*read, find_facts(*read)))
-        if (auto cure = initial_value(*read, each))
+    const TreeFacts facts = find_facts(*read);
+    for (const Unassigned& each : find_unassigned(*read, facts))
+        if (auto cure = initial_value(*read, facts, each))
             cures.push_back(*cure);
     return cured(text, "a.glsl", cures).value_or("refused");
 }
@@ -82,8 +83,27 @@ TEST(Cure, ZeroIsWhereTheValueWasMissing) {
     EXPECT_EQ(
         with_values("uniform float u;\nint f() { if (u > 0.0) return 1; }\nvoid main() { int y = f(); }\n"),
         "uniform float u;\nint f() { if (u > 0.0) return 1; return 0; }\nvoid main() { int y = f(); }\n");
-    const std::string array = "void main() { float a[2]; float b = a[0]; }\n";
-    EXPECT_EQ(with_values(array), array);
+    EXPECT_EQ(with_values("void main() { float a[2]; float b = a[0]; }\n"),
+              "void main() { float a[2] = float[2](0.0, 0.0); float b = a[0]; }\n");
+    const std::string types =
+        "struct Light { vec3 colour; bool on; };\nstruct Hit { float t; Light lights[2]; mat2 turn; };\n";
+    const std::string light = "Light(vec3(0.0), false)";
+    EXPECT_EQ(with_values(types + "void main() { Hit h; float t = h.t; }\n"),
+              types + "void main() { Hit h = Hit(0.0, Light[2](" + light + ", " + light +
+                  "), mat2(0.0)); float t = h.t; }\n");
+    EXPECT_EQ(with_values(types +
+                          "const int N = 2;\nvoid f(out Light a[N]) {}\nvoid main() { Light a[N]; f(a); }\n"),
+              types + "const int N = 2;\nvoid f(out Light a[N]) { a = Light[2](" + light + ", " + light +
+                  ");}\nvoid main() { Light a[N]; f(a); }\n");
+    EXPECT_EQ(with_values(types +
+                          "uniform float u;\nLight f() { if (u > 0.0) return Light(vec3(u), true); }\n"
+                          "void main() { Light a = f(); }\n"),
+              types + "uniform float u;\nLight f() { if (u > 0.0) return Light(vec3(u), true); return " +
+                  light + "; }\nvoid main() { Light a = f(); }\n");
+    const std::string many = "void main() { float a[65]; float b = a[0]; }\n";
+    EXPECT_EQ(with_values(many), many);
+    const std::string hidden = "struct Ray { float t; };\nvoid main() { Ray Ray; float b = Ray.t; }\n";
+    EXPECT_EQ(with_values(hidden), hidden);
 }
 
 TEST(Cure, OfTwoAroundTheSameWordsTheLaterIsTheOuterOne) {

@@ -44,66 +44,66 @@ TEST(Initialise, WhatHasAValueFirstStaysAsItIs) {
 }
 
 TEST(Initialise, NumbersVectorsAndMatrices) {
-    EXPECT_EQ(in_main("float a, b = 1., c; a + c;"), "float a=float(0), b = 1., c=float(0); a + c;");
+    EXPECT_EQ(in_main("float a, b = 1., c; a + c;"), "float a=0.0, b = 1., c=0.0; a + c;");
     EXPECT_EQ(in_main("for (int i; i < 3; i++) { highp vec3 p; p += u; }"),
-              "for (int i=int(0); i < 3; i++) { highp vec3 p=vec3(0); p += u; }");
+              "for (int i=0; i < 3; i++) { highp vec3 p=vec3(0.0); p += u; }");
     EXPECT_EQ(in_main("mat2x3 m; bvec2 b; uint n; m[0] + m[1]; b.x; n;"),
-              "mat2x3 m=mat2x3(0); bvec2 b=bvec2(0); uint n=uint(0); m[0] + m[1]; b.x; n;");
-    EXPECT_EQ(in_main("float a,\n// c\n  b; a + b;"), "float a=float(0),\n// c\n  b=float(0); a + b;");
+              "mat2x3 m=mat2x3(0.0); bvec2 b=bvec2(false); uint n=0u; m[0] + m[1]; b.x; n;");
+    EXPECT_EQ(in_main("float a,\n// c\n  b; a + b;"), "float a=0.0,\n// c\n  b=0.0; a + b;");
 }
 
 TEST(Initialise, StructuresAndArrays) {
     const std::string types = "struct I{float d;vec2 k[2];};struct S{I i;bool b;};";
     EXPECT_EQ(zeroed(types + "void main(){S s; s.b;}\n"),
-              types + "void main(){S s=S(I(float(0),vec2[2](vec2(0),vec2(0))),bool(0)); s.b;}\n");
-    EXPECT_EQ(in_main("float a[2]; a[int(u)];"), "float a[2]=float[2](float(0),float(0)); a[int(u)];");
+              types + "void main(){S s=S(I(0.0, vec2[2](vec2(0.0), vec2(0.0))), false); s.b;}\n");
+    EXPECT_EQ(in_main("float a[2]; a[int(u)];"), "float a[2]=float[2](0.0, 0.0); a[int(u)];");
     EXPECT_EQ(in_main("vec2[900] a; a[1];"),
-              "vec2[900] a;for(int tidemark_0=0;tidemark_0<900;++tidemark_0){a[tidemark_0]=vec2(0);} a[1];");
+              "vec2[900] a;for(int tidemark_0=0;tidemark_0<900;++tidemark_0){a[tidemark_0]=vec2(0.0);} a[1];");
     EXPECT_EQ(in_main("float a[90][2]; a[1];"),
               "float a[90][2];for(int tidemark_0=0;tidemark_0<90;++tidemark_0)"
-              "{a[tidemark_0]=float[2](float(0),float(0));} a[1];");
+              "{a[tidemark_0]=float[2](0.0, 0.0);} a[1];");
     EXPECT_EQ(zeroed("const int N = 9 * 9;void main(){float a[N]; a[1];}\n"),
               "const int N = 9 * 9;void main(){float a[N];"
-              "for(int tidemark_0=0;tidemark_0<a.length();++tidemark_0){a[tidemark_0]=float(0);} a[1];}\n");
+              "for(int tidemark_0=0;tidemark_0<a.length();++tidemark_0){a[tidemark_0]=0.0;} a[1];}\n");
     EXPECT_EQ(in_main("struct{float a;vec2 b;} s; s.a;"),
-              "struct{float a;vec2 b;} s;s.a=float(0);s.b=vec2(0); s.a;");
+              "struct{float a;vec2 b;} s;s.a=0.0;s.b=vec2(0.0); s.a;");
     // A variable hides the structure's name.
     EXPECT_EQ(zeroed("struct Ray{float t;};void main(){Ray Ray; Ray.t;}\n"),
-              "struct Ray{float t;};void main(){Ray Ray;Ray.t=float(0); Ray.t;}\n");
+              "struct Ray{float t;};void main(){Ray Ray;Ray.t=0.0; Ray.t;}\n");
 }
 
 TEST(Initialise, ParametersThatGoOut) {
     EXPECT_EQ(zeroed("void f(out vec4 o, vec2 p) { o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n"),
-              "void f(out vec4 o, vec2 p) {o=vec4(0); o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n");
+              "void f(out vec4 o, vec2 p) {o=vec4(0.0); o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n");
     for (const char* body :
-         {"o.r = 1.;", "if (p.x > 0.) o = vec4(1);", "if (p.x>0.) return; o = vec4(0);", "p;"}) {
+         {"o.r = 1.;", "if (p.x > 0.) o = vec4(1);", "if (p.x>0.) return; o = vec4(0.0);", "p;"}) {
         const std::string head = "void f(out vec4 o, vec2 p) {";
         const std::string tail = std::string(" ") + body + " }\nvoid main() { vec4 c; f(c, vec2(1)); }\n";
-        EXPECT_EQ(zeroed(head + tail), head + "o=vec4(0);" + tail);
+        EXPECT_EQ(zeroed(head + tail), head + "o=vec4(0.0);" + tail);
     }
     EXPECT_EQ(
         zeroed("void f(out float a[99]) { a[1] = 1.; }\nvoid main() { float a[99]; f(a); }\n"),
-        "void f(out float a[99]) {for(int tidemark_0=0;tidemark_0<99;++tidemark_0){a[tidemark_0]=float(0);} "
+        "void f(out float a[99]) {for(int tidemark_0=0;tidemark_0<99;++tidemark_0){a[tidemark_0]=0.0;} "
         "a[1] = 1.; }\nvoid main() { float a[99]; f(a); }\n");
 }
 
 TEST(Initialise, Globals) {
     EXPECT_EQ(zeroed("float g;\nvec3 h[2];\nvoid main() { g + h[1].x; }\n"),
-              "float g=float(0);\nvec3 h[2]=vec3[2](vec3(0),vec3(0));\nvoid main() { g + h[1].x; }\n");
+              "float g=0.0;\nvec3 h[2]=vec3[2](vec3(0.0), vec3(0.0));\nvoid main() { g + h[1].x; }\n");
     EXPECT_EQ(zeroed("float g;\nvoid main() { g = 1.; g; }\n"), "float g;\nvoid main() { g = 1.; g; }\n");
     EXPECT_EQ(zeroed("int t[500];\nvoid main() { t[3]; }\n"),
               "int t[500];void tidemark_start();\nvoid main() {tidemark_start(); t[3]; }\n"
               "\nvoid tidemark_start() { for(int "
-              "tidemark_0=0;tidemark_0<500;++tidemark_0){t[tidemark_0]=int(0);}}\n");
+              "tidemark_0=0;tidemark_0<500;++tidemark_0){t[tidemark_0]=0;}}\n");
 }
 
 TEST(Initialise, FunctionsThatMayEndWithoutAReturn) {
     EXPECT_EQ(zeroed("vec2 f(float x) { if (x > 1.) return vec2(7); }\nvoid main() { f(1.); }\n"),
-              "vec2 f(float x) { if (x > 1.) return vec2(7);return vec2(0); }\nvoid main() { f(1.); }\n");
+              "vec2 f(float x) { if (x > 1.) return vec2(7);return vec2(0.0); }\nvoid main() { f(1.); }\n");
     EXPECT_EQ(
         zeroed("float[99] f(float a[99]) { if (a[1] > 1.) return a; }\nvoid main() { f(float[99](1.)); }\n"),
         "float[99] f(float a[99]) { if (a[1] > 1.) return a;float[99] tidemark_value;"
-        "for(int tidemark_0=0;tidemark_0<99;++tidemark_0){tidemark_value[tidemark_0]=float(0);}"
+        "for(int tidemark_0=0;tidemark_0<99;++tidemark_0){tidemark_value[tidemark_0]=0.0;}"
         "return tidemark_value; }\nvoid main() { f(float[99](1.)); }\n");
     const std::string none = "float f(float x) { x; }\nvoid main() { f(1.); }\n"; // an error everywhere
     EXPECT_EQ(zeroed(none), none);
@@ -111,23 +111,23 @@ TEST(Initialise, FunctionsThatMayEndWithoutAReturn) {
 
 TEST(Initialise, WhatMacrosDeclare) {
     EXPECT_EQ(zeroed("#define V vec2\nvoid main() { V a; a; }\n"),
-              "#define V vec2\nvoid main() { V a=vec2(0); a; }\n");
+              "#define V vec2\nvoid main() { V a=vec2(0.0); a; }\n");
     EXPECT_EQ(zeroed("#define m(O) mat2 r; O = r\nvoid main() { mat2 a; m(a); }\n"),
-              "#define m(O) mat2 r=mat2(0); O = r\nvoid main() { mat2 a; m(a); }\n");
+              "#define m(O) mat2 r=mat2(0.0); O = r\nvoid main() { mat2 a; m(a); }\n");
     EXPECT_EQ(zeroed("#define D(T, n) T n\nvoid main() { D(float, a), b; a + b; }\n"),
-              "#define D(T, n) T n\nvoid main() { D(float, a=float(0)), b=float(0); a + b; }\n");
+              "#define D(T, n) T n\nvoid main() { D(float, a=0.0), b=0.0; a + b; }\n");
     // The name stands in two places of what the macro makes: behind it there is one place for the zero.
     EXPECT_EQ(zeroed("#define D(n) float n; n += 1.\nvoid main() { D(a); }\n"),
-              "#define D(n) float n=float(0); n += 1.\nvoid main() { D(a); }\n");
+              "#define D(n) float n=0.0; n += 1.\nvoid main() { D(a); }\n");
     EXPECT_EQ(zeroed("#define J(n) float n##_x;\nvoid main() { J(a) J(b) a_x + b_x; }\n"),
-              "#define J(n) float n##_x=float(0);\nvoid main() { J(a) J(b) a_x + b_x; }\n");
+              "#define J(n) float n##_x=0.0;\nvoid main() { J(a) J(b) a_x + b_x; }\n");
     EXPECT_EQ(zeroed("#define L(n, k) float n[k];\nvoid main() { L(a, 80) L(b, 90) a[1] + b[1]; }\n"),
               "#define L(n, k) float n[k];\nvoid main() { L(a, 80) "
-              "for(int tidemark_0=0;tidemark_0<80;++tidemark_0){a[tidemark_0]=float(0);}L(b, 90) "
-              "for(int tidemark_0=0;tidemark_0<90;++tidemark_0){b[tidemark_0]=float(0);}a[1] + b[1]; }\n");
+              "for(int tidemark_0=0;tidemark_0<80;++tidemark_0){a[tidemark_0]=0.0;}L(b, 90) "
+              "for(int tidemark_0=0;tidemark_0<90;++tidemark_0){b[tidemark_0]=0.0;}a[1] + b[1]; }\n");
     EXPECT_EQ(zeroed("#define mainImage(O,U) void f(out vec4 O,vec2 U)\nmainImage(O,U){O-=O;}\n"
                      "void main() { vec4 c; f(c, vec2(1)); }\n"),
-              "#define mainImage(O,U) void f(out vec4 O,vec2 U)\nmainImage(O,U){O=vec4(0);O-=O;}\n"
+              "#define mainImage(O,U) void f(out vec4 O,vec2 U)\nmainImage(O,U){O=vec4(0.0);O-=O;}\n"
               "void main() { vec4 c; f(c, vec2(1)); }\n");
 }
 
@@ -135,17 +135,17 @@ TEST(Initialise, WhatOneUseOfAMacroNeedsAndAnotherDoesNot) {
     // Another length: the zeros of the short one go behind the macro.
     EXPECT_EQ(zeroed("#define L(n, k) float n[k];\nvoid main() { L(a, 80) L(b, 2) a[1] + b[1]; }\n"),
               "#define L(n, k) float n[k];\nvoid main() { L(a, 80) "
-              "for(int tidemark_0=0;tidemark_0<80;++tidemark_0){a[tidemark_0]=float(0);}L(b, 2) "
-              "b=float[2](float(0),float(0));a[1] + b[1]; }\n");
+              "for(int tidemark_0=0;tidemark_0<80;++tidemark_0){a[tidemark_0]=0.0;}L(b, 2) "
+              "b=float[2](0.0, 0.0);a[1] + b[1]; }\n");
     // A function that nobody calls, and one that is called.
     EXPECT_EQ(
         zeroed("#define G(f) void f(out float x) { x += 1.; }\nG(a)\nG(b)\nvoid main() { float x; a(x); }\n"),
-        "#define G(f) void f(out float x) {x=float(0); x += 1.; }\nG(a)\nG(b)\nvoid main() { float x; a(x); "
+        "#define G(f) void f(out float x) {x=0.0; x += 1.; }\nG(a)\nG(b)\nvoid main() { float x; a(x); "
         "}\n");
     // One has a value before it is read.
     EXPECT_EQ(zeroed("#define B float left, right;\nvoid main() { { B left + right; } { B left = right = 1.; "
                      "left; } }\n"),
-              "#define B float left=float(0), right=float(0);\n"
+              "#define B float left=0.0, right=0.0;\n"
               "void main() { { B left + right; } { B left = right = 1.; left; } }\n");
 }
 
@@ -154,7 +154,7 @@ TEST(Initialise, NoMacroMakesSomethingElseOfAZero) {
          {"#define vec2 vec3\n#undef vec2\nvoid main() { vec2 a; a; }\n", // whether it holds is not asked
           "#define F(vec2) float b; b\nvoid main() { F(1.); }\n"}) {
         const std::string result = zeroed(text);
-        EXPECT_EQ(result.find("vec2(0)"), std::string::npos) << result;
+        EXPECT_EQ(result.find("vec2(0.0)"), std::string::npos) << result;
     }
 }
 
