@@ -3,6 +3,7 @@
 #include "base/file.hpp"
 #include "base/try.hpp"
 #include "glsl/overrides.hpp"
+#include "lab/placed_number.hpp"
 #include "scene/knob_defaults.hpp"
 #include "scene/overrides.hpp"
 #include "text/lines.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct Changes {
     std::vector<scene::Knob> knobs;
     std::vector<scene::Setting> definitions;
+    std::vector<glsl::Cure> numbers; ///< without a name
 };
 
 Result<std::map<std::string, Changes>> changes_by_file(scene::Scene scene,
@@ -36,6 +38,8 @@ Result<std::map<std::string, Changes>> changes_by_file(scene::Scene scene,
         const auto defined = std::ranges::find(definitions, setting.name, &glsl::NamedText::name);
         if (defined != definitions.end())
             files[defined->file].definitions.push_back(setting);
+        else if (const auto number = lab::number_at(scene, setting.name))
+            files[number->where.file].numbers.push_back(lab::replaced(*number, setting.value));
     }
     return files;
 }
@@ -65,7 +69,10 @@ Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
     std::vector<ChangedFile> changed;
     for (const auto& [file, changes] : TRY(changes_by_file(scene, settings))) {
         const std::string text = TRY(read_text_file(file));
-        std::string after = TRY(scene::with_defaults(text, changes.knobs));
+        const auto with_numbers = glsl::cured(text, file, changes.numbers);
+        if (!with_numbers)
+            return fail(ErrorCode::write, fmt::format("'{}' has not the numbers to change", file));
+        std::string after = TRY(scene::with_defaults(*with_numbers, changes.knobs));
         for (const scene::Setting& setting : changes.definitions)
             glsl::override_definition(after, setting);
         if (after != text)

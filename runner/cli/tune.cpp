@@ -46,7 +46,7 @@ Result<lab::Goal> goal_of(const TuneOptions& options) {
 
 /// Found in the text, but for those that are to be kept; a person's own values instead of ours.
 Result<std::vector<lab::QualitySetting>> settings_of(const TuneOptions& options, const scene::Scene& scene) {
-    lab::QualitySettings settings = lab::quality_settings(scene, lab::march_test(scene));
+    lab::QualitySettings settings = lab::quality_settings(scene, lab::march_places(scene));
     for (const std::string& text : options.vary) {
         const lab::Axis axis = TRY(lab::parse_axis(text, "--vary"));
         TRY(lab::with(scene, {{axis.name, axis.values.front()}}));

@@ -4,11 +4,13 @@
 #include "base/trimmed.hpp"
 #include "base/try.hpp"
 #include "glsl/overrides.hpp"
+#include "lab/placed_number.hpp"
 #include "scene/overrides.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace tidemark::lab {
 namespace {
@@ -37,6 +39,14 @@ Error no_such_name(const scene::Scene& scene, std::string_view name) {
             fmt::format("the scene has no #iUniform, #define or const '{}': {}", name,
                         hint_for(name, names, "it has none at all")),
             {}};
+}
+
+/// False: none of the texts holds it any more.
+bool replace(scene::Scene& scene, const glsl::Cure& number) {
+    bool whole = glsl::apply(scene.common, std::span(&number, 1));
+    for (scene::Pass& pass : scene.passes)
+        whole = glsl::apply(pass.text, std::span(&number, 1)) && whole;
+    return whole;
 }
 
 } // namespace
@@ -91,6 +101,9 @@ Result<void> apply(scene::Scene& scene, const Setting& setting) {
         return scene::override_knob(scene, text);
     if (glsl::definition_of(scene, setting.name))
         return glsl::override_definition(scene, text);
+    if (const auto number = number_at(scene, setting.name))
+        if (replace(scene, replaced(*number, setting.value)))
+            return {};
     return fail(no_such_name(scene, setting.name));
 }
 
@@ -102,8 +115,12 @@ Result<scene::Scene> with(scene::Scene scene, const std::vector<Setting>& settin
 
 std::string value_of(const scene::Scene& scene, std::string_view name) {
     const auto knob = std::ranges::find(scene.knobs, name, &scene::Knob::name);
-    return knob != scene.knobs.end() ? scene::to_string(*knob)
-                                     : glsl::definition_of(scene, name).value_or(std::string());
+    if (knob != scene.knobs.end())
+        return scene::to_string(*knob);
+    if (const auto defined = glsl::definition_of(scene, name))
+        return *defined;
+    const auto number = number_at(scene, name);
+    return number ? number->word : std::string();
 }
 
 } // namespace tidemark::lab

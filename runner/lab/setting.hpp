@@ -1,5 +1,5 @@
-// Knobs of a scene given other values, for a study: a uniform, a #define or a const, by name, without an
-// edit of the shader.
+// Knobs of a scene given other values, for a study: a uniform, a #define or a const, by name, or a number
+// without a name, by its place (placed_number.hpp); without an edit of the shader.
 #pragma once
 
 #include "base/result.hpp"
@@ -33,8 +33,8 @@ std::vector<Setting> merged(const std::vector<Setting>& settings);
 /// `a = 1, b = 2`; "defaults" when there are none.
 std::string to_string(const std::vector<Setting>& settings);
 
-/// Sets a knob (`#iUniform`), else rewrites a `#define` or `const`. The error (ErrorCode::usage) has the
-/// nearest name there is.
+/// Sets a knob (`#iUniform`), else rewrites a `#define` or `const`, else the number at a place. The error
+/// (ErrorCode::usage) has the nearest name there is.
 Result<void> apply(scene::Scene& scene, const Setting& setting);
 Result<scene::Scene> with(scene::Scene scene, const std::vector<Setting>& settings);
 

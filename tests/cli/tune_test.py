@@ -14,6 +14,18 @@ void mainImage(out vec4 c, in vec2 p) {
     c = vec4(vec3(sum / float(STEPS) * p.x / iResolution.x), 1.0);
 }
 """
+# A sphere before a wall; eight turns do not come to where rays graze it.
+MARCH = """void mainImage(out vec4 c, in vec2 f) {
+    vec3 ray = normalize(vec3(f / iResolution.xy - 0.5, -1.0)), at = vec3(0.0, 0.0, 4.0);
+    float t = 0.0;
+    for (int i = 0; i < 8 && t < 20.0; ++i) {
+        float d = min(length(at + t * ray) - 1.0, at.z + t * ray.z + 3.0);
+        if (d < 0.001) break;
+        t += d;
+    }
+    c = vec4(vec3(t / 20.0), 1.0);
+}
+"""
 QUICK = ("--size", "48x27", "--for", "10")
 
 
@@ -53,6 +65,18 @@ class Tune(ProgramTest):
         self.write("sum.glsl", SUM.replace("STEPS 1024", "STEPS 16"))
         found, said = self.tune("--max-time", "100000")
         self.assertGreater(int(found["chosen"]["STEPS"]), 16, said)
+
+    def test_numbers_without_a_name_are_turned_in_the_march(self):
+        self.write("march.glsl", MARCH)
+        done = self.succeed("tune", "march.glsl", "--json", *QUICK, "--max-time", "100000", "--write")
+        self.assertIn("turns march.glsl:4:25 (8, which bounds the march): 2, 3, 4, 6, 8, 12, 16\n", done.stderr)
+        self.assertIn("turns march.glsl:6:17 (0.001, which is the threshold): 0.032, ", done.stderr)
+        chosen = json.loads(done.stdout)["chosen"]
+        self.assertIn(chosen["march.glsl:4:25"], ("12", "16"))
+        turns, threshold = chosen["march.glsl:4:25"], chosen.get("march.glsl:6:17", "0.001")
+        self.assertEqual((self.folder / "march.glsl").read_text(),
+                         MARCH.replace("i < 8", f"i < {turns}").replace("d < 0.001", f"d < {threshold}"))
+        self.succeed("study", "march.glsl", "--vary", "march.glsl:4:25=4,8,16", "--size", "32x18", "--budget", "2")
 
     def test_own_values_instead_of_ours(self):
         found, said = self.tune("--max-error", "psnr=50dB", "--vary", "STEPS=128,256,512,1024")

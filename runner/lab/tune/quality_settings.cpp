@@ -2,6 +2,7 @@
 
 #include "lab/defined_numbers.hpp"
 #include "lab/own_numbers.hpp"
+#include "lab/placed_number.hpp"
 #include "lab/study/stricter.hpp"
 #include "text/tokens.hpp"
 
@@ -84,55 +85,98 @@ size_t behind(std::span<const Token> tokens, size_t open) {
     return tokens.size();
 }
 
+/// A number that stands in the march itself.
+struct Literal {
+    Use use;
+    SourceLocation where;
+    std::string text;
+};
+
+/// From its keyword to what it repeats, as indices of tokens.
+struct Loop {
+    size_t begin, head_end, end;
+};
+
 /// Where numbers are used in one text.
 class Uses {
 public:
-    Uses(const text::MappedText& text, const std::optional<SourceLocation>& march, UsesByName& found)
-        : lines_(text.lines()), march_(march), tokens_(text::tokenize(text.text())), found_(found) {}
+    Uses(const text::MappedText& text, const std::optional<MarchPlaces>& march)
+        : lines_(text.lines()), march_(march), tokens_(text::tokenize(text.text())) {}
 
-    void find() {
+    void find(UsesByName& named, std::vector<Literal>& literals) {
+        const std::vector<Loop> loops = find_loops();
+        const Loop* const marching = find_marching(loops);
+        for (const Loop& loop : loops)
+            for (size_t i = loop.begin + 2; i < loop.head_end; ++i)
+                if (is_compared(tokens_, i))
+                    add(i, Role::bound, &loop == marching, named, literals);
         for (size_t i = 1; i < tokens_.size(); ++i) {
-            if (tokens_[i].is("for") || tokens_[i].is("while"))
-                look_at_head(i);
-            if (tokens_[i].kind != text::TokenKind::identifier || tokens_[i - 1].is("define"))
+            if (tokens_[i - 1].is("define"))
                 continue;
+            const bool in_march = marching && marching->begin < i && i < marching->end;
             if (is_compared(tokens_, i))
-                add(i, Role::threshold, at_march(tokens_[i].line, tokens_[i].line));
+                add(i, Role::threshold, march_ && stands_at(i, march_->test), named, literals);
             if (is_factor(tokens_, i))
-                add(i, Role::step, false);
+                add(i, Role::step, false, named, literals);
+            if (is_factor(tokens_, i) && in_march && at_step(i) && is_number(i))
+                add(i, Role::step, true, named, literals);
         }
     }
 
 private:
-    /// A name that a loop's condition compares bounds it.
-    void look_at_head(size_t loop) {
-        if (loop + 1 >= tokens_.size() || !tokens_[loop + 1].is("("))
-            return;
-        const size_t head_end = behind(tokens_, loop + 1);
-        const size_t end =
-            head_end < tokens_.size() && tokens_[head_end].is("{") ? behind(tokens_, head_end) : head_end + 1;
-        const int last_line = tokens_[std::min(end, tokens_.size()) - 1].line;
-        for (size_t i = loop + 2; i < head_end; ++i)
-            if (tokens_[i].kind == text::TokenKind::identifier && is_compared(tokens_, i))
-                add(i, Role::bound, at_march(tokens_[loop].line, last_line));
+    bool is_number(size_t at) const { return tokens_[at].kind == text::TokenKind::number; }
+
+    std::vector<Loop> find_loops() const {
+        std::vector<Loop> loops;
+        for (size_t i = 0; i + 1 < tokens_.size(); ++i) {
+            if (!(tokens_[i].is("for") || tokens_[i].is("while")) || !tokens_[i + 1].is("("))
+                continue;
+            const size_t head_end = behind(tokens_, i + 1);
+            const bool block = head_end < tokens_.size() && tokens_[head_end].is("{");
+            loops.push_back(
+                {i, head_end, std::min(block ? behind(tokens_, head_end) : head_end + 1, tokens_.size())});
+        }
+        return loops;
     }
 
-    bool at_march(int first_line, int last_line) const {
-        if (!march_)
-            return false;
-        const SourceLocation first = lines_.locate(first_line), last = lines_.locate(last_line);
-        return first.file == march_->file && last.file == march_->file && first.line <= march_->line &&
-               march_->line <= last.line;
+    /// The innermost around the line of the test.
+    const Loop* find_marching(const std::vector<Loop>& loops) const {
+        const Loop* found = nullptr;
+        for (const Loop& loop : loops)
+            if (march_ && surrounds(loop, march_->test) &&
+                (!found || loop.end - loop.begin < found->end - found->begin))
+                found = &loop;
+        return found;
     }
 
-    void add(size_t at, Role role, bool march) {
-        found_[std::string(tokens_[at].text)].push_back({role, lines_.locate(tokens_[at].line), march});
+    bool surrounds(const Loop& loop, const SourceLocation& where) const {
+        const SourceLocation first = lines_.locate(tokens_[loop.begin].line),
+                             last = lines_.locate(tokens_[loop.end - 1].line);
+        return first.file == where.file && last.file == where.file && first.line <= where.line &&
+               where.line <= last.line;
+    }
+
+    bool stands_at(size_t at, const SourceLocation& where) const {
+        const SourceLocation here = lines_.locate(tokens_[at].line);
+        return here.file == where.file && here.line == where.line;
+    }
+
+    bool at_step(size_t at) const {
+        return std::ranges::any_of(march_->steps, [&](const auto& step) { return stands_at(at, step); });
+    }
+
+    void add(size_t at, Role role, bool march, UsesByName& named, std::vector<Literal>& literals) const {
+        const text::Token& token = tokens_[at];
+        const Use use{role, lines_.locate(token.line), march};
+        if (token.kind == text::TokenKind::identifier)
+            named[std::string(token.text)].push_back(use);
+        else if (is_number(at) && march)
+            literals.push_back({use, lines_.locate(token.line, token.column), std::string(token.text)});
     }
 
     const text::LineMap& lines_;
-    const std::optional<SourceLocation>& march_;
+    const std::optional<MarchPlaces>& march_;
     std::vector<Token> tokens_;
-    UsesByName& found_;
 };
 
 bool speaks_of_any(std::string_view name, const std::vector<std::string_view>& words) {
@@ -177,13 +221,36 @@ std::optional<QualitySetting> setting_of(const Setting& number, std::vector<Use>
     return std::nullopt;
 }
 
+/// Of the one number without a name that has the role, in a file of the scene's own: of several nobody knows
+/// which belongs to the march. The one that says where rays give up is a part of the picture.
+std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal> literals,
+                                                  const scene::Scene& scene,
+                                                  const std::optional<MarchPlaces>& march) {
+    std::erase_if(literals, [&](const Literal& each) {
+        const auto value = number_of(each.text);
+        return each.use.role != role || !value || *value < traits(role).least || *value > traits(role).most ||
+               (march->far && float(*value) == float(*march->far)) ||
+               (scene.image().bare_file && each.where.file != scene.file.string());
+    });
+    const auto elsewhere = [&](const Literal& each) { return !(each.where == literals.front().where); };
+    if (literals.empty() || std::ranges::any_of(literals, elsewhere)) // an include may stand in several texts
+        return std::nullopt;
+    const Literal& only = literals.front();
+    auto setting = around(place_name(only.where), only.text, only.use);
+    if (setting)
+        setting->why = fmt::format("{}, which {}", only.text,
+                                   role == Role::bound ? "bounds the march" : traits(role).does);
+    return setting;
+}
+
 } // namespace
 
-QualitySettings quality_settings(const scene::Scene& scene, const std::optional<SourceLocation>& march) {
+QualitySettings quality_settings(const scene::Scene& scene, const std::optional<MarchPlaces>& march) {
     UsesByName uses;
-    Uses(scene.common, march, uses).find();
+    std::vector<Literal> literals;
+    Uses(scene.common, march).find(uses, literals);
     for (const scene::Pass& pass : scene.passes)
-        Uses(pass.text, march, uses).find();
+        Uses(pass.text, march).find(uses, literals);
     QualitySettings settings;
     for (const Setting& number : own_numbers(scene)) {
         const std::vector<Use>& of_it = uses[number.name];
@@ -192,6 +259,9 @@ QualitySettings quality_settings(const scene::Scene& scene, const std::optional<
         else if (std::ranges::find(of_it, Role::bound, &Use::role) != of_it.end())
             settings.left.push_back(number.name);
     }
+    for (const Role role : {Role::bound, Role::threshold, Role::step})
+        if (auto setting = setting_of_the_only(role, literals, scene, march))
+            settings.found.push_back(*std::move(setting));
     return settings;
 }
 

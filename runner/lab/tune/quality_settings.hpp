@@ -24,9 +24,16 @@ struct QualitySettings {
     std::vector<std::string> left{}; ///< numbers that stand where such a number may, but are called otherwise
 };
 
+/// Of the loop of Image that is found to march.
+struct MarchPlaces {
+    SourceLocation test;                 ///< of its distance
+    std::vector<SourceLocation> steps{}; ///< where the ray is carried on
+    std::optional<double> far{};         ///< where it gives up, if that is a number of the text
+};
+
 /// By where a name stands in the text, and by what it is called where that does not tell it from a number of
-/// the picture. `march` is where the march of Image tests its distance, if one is found.
-QualitySettings quality_settings(const scene::Scene& scene, const std::optional<SourceLocation>& march);
+/// the picture. Numbers without a name count in the loop that is found to march alone, each by its place.
+QualitySettings quality_settings(const scene::Scene& scene, const std::optional<MarchPlaces>& march);
 
 /// An axis that a person gives.
 QualitySetting quality_setting(const scene::Scene& scene, Axis axis);

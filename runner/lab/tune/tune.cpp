@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace tidemark::lab {
 namespace {
@@ -147,11 +148,19 @@ Result<Tuned> tune(const scene::Scene& scene, TuneRequest request, const Watch& 
     return Tuner(scene, std::move(request), watch, circumstances).run();
 }
 
-std::optional<SourceLocation> march_test(const scene::Scene& scene) {
+std::optional<MarchPlaces> march_places(const scene::Scene& scene) {
     const auto function = PassFunction::create(scene, scene.image());
     if (!function || function->loops().empty())
         return std::nullopt;
-    return function->locate(function->loops().front().line);
+    const ir::MarchingLoop& loop = function->loops().front();
+    const auto& instructions = function->function().instructions;
+    MarchPlaces places{function->locate(loop.line)};
+    for (const ir::Carried& carried : loop.carried)
+        places.steps.push_back(function->locate(instructions[carried.update].line));
+    if (loop.far != ir::k_no_value && instructions[loop.far].op == ir::Op::constant &&
+        instructions[loop.far].type == ir::Scalar::real)
+        places.far = std::bit_cast<float>(instructions[loop.far].immediate);
+    return places;
 }
 
 } // namespace tidemark::lab

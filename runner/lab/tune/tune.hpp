@@ -23,7 +23,7 @@ struct Tuned : SearchOutcome {
 Result<Tuned> tune(const scene::Scene& scene, TuneRequest request, const Watch& watch,
                    const Circumstances& circumstances);
 
-/// Where the march of Image tests its distance; none where none is found.
-std::optional<SourceLocation> march_test(const scene::Scene& scene);
+/// Nothing where no loop of Image is found to march.
+std::optional<MarchPlaces> march_places(const scene::Scene& scene);
 
 } // namespace tidemark::lab

@@ -18,12 +18,16 @@ using testing::IsEmpty;
 // ---- What is turned -------------------------------------------------------------------------------------
 
 /// `lines` begin at line 1 of the file.
-QualitySettings found_in(const std::string& lines, std::optional<int> march = {}) {
+QualitySettings found_in(const std::string& lines, std::optional<int> march = {},
+                         std::optional<int> step = {}, std::optional<double> far = {}) {
     const scene::Scene scene = scene_of(lines);
-    std::optional<SourceLocation> where;
-    if (march)
-        where = scene.image().text.lines().locate(*march);
-    return quality_settings(scene, where);
+    const auto place = [&](int line) { return scene.image().text.lines().locate(line); };
+    if (!march)
+        return quality_settings(scene, std::nullopt);
+    MarchPlaces places{place(*march), {}, far};
+    if (step)
+        places.steps.push_back(place(*step));
+    return quality_settings(scene, places);
 }
 
 std::vector<std::string> names(const QualitySettings& settings) {
@@ -54,6 +58,54 @@ TEST(QualitySettings, of_a_march_are_known_by_their_use) {
     EXPECT_TRUE(settings.found[1].march);
     EXPECT_EQ(settings.found[1].axis.values.front(), "0.032");
     EXPECT_EQ(settings.found[1].axis.values[settings.found[1].own], "0.001");
+}
+
+/// A march of numbers without a name: `head` of its loop, `test` and `step` are its lines 3 to 5.
+QualitySettings found_in_march(const std::string& head, const std::string& test, const std::string& step) {
+    return found_in("float f() {\n"
+                    "    for (int j = 0; j < 3; j++)\n"
+                    "    for (" +
+                        head +
+                        ") {\n"
+                        "        float d = g(t * 0.4); if (" +
+                        test +
+                        ") break;\n"
+                        "        " +
+                        step +
+                        "\n"
+                        "    }\n"
+                        "    for (int i = 0; i < 12; i++) t += 0.25 * t;\n"
+                        "}\n",
+                    4, 5, 20.0);
+}
+
+TEST(QualitySettings, of_a_march_need_no_names) {
+    const auto settings = found_in_march("int i = 0; i < 64 && t < 20.0; i++", "d < 0.001", "t += d * 0.5;");
+    EXPECT_THAT(names(settings), ElementsAre(HasSubstr(":3:25"), HasSubstr(":4:39"), HasSubstr(":5:18")));
+    EXPECT_EQ(settings.found[0].axis.values[settings.found[0].own], "64");
+    EXPECT_EQ(settings.found[1].axis.values[settings.found[1].own], "0.001");
+    EXPECT_EQ(settings.found[2].axis.values[settings.found[2].own], "0.5");
+    EXPECT_THAT(settings.found[0].why, HasSubstr("64, which bounds the march"));
+    for (const QualitySetting& each : settings.found)
+        EXPECT_TRUE(each.march);
+}
+
+TEST(QualitySettings, without_a_name_and_not_the_only_ones_are_left) {
+    EXPECT_THAT(names(found_in_march("int i = 0; i < 64 && k < 32; i++", "d < 0.001 || h < 0.002",
+                                     "t += 0.5 * d * 0.9;")),
+                IsEmpty());
+}
+
+TEST(Setting, a_number_without_a_name_is_called_by_its_place) {
+    const scene::Scene scene = scene_of("float a = 1.5 + 2.5;\nfloat b = 2.5;\n");
+    const std::string file = scene.image().text.lines().locate(1).file;
+    EXPECT_EQ(value_of(scene, file + ":1:17"), "2.5");
+    EXPECT_EQ(value_of(scene, file + ":1:18"), "");
+    const auto changed =
+        with(scene, {{file + ":1:11", "11.25"}, {file + ":1:17", "7.0"}, {file + ":2:11", "4"}});
+    ASSERT_TRUE(changed) << changed.error().message;
+    EXPECT_EQ(changed->image().text.text(), "float a = 11.25 + 7.0;\nfloat b = 4;\n");
+    EXPECT_FALSE(with(scene, {{file + ":9:1", "1"}}));
 }
 
 TEST(QualitySettings, elsewhere_are_known_by_their_names_too) {
