@@ -1,6 +1,7 @@
 #include "lsp/hover.hpp"
 
 #include "glsl/syntax/builtin_functions.hpp"
+#include "glsl/syntax/words.hpp"
 #include "lsp/comments.hpp"
 #include "scene/host_uniforms.hpp"
 
@@ -63,10 +64,38 @@ std::string of_symbol(const SourceFile& file, const Symbol& symbol, bool elsewhe
     return text;
 }
 
+/// The sampler's kind is its input's: the pass that reads it decides.
+std::string of_channel(std::string_view name) {
+    return fmt::format(
+        "Input {} of the pass: a texture, a video, the keyboard, a cubemap or another pass, as "
+        "`#{} \"…\"` or the scene's channels say.\n",
+        name.back(), name);
+}
+
+/// What a scene may declare to be given it, beside what the site has.
+struct OwnUniform {
+    std::string_view name, meaning;
+};
+
+constexpr OwnUniform k_own_uniforms[] = {
+    {scene::k_camera_uniform, "the orbit camera, camera to world: right, up, backwards, position"},
+    {scene::k_orbit_uniform, "how the orbit camera was moved: azimuth, elevation, distance, 1 once it was"},
+    {scene::k_orbit_pan_uniform, "how the orbit camera's target was moved, in first distances"},
+    {scene::k_time_low_uniform, "what iTime as a float leaves of the seconds"},
+    {scene::k_mouse_button_uniform, "1 while a button is down: x left, y right"},
+    {scene::k_view_uniform, "a camera to world, the identity until a person moves it"}};
+
+std::string of_own_uniform(std::string_view name) {
+    const auto own = std::ranges::find(k_own_uniforms, name, &OwnUniform::name);
+    return own == std::end(k_own_uniforms) ? "" : fmt::format("Given by this host: {}.\n", own->meaning);
+}
+
 std::string of_host(std::string_view name) {
+    if (std::ranges::find(scene::k_channel_names, name) != scene::k_channel_names.end())
+        return of_channel(name);
     const auto uniform = std::ranges::find(scene::k_site_uniforms, name, &scene::SiteUniform::name);
     if (uniform == std::end(scene::k_site_uniforms))
-        return {};
+        return of_own_uniform(name);
     const std::string length = uniform->length > 0 ? fmt::format("[{}]", uniform->length) : "";
     return code(fmt::format("uniform {} {}{}", uniform->type, name, length)) +
            "Given by the host, as on ShaderToy's site.\n";
@@ -91,10 +120,15 @@ std::string hover_text(const Workspace& workspace, size_t offset, const Document
             if (symbol.name == word->text)
                 text += of_symbol(file, symbol, &file != &workspace.files.front());
     if (!text.empty())
-        return text;
+        return text + of_own_uniform(word->text);
     if (const glsl::BuiltinFunction* function = glsl::find_builtin(word->text))
         return of_builtin(*function);
-    return of_host(word->text);
+    const auto old = std::ranges::find(glsl::k_old_names, word->text, &glsl::OldName::name);
+    if (old == std::end(glsl::k_old_names))
+        return of_host(word->text);
+    const glsl::BuiltinFunction* const today = glsl::find_builtin(old->today);
+    return fmt::format("An older name of `{}`.\n\n", old->today) +
+           (today ? of_builtin(*today) : of_host(old->today));
 }
 
 } // namespace tidemark::lsp

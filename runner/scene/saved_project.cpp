@@ -75,14 +75,25 @@ Result<Json> choose(std::vector<Json> projects, std::string_view id, const std::
     return fail(error_at({file}, fmt::format("this holds {}, and not {}", fmt::join(ids, ", "), id)));
 }
 
+/// What stands in front of an id: nothing, or the site's own name.
+bool is_of_site(std::string_view address) {
+    const size_t scheme = address.find("://");
+    if (scheme != address.npos)
+        address.remove_prefix(scheme + 3);
+    const size_t slash = address.find('/');
+    const std::string_view host = address.substr(0, slash);
+    return slash == address.npos || host == "www.shadertoy.com" || host == "shadertoy.com";
+}
+
 } // namespace
 
 Result<std::string> project_id(std::string_view address) {
     std::string_view last = address.substr(0, address.find_first_of("?#"));
     while (last.ends_with('/'))
         last.remove_suffix(1);
+    const bool of_site = is_of_site(last);
     last.remove_prefix(last.rfind('/') + 1);
-    if (is_id(last))
+    if (of_site && is_id(last))
         return std::string(last);
     return fail(ErrorCode::usage,
                 fmt::format("'{}' is no address of a ShaderToy project: give one as in "

@@ -198,9 +198,10 @@ class Questions(Lsp):
                 return client.at(method, path, number, line.index(word) + 1, **more)
         self.fail(word)
 
-    def hover(self, word: str) -> str:
+    def hover(self, word: str, text: str = GOOD) -> str:
         client, scene, _ = self.scene()
-        result = self.at(client, "hover", scene, GOOD, word)["result"]
+        client.change(scene, text, 2)
+        result = self.at(client, "hover", scene, text, word)["result"]
         return result["contents"]["value"] if result else ""
 
     def test_hover_on_a_knob(self) -> None:
@@ -221,6 +222,14 @@ class Questions(Lsp):
     def test_hover_on_the_hosts_uniform_and_on_nothing(self) -> None:
         self.assertIn("uniform vec3 iResolution", self.hover("iResolution"))
         self.assertEqual(self.hover("{ 0.0, 2.0"), "")
+
+    def test_hover_on_channels_and_older_names(self) -> None:
+        text = ("uniform mat4 iCamera;\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                "    c = texture2D(iChannel1, p) * iCamera[0] * iGlobalTime;\n}\n")
+        self.assertIn("Input 1 of the pass", self.hover("iChannel1", text))
+        self.assertIn("An older name of `texture`.\n\n```glsl\n", self.hover("texture2D", text))
+        self.assertIn("An older name of `iTime`.\n\n```glsl\nuniform float iTime\n", self.hover("iGlobalTime", text))
+        self.assertIn("Given by this host: the orbit camera", self.hover("iCamera[0]", text))
 
     def test_definitions_across_files(self) -> None:
         client, scene, shapes = self.scene()

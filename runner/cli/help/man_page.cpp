@@ -127,6 +127,8 @@ ManPage man_page(const CLI::App& command) {
         fmt::format(".TH \"{}\" 1 \"\" \"Tidemark {}\" \"User Commands\"\n", plain(name), k_version);
     roff += fmt::format(".SH NAME\n{} \\- {}\n", plain(name), plain(command.get_description()));
     roff += fmt::format(".SH SYNOPSIS\n{}\n", synopsis(command));
+    if (whole) // as `view` does
+        roff += fmt::format(".br\n\\fB{}\\fR \\fISCENE\\fR\n", plain(words_of(command, " ")));
     roff += description(command);
     roff += ".SH OPTIONS\n" + options(command);
     roff += whole ? commands(command) : inner_commands(command);

@@ -93,8 +93,9 @@ TEST(SavedProject, an_address_has_the_id_at_its_end) {
           "https://www.shadertoy.com/embed/abCD12?gui=true&t=10",
           "https://www.shadertoy.com/api/v1/shaders/abCD12?key=KEY#top"})
         EXPECT_EQ(*project_id(address), "abCD12") << address;
-    for (const char* address :
-         {"", "-rf/12", "abCD1", "abCD123", "https://www.shadertoy.com/", "ab CD1", "abCD1\xc3"})
+    for (const char* address : {"", "-rf/12", "abCD1", "abCD123", "https://www.shadertoy.com/", "ab CD1",
+                                "abCD1\xc3", "https://example.com/view/abCD12", "example.com/abCD12",
+                                "https://example.com/www.shadertoy.com/abCD12"})
         EXPECT_FALSE(project_id(address)) << address;
 }
 
