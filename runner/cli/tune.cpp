@@ -30,12 +30,22 @@ struct TuneOptions : SearchOptions {
     std::optional<double> most_milliseconds;
     std::vector<std::string> vary;
     std::vector<std::string> keep;
+    bool as_it_is = false;
 };
+
+/// Of the scene as it is, where nothing is said: nobody sees it.
+constexpr const char* k_usual_likeness = "flip=0.01";
 
 Result<lab::Goal> goal_of(const TuneOptions& options) {
     lab::Goal goal;
-    if (!options.most_error.empty())
-        goal = TRY(lab::parse_goal(options.most_error));
+    const std::string most =
+        options.as_it_is && options.most_error.empty() ? k_usual_likeness : options.most_error;
+    if (!most.empty())
+        goal = TRY(lab::parse_goal(most));
+    if (options.as_it_is && goal.measure == lab::Measure::wrong)
+        return fail(ErrorCode::usage,
+                    "--as-it-is compares pictures: give --max-error flip=0.01, rmse=0.01 or "
+                    "psnr=40dB");
     goal.most_milliseconds = options.most_milliseconds;
     if (goal.most_error && goal.most_milliseconds)
         return fail(ErrorCode::usage, "--max-error and --max-time: give one of them");
@@ -56,6 +66,8 @@ Result<std::vector<lab::QualitySetting>> settings_of(const TuneOptions& options,
     std::erase_if(settings.found, [&](const auto& each) {
         return std::ranges::find(options.keep, each.axis.name) != options.keep.end();
     });
+    if (options.as_it_is)
+        std::ranges::for_each(settings.found, lab::leave_out_stricter);
     for (const lab::QualitySetting& each : settings.found)
         say(fmt::format("turns {} ({}): {}", each.axis.name, each.why, fmt::join(each.axis.values, ", ")));
     for (const std::string& name : settings.left)
@@ -71,6 +83,7 @@ Result<lab::TuneRequest> request_of(const TuneOptions& options, const scene::Sce
     lab::TuneRequest request{TRY(search_request(options)), {}};
     request.goal = TRY(goal_of(options));
     request.settings = TRY(settings_of(options, scene));
+    request.as_it_is = options.as_it_is;
     return request;
 }
 
@@ -147,6 +160,10 @@ void add_tune(CLI::App& app, Action& chosen) {
         ->add_option("--max-time", options->most_milliseconds,
                      "The most exact within so many milliseconds a frame")
         ->type_name("MS");
+    command
+        ->add_flag("--as-it-is", options->as_it_is,
+                   "Errors against what the scene shows now, not against a truth [flip=0.01]")
+        ->excludes("--max-time");
     repeatable(
         command
             ->add_option("--vary", options->vary,

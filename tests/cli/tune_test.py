@@ -78,6 +78,16 @@ class Tune(ProgramTest):
                          MARCH.replace("i < 8", f"i < {turns}").replace("d < 0.001", f"d < {threshold}"))
         self.succeed("study", "march.glsl", "--vary", "march.glsl:4:25=4,8,16", "--size", "32x18", "--budget", "2")
 
+    def test_the_scene_as_it_is_for_a_truth(self):
+        found, said = self.tune("--as-it-is", "--max-error", "flip=0.02")
+        self.assertIn("as it is: ", said)
+        self.assertLess(int(found["chosen"]["STEPS"]), 1024)
+        points = found["study"]["points"]
+        self.assertEqual([points[0]["all"]["picture"][measure] for measure in ("flip", "rmse")], [0, 0])
+        self.assertLess(max(int(point["settings"].get("STEPS", 1024)) for point in points), 1025)  # nothing stricter
+        chosen = next(point for point in points if point["settings"] == found["chosen"])
+        self.assertLessEqual(chosen["all"]["picture"]["flip"], 0.02)
+
     def test_own_values_instead_of_ours(self):
         found, said = self.tune("--max-error", "psnr=50dB", "--vary", "STEPS=128,256,512,1024")
         self.assertIn("turns STEPS (--vary): 128, 256, 512, 1024", said)
@@ -89,6 +99,8 @@ class Tune(ProgramTest):
                 (("--vary", "STEP=1,2"), "did you mean 'STEPS'"),
                 (("--max-error", "ssim=1"), "give rmse=0.01, psnr=40dB"),
                 (("--max-error", "rmse=1", "--max-time", "5"), "give one of them"),
+                (("--as-it-is", "--max-error", "wrong=1%"), "--as-it-is compares pictures"),
+                (("--as-it-is", "--max-time", "5"), "--max-time excludes --as-it-is"),
                 (("--for", "0"), "seconds above 0")):
             with self.subTest(arguments=arguments):
                 done = self.run_program("tune", "sum.glsl", *QUICK, *arguments)

@@ -2,7 +2,7 @@
 
 #include "base/try.hpp"
 #include "lab/changed_scene.hpp"
-#include "lab/simplify/scene_comparison.hpp"
+#include "lab/study/scene_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "lab/march/pixel_work.hpp"
 #include "lab/simplify/cut_places.hpp"
 #include "lab/simplify/cut_trial.hpp"
-#include "lab/simplify/scene_comparison.hpp"
+#include "lab/study/scene_comparison.hpp"
 #include "lab/study/verdict.hpp"
 #include "render/frame_stepper.hpp"
 

@@ -265,6 +265,11 @@ QualitySettings quality_settings(const scene::Scene& scene, const std::optional<
     return settings;
 }
 
+void leave_out_stricter(QualitySetting& setting) {
+    std::vector<std::string>& values = setting.axis.values;
+    values.resize(std::min(values.size(), setting.own + 1));
+}
+
 QualitySetting quality_setting(const scene::Scene& scene, Axis axis) {
     const auto own = std::ranges::find(axis.values, value_of(scene, axis.name));
     const auto at = size_t(own - axis.values.begin());

@@ -35,6 +35,10 @@ struct MarchPlaces {
 /// the picture. Numbers without a name count in the loop that is found to march alone, each by its place.
 QualitySettings quality_settings(const scene::Scene& scene, const std::optional<MarchPlaces>& march);
 
+/// What is left of it where the scene as it is is the truth: what is stricter costs more, and shows something
+/// else.
+void leave_out_stricter(QualitySetting& setting);
+
 /// An axis that a person gives.
 QualitySetting quality_setting(const scene::Scene& scene, Axis axis);
 

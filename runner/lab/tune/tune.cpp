@@ -3,6 +3,7 @@
 #include "base/try.hpp"
 #include "lab/march/pass_function.hpp"
 #include "lab/stopwatch.hpp"
+#include "lab/study/scene_comparison.hpp"
 #include "lab/study/verdict.hpp"
 #include "lab/tune/candidates.hpp"
 
@@ -14,8 +15,9 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of the longer side of the pictures that are searched.
-constexpr int k_small = 96;
+/// Of the longer side of the pictures that are searched; where the scene as it is is the truth, which takes
+/// no drawing, nearer to those that count.
+constexpr int k_small = 96, k_small_as_it_is = 240;
 /// Behind the last of the moments that are searched, seconds.
 constexpr double k_later = 2.7;
 /// Parts of the seconds there are.
@@ -40,18 +42,20 @@ public:
     Result<Tuned> run() {
         const WorkPrecisionSet explored = TRY(explore());
         const auto found = candidates(explored, request_.settings, request_.goal, milliseconds(explored));
-        Study last = study_of(found, request_.settings);
-        last.extent = request_.extent;
-        last.views = request_.views;
-        last.views.push_back(unseen(request_.views.back(), k_later));
-        Tuned tuned{{TRY(measure(std::move(last), k_last_timing, 30)), {}}, {}};
+        std::vector<View> views = request_.views;
+        views.push_back(unseen(views.back(), k_later));
+        Tuned tuned{{TRY(measure(found, request_.extent, std::move(views), k_last_timing, 30)), {}}, {}};
         TRY(judge(tuned));
         return tuned;
     }
 
 private:
-    /// One study, in so much of the time; what it found when that was over says nothing.
-    Result<Findings> measure(Study study, double part, size_t rounds) {
+    /// One study of these settings, in so much of the time; what it found when that was over says nothing.
+    Result<Findings> measure(const std::vector<std::vector<Setting>>& points, Extent extent,
+                             std::vector<View> views, double part, size_t rounds) {
+        Study study = study_of(points, request_.settings);
+        study.extent = extent;
+        study.views = std::move(views);
         study.proof_seconds = request_.goal.measure == Measure::wrong ? k_proof * request_.seconds : 0;
         study.enough = sharpness(request_.goal);
         const Stopwatch stopwatch;
@@ -61,7 +65,9 @@ private:
             late = late || stopwatch.elapsed().wall * 1e-3 > k_longest * request_.seconds;
             return !late && watch_.keep_going();
         };
-        auto findings = conduct(scene_, study, {2, rounds, part * request_.seconds}, limited, facts_);
+        const Timing timing{2, rounds, part * request_.seconds};
+        auto findings = request_.as_it_is ? compare(points, study, timing, limited)
+                                          : conduct(scene_, study, timing, limited, facts_);
         if (late)
             return fail(
                 ErrorCode::check_failed,
@@ -70,13 +76,26 @@ private:
         return findings;
     }
 
+    /// The scene as it is is the truth.
+    Result<Findings> compare(const std::vector<std::vector<Setting>>& points, const Study& study,
+                             const Timing& timing, const Watch& watch) const {
+        std::vector<std::pair<std::string, scene::Scene>> scenes;
+        for (const std::vector<Setting>& settings : points)
+            scenes.emplace_back(to_string(settings), TRY(with(scene_, settings)));
+        Findings findings = TRY(compare_scenes(scene_, scenes, study, timing, watch, facts_));
+        for (size_t i = 1; i < findings.set.points.size(); ++i)
+            findings.set.points[i].point.settings = points[i - 1];
+        return findings;
+    }
+
     /// Where the truth does not converge in all settings at once, in those of the march alone.
     Result<WorkPrecisionSet> explore() {
         for (;;) {
-            Study study = study_of(single_values(request_.settings), request_.settings);
-            study.extent = small_of(request_.extent, k_small);
-            study.views = request_.views;
-            WorkPrecisionSet set = TRY(measure(std::move(study), k_explore_timing, 9)).set;
+            WorkPrecisionSet set =
+                TRY(measure(single_values(request_.settings),
+                            small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small),
+                            request_.views, k_explore_timing, 9))
+                    .set;
             const double own = error_by(request_.goal.measure, set.points.front().all);
             const std::string blur =
                 blur_of(set, request_.goal.measure, request_.goal.most_error.value_or(own));
@@ -85,11 +104,17 @@ private:
             const size_t before = request_.settings.size();
             std::erase_if(request_.settings, [](const QualitySetting& each) { return !each.march; });
             if (request_.settings.empty() || request_.settings.size() == before || !watch_.keep_going())
-                return fail(ErrorCode::check_failed, "cannot say: " + blur);
+                return fail(ErrorCode::check_failed, "cannot say: " + blur + without_truth());
             sentences_.push_back(
                 "only the march's own settings were turned: with the others there is no truth (" + blur +
                 ")");
         }
+    }
+
+    std::string without_truth() const {
+        return request_.goal.most_milliseconds || request_.goal.measure == Measure::wrong
+                   ? ""
+                   : "; --as-it-is tells how much faster it can show what it shows now";
     }
 
     /// A guess of what the scene as it is takes at full size.
@@ -104,7 +129,7 @@ private:
         Goal goal = request_.goal;
         const double most = goal.most_error.value_or(error_by(goal.measure, own.all));
         if (const std::string blur = blur_of(set, goal.measure, most); !blur.empty())
-            return fail(ErrorCode::check_failed, "cannot say: " + blur);
+            return fail(ErrorCode::check_failed, "cannot say: " + blur + without_truth());
         sentences_.push_back("as it is: " + cost_and_error(goal.measure, own));
         const WorkPrecision* best = best_by(set, goal);
         if (!goal.most_milliseconds)

@@ -13,6 +13,7 @@ namespace tidemark::lab {
 
 struct TuneRequest : SearchRequest {
     std::vector<QualitySetting> settings{};
+    bool as_it_is = false; ///< errors are held against what the scene shows now, not against a truth
 };
 
 struct Tuned : SearchOutcome {

@@ -18,7 +18,8 @@ std::vector<image::Image> pictures_of(Specimen& specimen, const std::vector<View
 Result<Truth> truth_of(std::vector<image::Image> pictures);
 
 /// A study whose points are scenes, and whose truth is the first of them: `scene`, as it is. What it shows is
-/// what it shows, so that the truth has no error of its own.
+/// what it shows, so that the truth has no error of its own. Those that nobody waits for any more are left
+/// out.
 Result<Findings> compare_scenes(const scene::Scene& scene,
                                 const std::vector<std::pair<std::string, scene::Scene>>& others,
                                 const Study& study, const Timing& timing, const Watch& watch,

@@ -1,4 +1,4 @@
-#include "lab/simplify/scene_comparison.hpp"
+#include "lab/study/scene_comparison.hpp"
 
 #include "base/try.hpp"
 #include "lab/study/truth.hpp"
@@ -16,11 +16,12 @@ class SceneComparison {
 public:
     SceneComparison(const Study& study, const Circumstances& circumstances) {
         findings_.set.study = study;
-        findings_.set.study.series = {{"cut", Trust::unknown, {}, {}}};
+        findings_.set.study.series = {{"changed", Trust::unknown, {}, {}}};
         findings_.set.circumstances = circumstances;
         findings_.set.words.defaults = "the scene as it is";
-        findings_.set.picture_standard = {"the scene as it is", 0.0,
-                                          "none of its own: what is asked is how far a cut scene is from it"};
+        findings_.set.picture_standard = {
+            "the scene as it is", 0.0,
+            "none of its own: what is asked is how far a changed scene is from it"};
     }
 
     void add(const std::string& label, const scene::Scene& scene, bool own) {
@@ -100,7 +101,8 @@ Result<Findings> compare_scenes(const scene::Scene& scene,
     SceneComparison comparison(study, circumstances);
     comparison.add(std::string(k_defaults), scene, true);
     for (const auto& [label, other] : others)
-        comparison.add(label, other, false);
+        if (watch.keep_going())
+            comparison.add(label, other, false);
     return comparison.run(timing, watch);
 }
 
