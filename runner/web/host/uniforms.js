@@ -47,6 +47,8 @@ function uniformsAt(moment, size, channels) {
         iTime: [[moment.time]], time: [[moment.time]], iTimeLow: [[moment.time - Math.fround(moment.time)]],
         iTimeDelta: [[moment.delta]], iFrame: [[moment.frame]], iFrameRate: [[moment.rate]],
         iMouse: [mouse], mouse: [[mouse[0] / width, mouse[1] / height]],
+        u_resolution: [[width, height]], u_mouse: [[mouse[0], mouse[1]]], u_time: [[moment.time]],
+        u_delta: [[moment.delta]], u_frame: [[moment.frame]], u_date: [moment.date],
         iMouseButton: [[Number(moment.mouse.down), Number(moment.mouse.right), 0, 0]],
         iDate: [moment.date], iSampleRate: [[SAMPLE_RATE]],
         iChannelTime: [all(texture => texture.time).map(time => time ?? 0), 1],
