@@ -76,12 +76,26 @@ void Audience::handle(ViewerId viewer, LetGo) {
         let_go();
 }
 
+void Audience::handle(ViewerId viewer, const FilmShown& shown) {
+    viewers_[viewer].shows_film = shown.can && settings_.film;
+    viewers_[viewer].film = 0;
+    inbox_.wake();
+}
+
+/// Of the film only what follows what it has; else the whole picture, if there is one.
 void Audience::send_newest(ViewerId id, Viewer& viewer) {
-    if (viewer.sent == newest_.number || viewer.on_the_way.size() >= k_pictures_on_the_way)
+    if (viewer.sent == newest_.number || !viewer.is_ready())
         return;
+    const bool follows = newest_.film_before == 0 || newest_.film_before == viewer.film;
+    const bool film = viewer.shows_film && newest_.film && follows;
+    const SharedMessage& message = film ? newest_.film : newest_.message;
+    if (!message)
+        return;
+    if (film)
+        viewer.film = newest_.number;
     viewer.sent = newest_.number;
     viewer.on_the_way.push_back(newest_.number);
-    settings_.send(id, newest_.message);
+    settings_.send(id, message);
 }
 
 void Audience::steer(ViewerId viewer) {
@@ -103,6 +117,8 @@ void Audience::tell_who_steers() {
 void Audience::show(NumberedPicture picture) {
     const std::lock_guard lock(mutex_);
     newest_ = std::move(picture);
+    if (newest_.film)
+        newest_film_ = newest_.number;
     for (auto& [id, viewer] : viewers_)
         send_newest(id, viewer);
     inbox_.wake();
@@ -123,8 +139,18 @@ void Audience::tell_steering(const SharedMessage& text) {
 
 bool Audience::is_waiting() const {
     const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(
-        viewers_, [](const auto& viewer) { return viewer.second.on_the_way.size() < k_pictures_on_the_way; });
+    return std::ranges::any_of(viewers_, [](const auto& viewer) { return viewer.second.is_ready(); });
+}
+
+WantedCodings Audience::wanted() const {
+    const std::lock_guard lock(mutex_);
+    WantedCodings wanted;
+    for (const auto& [id, viewer] : viewers_) {
+        wanted.whole |= !viewer.shows_film;
+        wanted.film |= viewer.shows_film;
+        wanted.key |= viewer.shows_film && viewer.is_ready() && viewer.film != newest_film_;
+    }
+    return wanted;
 }
 
 } // namespace tidemark::serve

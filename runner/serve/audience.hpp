@@ -18,7 +18,16 @@ namespace tidemark::serve {
 /// A picture as it is sent; they are numbered from 1.
 struct NumberedPicture {
     uint32_t number = 0;
-    SharedMessage message{};
+    SharedMessage message{};  ///< whole; null where nobody wants it so
+    SharedMessage film{};     ///< as what changed since `film_before`; null likewise
+    uint32_t film_before = 0; ///< number of the film's picture before it; 0: it can be seen without
+};
+
+/// What the next picture is wanted as, by those who are ready for it.
+struct WantedCodings {
+    bool whole = false;
+    bool film = false;
+    bool key = false; ///< of those who want the film one has not seen its last picture
 };
 
 /// All of it from any thread.
@@ -31,6 +40,7 @@ public:
     struct Settings {
         std::function<void(ViewerId, SharedMessage)> send;
         bool once = false; ///< the end of the last viewer is that of the program
+        bool film = false; ///< whoever can show a film is sent one
     };
 
     /// What viewers do goes into `inbox`, which is woken when one of them is ready for a picture, too.
@@ -49,15 +59,21 @@ public:
 
     /// Somebody is ready for one more picture.
     bool is_waiting() const;
+    WantedCodings wanted() const;
 
 private:
     struct Viewer {
         std::deque<uint32_t> on_the_way; ///< numbers of pictures
         uint32_t sent = 0;               ///< the newest of them, ever
+        bool shows_film = false;
+        uint32_t film = 0; ///< the newest of the film's that it was sent
+
+        bool is_ready() const { return on_the_way.size() < k_pictures_on_the_way; }
     };
 
     void handle(ViewerId viewer, const PictureSeen& seen);
     void handle(ViewerId viewer, SteeringWanted) { steer(viewer); }
+    void handle(ViewerId viewer, const FilmShown& shown);
     void handle(ViewerId viewer, const platform::InputEvent& event);
     void handle(ViewerId viewer, const live::Command& command);
     void handle(ViewerId viewer, LetGo);
@@ -73,6 +89,7 @@ private:
     ViewerId steering_ = 0;
     Hands hands_;
     NumberedPicture newest_;
+    uint32_t newest_film_ = 0; ///< number of the film's last picture
     std::map<std::string, SharedMessage> told_;
 };
 

@@ -1,12 +1,19 @@
 #include "serve/picture_encoder.hpp"
 
-#include <chrono>
 #include <utility>
 
 namespace tidemark::serve {
+namespace {
 
-PictureEncoder::PictureEncoder(Encode encode, Done done)
-    : encode_(std::move(encode)), done_(std::move(done)), thread_([this] { run(); }) {}
+using Clock = std::chrono::steady_clock;
+
+/// A film that stands still so long is shown as sharp as a whole picture.
+constexpr std::chrono::milliseconds k_still(200);
+
+} // namespace
+
+PictureEncoder::PictureEncoder(Settings settings)
+    : settings_(std::move(settings)), thread_([this] { run(); }) {}
 
 PictureEncoder::~PictureEncoder() {
     {
@@ -30,19 +37,51 @@ bool PictureEncoder::has_room() const {
 
 void PictureEncoder::run() {
     std::unique_lock lock(mutex_);
+    std::optional<Job> soft; // seen in a film alone, so far
+    const auto is_asked = [this] { return ending_ || waiting_; };
     while (true) {
-        changed_.wait(lock, [this] { return ending_ || waiting_; });
+        if (soft)
+            changed_.wait_for(lock, k_still, is_asked);
+        else
+            changed_.wait(lock, is_asked);
         if (ending_)
             return;
-        Job job = *std::exchange(waiting_, std::nullopt);
+        const bool stands_still = !waiting_;
+        Job job = *std::exchange(stands_still ? soft : waiting_, std::nullopt);
         lock.unlock();
-        const auto begun = std::chrono::steady_clock::now();
-        const std::string file = encode_(job.picture);
-        job.head.encode_ms =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
-        done_({job.head.number, picture_message(job.head, file)});
+        WantedCodings wanted{.whole = true};
+        if (stands_still)
+            ++job.head.number;
+        else
+            wanted = settings_.wanted();
+        NumberedPicture picture = encoded(job, wanted);
+        soft = !stands_still && picture.film ? std::optional(std::move(job)) : std::nullopt;
+        settings_.done(std::move(picture));
         lock.lock();
     }
+}
+
+/// Where there is no film, and nobody who wants a whole picture, there is one for whoever comes.
+NumberedPicture PictureEncoder::encoded(Job& job, const WantedCodings& wanted) {
+    const auto begun = Clock::now();
+    const Extent extent = job.picture.extent;
+    const bool key = wanted.key || film_ == 0 || extent != film_extent_;
+    const std::string film = wanted.film ? settings_.film(job.picture, key) : std::string();
+    const std::string whole = wanted.whole || film.empty() ? settings_.whole(job.picture) : std::string();
+    PictureHead& head = job.head;
+    head.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    NumberedPicture picture{head.number};
+    head.coding = "jpeg";
+    if (!whole.empty())
+        picture.message = picture_message(head, whole);
+    if (film.empty())
+        return picture;
+    head.coding = key ? "key" : "delta";
+    picture.film = picture_message(head, film);
+    picture.film_before = key ? 0 : film_;
+    film_ = head.number;
+    film_extent_ = extent;
+    return picture;
 }
 
 SharedMessage picture_message(const PictureHead& picture, const std::string& file) {

@@ -1,10 +1,11 @@
-// Makes files of pictures on a thread of its own, the newest first: whoever draws does not wait.
+// Makes what is sent of pictures on a thread of its own, the newest first: whoever draws does not wait.
 #pragma once
 
 #include "image/image.hpp"
 #include "serve/audience.hpp"
 #include "serve/state_text.hpp"
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -18,13 +19,17 @@ class PictureEncoder {
 public:
     struct Job {
         image::Image picture; ///< RGBA in bytes
-        PictureHead head;
+        PictureHead head;     ///< the number after its own is this one's, too
     };
-    using Encode = std::function<std::string(const image::Image&)>;
-    using Done = std::function<void(NumberedPicture)>;
+    /// All are called on the encoder's thread.
+    struct Settings {
+        std::function<std::string(const image::Image&)> whole;          ///< a file
+        std::function<std::string(const image::Image&, bool key)> film; ///< empty: it failed
+        std::function<WantedCodings()> wanted;
+        std::function<void(NumberedPicture)> done;
+    };
 
-    /// Both are called on the encoder's thread.
-    PictureEncoder(Encode encode, Done done);
+    explicit PictureEncoder(Settings settings);
     PictureEncoder(const PictureEncoder&) = delete;
     PictureEncoder& operator=(const PictureEncoder&) = delete;
     ~PictureEncoder();
@@ -36,9 +41,11 @@ public:
 
 private:
     void run();
+    NumberedPicture encoded(Job& job, const WantedCodings& wanted);
 
-    Encode encode_;
-    Done done_;
+    Settings settings_;
+    uint32_t film_ = 0; ///< number of the film's last picture
+    Extent film_extent_{};
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<Job> waiting_;

@@ -18,10 +18,15 @@ struct PictureSeen {
 };
 /// This viewer wants to be the one that steers.
 struct SteeringWanted {};
+/// Whether this viewer's browser can show a film.
+struct FilmShown {
+    bool can = false;
+};
 /// Whatever is held down is let go: the page lost the keyboard.
 struct LetGo {};
 
-using Request = std::variant<platform::InputEvent, live::Command, PictureSeen, SteeringWanted, LetGo>;
+using Request =
+    std::variant<platform::InputEvent, live::Command, PictureSeen, SteeringWanted, FilmShown, LetGo>;
 
 /// No longer message is taken.
 inline constexpr size_t k_longest_request = 4096;

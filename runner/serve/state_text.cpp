@@ -101,7 +101,8 @@ std::string to_text(const PictureHead& head) {
                  {"frame", head.frame},
                  {"costs", std::move(costs)},
                  {"draw", in_hundredths(head.draw_ms)},
-                 {"encode", in_hundredths(head.encode_ms)}});
+                 {"encode", in_hundredths(head.encode_ms)},
+                 {"coding", head.coding}});
 }
 
 std::string line_text(const char* name, const std::string& line) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::serve {
@@ -22,6 +23,7 @@ struct PictureHead {
     std::vector<std::optional<double>> costs{}; ///< milliseconds of each pass, by the driver's timer
     double draw_ms = 0; ///< from the event that asked for it, where one did, until its pixels were there
     double encode_ms = 0;
+    std::string_view coding = "jpeg"; ///< else of a film: "key", or "delta" from the picture before
 };
 std::string to_text(const PictureHead& head);
 

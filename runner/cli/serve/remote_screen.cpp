@@ -36,7 +36,8 @@ image::Image read_target(const gl::RenderTarget& target) {
 RemoteScreen::RemoteScreen(Settings settings, platform::HeadlessContext context)
     : settings_(std::move(settings)), context_(std::move(context)),
       audience_({.send = [this](auto viewer, auto message) { server_->send(viewer, std::move(message)); },
-                 .once = settings_.once},
+                 .once = settings_.once,
+                 .film = settings_.film},
                 inbox_) {}
 
 /// The threads first: they send by way of what goes then.
@@ -57,11 +58,14 @@ Result<void> RemoteScreen::listen() {
     const serve::ServePlugIn& plug_in = *TRY(serve::load_serve_plug_in());
     settings_.server.page = serve::k_page;
     server_ = TRY(plug_in.open(settings_.server));
-    encoder_ = std::make_unique<serve::PictureEncoder>(
-        [encode = plug_in.encode, quality = settings_.quality](const image::Image& picture) {
-            return encode(picture.extent, picture.bytes, quality);
-        },
-        [this](serve::NumberedPicture picture) { audience_.show(std::move(picture)); });
+    film_ = plug_in.open_film(settings_.quality);
+    encoder_ = std::make_unique<serve::PictureEncoder>(serve::PictureEncoder::Settings{
+        .whole = [encode = plug_in.encode, quality = settings_.quality](
+                     const image::Image& picture) { return encode(picture.extent, picture.bytes, quality); },
+        .film = [this](const image::Image& picture,
+                       bool key) { return film_->encode(picture.extent, picture.bytes, key); },
+        .wanted = [this] { return audience_.wanted(); },
+        .done = [this](serve::NumberedPicture picture) { audience_.show(std::move(picture)); }});
     server_->start(audience_);
     return {};
 }
@@ -119,7 +123,8 @@ void RemoteScreen::send_picture(const live::Model& model, const ShownMoment& mom
     large_ = model.large;
     const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
     image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
-    serve::PictureHead head{.number = ++number_, .seconds = moment.seconds, .frame = moment.frame};
+    const uint32_t number = 2 * pictures_++ + 1; // the one behind is the encoder's
+    serve::PictureHead head{.number = number, .seconds = moment.seconds, .frame = moment.frame};
     for (const live::PictureField& field : model.pictures)
         head.costs.push_back(field.milliseconds);
     head.draw_ms = (now_seconds() - begun) * 1000;

@@ -1,4 +1,4 @@
-// Pages of browsers as a Screen: pictures go out as JPEG, what the steering viewer does comes in.
+// Pages of browsers as a Screen: pictures go out as JPEG or VP8, what the steering viewer does comes in.
 #pragma once
 
 #include "cli/view/screen.hpp"
@@ -19,7 +19,8 @@ public:
     struct Settings {
         serve::ServerSettings server;
         Extent extent;
-        int quality = 85;  ///< of JPEG
+        int quality = 85;  ///< JPEG's; a film's is much the same
+        bool film = false; ///< VP8 for whoever can show it, instead of JPEG
         bool once = false; ///< closed when the last viewer has left
     };
 
@@ -60,12 +61,13 @@ private:
     serve::Inbox inbox_;
     serve::Audience audience_;
     std::unique_ptr<serve::Server> server_;
+    std::unique_ptr<serve::Film> film_; ///< the encoder's
     std::unique_ptr<serve::PictureEncoder> encoder_;
     live::Commands commands_;
     const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`
     bool fresh_ = false;                        ///< it is not what was sent last
     std::optional<size_t> large_;               ///< what was sent last, as the model has it
-    uint32_t number_ = 0;                       ///< of the picture that was sent last
+    uint32_t pictures_ = 0;                     ///< that were sent
     std::string told_;                          ///< the state that viewers know
     bool was_asked_ = false;
     double woken_at_ = 0; ///< as now_seconds counts

@@ -26,6 +26,7 @@ struct ServeOptions : ViewerOptions {
     int port = 0;
     std::string token_file;
     int quality = 85;
+    std::string codec = "jpeg";
     bool once = false;
 };
 
@@ -65,7 +66,8 @@ Result<int> serve_scene(const ServeOptions& options) {
     settings.controls = true;
     settings.sounds = false;
     return show(std::move(settings), [&](const std::string&) -> Result<std::unique_ptr<Screen>> {
-        auto screen = TRY(RemoteScreen::open({server, size, options.quality, options.once}));
+        auto screen =
+            TRY(RemoteScreen::open({server, size, options.quality, options.codec == "vp8", options.once}));
         TRY(announce(*screen));
         return screen;
     });
@@ -92,6 +94,12 @@ void add_serve(CLI::App& app, Action& chosen) {
     command->add_option("--quality", options->quality, "Of the pictures: JPEG's, from 1 to 100")
         ->type_name("N")
         ->check(number<int>("a whole number from 1 to 100", 1, 100))
+        ->capture_default_str();
+    command
+        ->add_option("--codec", options->codec,
+                     "jpeg, or vp8: films for browsers that show them, smaller where little moves")
+        ->type_name("NAME")
+        ->check(unnamed(CLI::IsMember({"jpeg", "vp8"})))
         ->capture_default_str();
     command->add_flag("--once", options->once, "Ends when the last viewer has left");
     command->callback([options, &chosen] { chosen = [options] { return serve_scene(*options); }; });

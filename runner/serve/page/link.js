@@ -1,6 +1,7 @@
 // ---- The way to the program
 
-// Texts go both ways, pictures come in: four bytes of a length, a JSON head of that length, a JPEG file.
+// Texts go both ways, pictures come in: four bytes of a length, a JSON head of that length, a JPEG file or a picture of a
+// film in VP8.
 class Link {
     constructor({onText, onPicture, onEnd}) {
         const address = new URL("socket", location.href);
@@ -15,7 +16,13 @@ class Link {
     static parts(buffer) {
         const length = new DataView(buffer).getUint32(0, true);
         const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-        return [head, new Blob([new Uint8Array(buffer, 4 + length)], {type: "image/jpeg"})];
+        return [head, new Uint8Array(buffer, 4 + length)];
+    }
+
+    // Also before the way is open.
+    sendFirst(wanted, values) {
+        this.socket.addEventListener("open", () => this.send(wanted, values), {once: true});
+        this.send(wanted, values);
     }
 
     send(wanted, values = {}) {

@@ -14,6 +14,7 @@ class Remote {
                               onEnd: reason => this.#end(reason)});
         this.#build();
         const {canvas, link} = this;
+        this.film = new Film((head, frame) => this.#present(head, frame), can => link.sendFirst("film", {can: Number(can)}));
         sendPointer(canvas, link, () => this.state.size);
         sendKeys(canvas, link, () => this.state.keyboard, () => this.toggleFullScreen());
         document.addEventListener("visibilitychange", () => this.#tellSeen());
@@ -108,22 +109,29 @@ class Remote {
             this.status.title = `drawn in ${this.head.draw.toFixed(1)} ms, encoded in ${this.head.encode.toFixed(1)} ms`;
     }
 
-    async #see(head, file) {
-        const bitmap = await createImageBitmap(file);
+    async #see(head, bytes) {
+        if (head.coding === "jpeg")
+            this.#present(head, await createImageBitmap(new Blob([bytes], {type: "image/jpeg"})));
+        else
+            this.film.show(head, bytes);
+    }
+
+    // A bitmap or a frame of a film.
+    #present(head, bitmap) {
         if (head.number > this.number) {
             this.number = head.number;
             this.head = head;
-            this.#draw(bitmap);
+            this.#draw(bitmap, bitmap.displayWidth ?? bitmap.width, bitmap.displayHeight ?? bitmap.height);
         }
         bitmap.close();
         this.#tellSeen();
     }
 
-    #draw(bitmap) {
+    #draw(bitmap, width, height) {
         const {canvas, picture} = this;
-        if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-            [canvas.width, canvas.height] = [bitmap.width, bitmap.height];
-            picture.style.setProperty("--ratio", bitmap.width / bitmap.height);
+        if (canvas.width !== width || canvas.height !== height) {
+            [canvas.width, canvas.height] = [width, height];
+            picture.style.setProperty("--ratio", width / height);
         }
         canvas.getContext("2d").drawImage(bitmap, 0, 0);
         const now = performance.now();

@@ -1,6 +1,6 @@
 // What the program and the plug-in of the web server say to each other: messages of viewers come in, pictures
-// and words for them go out. The plug-in knows HTTP, WebSocket (RFC 6455) and JPEG, and nothing of scenes.
-// Both are built together; the version refuses a plug-in of another build.
+// and words for them go out. The plug-in knows HTTP, WebSocket (RFC 6455), JPEG and VP8, and nothing of
+// scenes. Both are built together; the version refuses a plug-in of another build.
 #pragma once
 
 #include "base/extent.hpp"
@@ -60,6 +60,15 @@ public:
     virtual bool is_loopback() const = 0;
 };
 
+/// Pictures one after the other, each as what changed since the one before.
+class Film {
+public:
+    virtual ~Film() = default;
+    /// RGBA in bytes, bottom row first, without its alpha. `key`: it is to be seen without those before; so
+    /// is the first of each size. On one thread at a time. Empty where the library fails.
+    virtual std::string encode(Extent extent, std::span<const std::byte> rgba, bool key) = 0;
+};
+
 struct ServePlugIn {
     unsigned version;
     /// Fails (ErrorCode::usage) where it cannot listen there.
@@ -67,9 +76,11 @@ struct ServePlugIn {
     /// A JPEG file of RGBA in bytes, bottom row first, without its alpha. `quality` from 1 to 100. On one
     /// thread at a time. Empty where the library fails.
     std::string (*encode)(Extent extent, std::span<const std::byte> rgba, int quality);
+    /// VP8, `quality` as above.
+    std::unique_ptr<Film> (*open_film)(int quality);
 };
 
-inline constexpr unsigned k_serve_version = 1;
+inline constexpr unsigned k_serve_version = 2;
 inline constexpr const char* k_serve_entry = "tidemark_serve";
 
 } // namespace tidemark::serve

@@ -2,6 +2,7 @@
 #include "serve/plugin/connection.hpp"
 #include "serve/plugin/jpeg.hpp"
 #include "serve/plugin/server.hpp"
+#include "serve/plugin/vp8.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/host_name.hpp>
@@ -147,7 +148,7 @@ Result<std::unique_ptr<Server>> open_server(const ServerSettings& settings) {
     }
 }
 
-const ServePlugIn k_plug_in{k_serve_version, open_server, encode_jpeg};
+const ServePlugIn k_plug_in{k_serve_version, open_server, encode_jpeg, open_vp8};
 
 } // namespace
 } // namespace tidemark::serve

@@ -1,0 +1,41 @@
+
+// ---- Pictures as a film
+
+// VP8, decoded by the browser where it can (WebCodecs: pages of this machine, or by https). `tell` is called with
+// whether it can, again where it cannot any more: then pictures come whole.
+class Film {
+    heads = new Map(); // of pictures that are being decoded, by number
+
+    constructor(onFrame, tell) {
+        Object.assign(this, {onFrame, tell});
+        Film.#support().then(can => can && tell(true));
+    }
+
+    static async #support() {
+        return "VideoDecoder" in globalThis && (await VideoDecoder.isConfigSupported({codec: "vp8"})).supported;
+    }
+
+    show(head, data) {
+        if (head.coding === "key")
+            this.#begin();
+        if (this.decoder?.state !== "configured")
+            return;
+        this.heads.set(head.number, head);
+        this.decoder.decode(new EncodedVideoChunk({type: head.coding, timestamp: head.number, data}));
+    }
+
+    #begin() {
+        if (this.decoder && this.decoder.state !== "closed")
+            return;
+        this.decoder = new VideoDecoder({output: frame => this.#take(frame), error: () => this.tell(false)});
+        this.decoder.configure({codec: "vp8", optimizeForLatency: true});
+    }
+
+    #take(frame) {
+        const head = this.heads.get(frame.timestamp);
+        for (const number of this.heads.keys())
+            if (number <= frame.timestamp)
+                this.heads.delete(number);
+        this.onFrame(head, frame);
+    }
+}
