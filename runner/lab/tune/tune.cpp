@@ -22,8 +22,8 @@ constexpr int k_small = 96, k_small_as_it_is = 240;
 constexpr double k_later = 2.7;
 /// Parts of the seconds there are.
 constexpr double k_explore_timing = 0.25, k_last_timing = 0.3, k_proof = 0.05;
-/// Of each of the two studies, compiling and the truth included.
-constexpr double k_longest = 1.5;
+/// When the search, and all of it, is given up: compiling and the truth included.
+constexpr double k_search_ends = 1, k_all_ends = 1.5;
 
 std::string cost_and_error(Measure measure, const WorkPrecision& point) {
     const TimeSummary& time = point.all.time();
@@ -44,7 +44,8 @@ public:
         const auto found = candidates(explored, request_.settings, request_.goal, milliseconds(explored));
         std::vector<View> views = request_.views;
         views.push_back(unseen(views.back(), k_later));
-        Tuned tuned{{TRY(measure(found, request_.extent, std::move(views), k_last_timing, 30)), {}}, {}};
+        Tuned tuned{
+            {TRY(measure(found, request_.extent, std::move(views), k_last_timing, k_all_ends, 30)), {}}, {}};
         TRY(judge(tuned));
         return tuned;
     }
@@ -52,17 +53,16 @@ public:
 private:
     /// One study of these settings, in so much of the time; what it found when that was over says nothing.
     Result<Findings> measure(const std::vector<std::vector<Setting>>& points, Extent extent,
-                             std::vector<View> views, double part, size_t rounds) {
+                             std::vector<View> views, double part, double ends, size_t rounds) {
         Study study = study_of(points, request_.settings);
         study.extent = extent;
         study.views = std::move(views);
         study.proof_seconds = request_.goal.measure == Measure::wrong ? k_proof * request_.seconds : 0;
         study.enough = sharpness(request_.goal);
-        const Stopwatch stopwatch;
         bool late = false;
         Watch limited = watch_;
         limited.keep_going = [&] {
-            late = late || stopwatch.elapsed().wall * 1e-3 > k_longest * request_.seconds;
+            late = late || clock_.elapsed().wall * 1e-3 > ends * request_.seconds;
             return !late && watch_.keep_going();
         };
         const Timing timing{2, rounds, part * request_.seconds};
@@ -94,7 +94,7 @@ private:
             WorkPrecisionSet set =
                 TRY(measure(single_values(request_.settings),
                             small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small),
-                            request_.views, k_explore_timing, 9))
+                            request_.views, k_explore_timing, k_search_ends, 9))
                     .set;
             const double own = error_by(request_.goal.measure, set.points.front().all);
             const std::string blur =
@@ -163,6 +163,7 @@ private:
     TuneRequest request_;
     const Watch& watch_;
     const Circumstances& facts_;
+    const Stopwatch clock_{};
     std::vector<std::string> sentences_;
 };
 
