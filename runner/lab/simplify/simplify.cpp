@@ -175,9 +175,7 @@ private:
     }
 
     std::string cost_and_error(const WorkPrecision& point) const {
-        const TimeSummary& time = point.all.time();
-        return fmt::format("{} ms [{}, {}], {} {}", figure(time.median), figure(time.confidence.low),
-                           figure(time.confidence.high), to_string(Goal{request_.goal.measure}),
+        return fmt::format("{}, {} {}", cost_of(point), to_string(Goal{request_.goal.measure}),
                            figure(worst(point)));
     }
 

@@ -43,14 +43,6 @@ std::string promise_of(const WorkPrecisionSet& set) {
            fmt::format("PSNR >= {:g} dB", promise.least_psnr);
 }
 
-std::string cost_of(const WorkPrecision& point) {
-    const TimeSummary& time = point.all.time();
-    if (std::isnan(time.confidence.low))
-        return fmt::format("{} ms, too few rounds for an interval", figure(time.median));
-    return fmt::format("{} ms [{}, {}]", figure(time.median), figure(time.confidence.low),
-                       figure(time.confidence.high));
-}
-
 std::string wrong_of(const HitErrors& hits) {
     const std::string most =
         hits.no_truth > 0 ? fmt::format(" (no more than {} % at 95 %)", figure(hits.most_wrong_tenth)) : "";
@@ -125,6 +117,14 @@ void add_verdicts(const WorkPrecisionSet& set, std::vector<std::string>& found) 
 }
 
 } // namespace
+
+std::string cost_of(const WorkPrecision& point) {
+    const TimeSummary& time = point.all.time();
+    if (std::isnan(time.confidence.low))
+        return fmt::format("{} ms, too few rounds for an interval", figure(time.median));
+    return fmt::format("{} ms [{}, {}]", figure(time.median), figure(time.confidence.low),
+                       figure(time.confidence.high));
+}
 
 std::string figure(double value) {
     return fmt::format("{:.3g}", value);

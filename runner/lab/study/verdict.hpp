@@ -33,6 +33,9 @@ std::vector<std::string> sentences(const WorkPrecisionSet& set);
 /// "held fixed, in the truth too: EPS = 0.001": what the figures say nothing of; empty: nothing is.
 std::string held_sentence(const WorkPrecisionSet& set);
 
+/// `4.21 ms [4.1, 4.3]`: a frame's time, with its interval where there were rounds enough for one.
+std::string cost_of(const WorkPrecision& point);
+
 /// `0.0123`: three digits.
 std::string figure(double value);
 

@@ -26,11 +26,9 @@ constexpr double k_explore_timing = 0.25, k_last_timing = 0.3, k_proof = 0.05;
 constexpr double k_search_ends = 1, k_all_ends = 1.5;
 
 std::string cost_and_error(Measure measure, const WorkPrecision& point) {
-    const TimeSummary& time = point.all.time();
     const std::string work =
         point.all.hits ? fmt::format(", {:.1f} field evaluations a pixel", point.all.hits->evaluations) : "";
-    return fmt::format("{} ms [{}, {}], {} {}{}", figure(time.median), figure(time.confidence.low),
-                       figure(time.confidence.high), to_string(Goal{measure}),
+    return fmt::format("{}, {} {}{}", cost_of(point), to_string(Goal{measure}),
                        figure(error_by(measure, point.all)), work);
 }
 
