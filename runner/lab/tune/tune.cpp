@@ -180,7 +180,8 @@ std::optional<MarchPlaces> march_places(const scene::Scene& scene) {
     const auto& instructions = function->function().instructions;
     MarchPlaces places{function->locate(loop.line)};
     for (const ir::Carried& carried : loop.carried)
-        places.steps.push_back(function->locate(instructions[carried.update].line));
+        if (carried.update != ir::k_no_value)
+            places.steps.push_back(function->locate(instructions[carried.update].line));
     if (loop.far != ir::k_no_value && instructions[loop.far].op == ir::Op::constant &&
         instructions[loop.far].type == ir::Scalar::real)
         places.far = std::bit_cast<float>(instructions[loop.far].immediate);
