@@ -7,6 +7,8 @@
 #include <lo/lo_lowlevel.h>
 
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -55,16 +57,24 @@ double shortest(float number) {
     return exact;
 }
 
-std::optional<OscArgument> argument_of(char type, const lo_arg& argument) {
+/// OSC aligns to four bytes, and so does liblo: a lo_arg would have to stand at eight.
+template <class Number>
+Number read_as(const void* argument) {
+    Number number;
+    std::memcpy(&number, argument, sizeof number);
+    return number;
+}
+
+std::optional<OscArgument> argument_of(char type, const void* argument) {
     switch (type) {
-    case 'i': return double(argument.i);
-    case 'h': return double(argument.h);
-    case 'f': return shortest(argument.f);
-    case 'd': return argument.d;
+    case 'i': return double(read_as<int32_t>(argument));
+    case 'h': return double(read_as<int64_t>(argument));
+    case 'f': return shortest(read_as<float>(argument));
+    case 'd': return read_as<double>(argument);
     case 'T': return 1.0;
     case 'F': return 0.0;
     case 's':
-    case 'S': return std::string(&argument.s);
+    case 'S': return std::string(static_cast<const char*>(argument));
     default: return std::nullopt;
     }
 }
@@ -79,7 +89,7 @@ Result<OscMessage> parse_message(const OscLibrary& liblo, std::string_view packe
     OscMessage read{std::string(bytes.c_str())};
     const std::string_view types = liblo.types(message.get());
     for (int i = 0; i < liblo.count(message.get()); ++i) {
-        auto argument = argument_of(types[size_t(i)], *liblo.arguments(message.get())[i]);
+        auto argument = argument_of(types[size_t(i)], liblo.arguments(message.get())[i]);
         if (!argument)
             return fail(ErrorCode::load, fmt::format("'{}' has an argument of type '{}': give numbers",
                                                      read.address, types[size_t(i)]));
