@@ -13,8 +13,8 @@ namespace tidemark::cli {
 Result<std::unique_ptr<Screen>> WindowScreen::open(Extent size, const std::string& title,
                                                    const platform::WindowWishes& wishes,
                                                    const std::optional<Output>& output) {
-    std::unique_ptr<WindowScreen> screen(
-        new WindowScreen(TRY(platform::Window::create(size, title, wishes))));
+    auto window = TRY(platform::Window::create(size, title, wishes));
+    std::unique_ptr<WindowScreen> screen(new WindowScreen(std::move(window)));
     if (output)
         screen->output_ =
             TRY(platform::OutputWindow::create(screen->window_, size, title + " output", output->monitor));
