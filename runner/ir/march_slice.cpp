@@ -180,14 +180,19 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
         return values;
     };
     std::vector<float> before;
+    float reference = 0; // the threshold that hits are held against
     const std::vector<bool> inside = natural_loop(function, loop.header);
     const auto visit = [&](uint32_t block) {
         if (!inside[block])
             return false;
         if (block == loop.test && (!loop.in_next_turn || !before.empty())) {
             march.threshold = evaluator.value(loop.threshold).real;
-            march.turns.push_back({loop.in_next_turn ? before : carried(),
-                                   evaluator.value(loop.distance).real - march.threshold});
+            if (march.turns.empty() || !loop.threshold_by_turn)
+                reference = march.threshold;
+            march.tightens = march.tightens || march.threshold < reference;
+            const float distance = evaluator.value(loop.distance).real, above = distance - march.threshold;
+            march.hit = loop.at_equality ? above <= 0 : above < 0;
+            march.turns.push_back({loop.in_next_turn ? before : carried(), distance - reference});
         }
         if (block == loop.latch)
             before = carried();
@@ -197,16 +202,12 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
         march.far = evaluator.value(loop.far).real;
     Decisions none(0);
     evaluator.run(none, visit, loop.header, loop.entry);
-    if (!march.turns.empty()) {
-        const float last = march.turns.back().distance;
-        march.hit = loop.at_equality ? last <= 0 : last < 0;
-    }
     return march;
 }
 
 bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const March& march) {
     LoopTurn<PointSystem<float>> own(slice, entered, entered.textures);
-    return std::ranges::all_of(march.turns, [&](const Turn& turn) {
+    return !march.tightens && std::ranges::all_of(march.turns, [&](const Turn& turn) {
         std::vector<Point<float>> places;
         for (const float each : turn.carried)
             places.push_back({each, 0});

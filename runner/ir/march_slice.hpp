@@ -14,15 +14,16 @@ namespace tidemark::ir {
 /// One turn of the loop as the text makes it, in float.
 struct Turn {
     std::vector<float> carried; ///< the values of MarchingLoop::carried where the distance is measured
-    float distance = 0;         ///< minus the threshold
+    float distance = 0;         ///< minus the threshold: that of the first turn, if it changes by turns
 };
 
 /// The march of one pixel.
 struct March {
     std::vector<Turn> turns;
-    float far = 0;       ///< the loop's limit, where it has one
-    float threshold = 0; ///< of the last turn
-    bool hit = false;    ///< it was left because of the distance
+    float far = 0;         ///< the loop's limit, where it has one
+    float threshold = 0;   ///< of the last turn
+    bool tightens = false; ///< it is smaller in some turn than in the first, though it is to grow
+    bool hit = false;      ///< it was left because of the distance
 };
 
 /// What becomes of conditions and jumps that are not decided: they cost width; or they are gone through one

@@ -23,6 +23,7 @@ struct Step {
     Value phi, update, added;
     Value core;                 ///< the factor of `added` that changes in the loop; none: it does not change
     std::vector<Value> factors; ///< the others
+    bool scales = false;        ///< `update` is a multiple of `phi`, and `added` says which one
 };
 
 class LoopReader {
@@ -110,7 +111,7 @@ private:
                     steps_.push_back(step(phi, *update));
     }
 
-    /// The sum of `phi` and something that `value` is, perhaps limited, perhaps on one way alone.
+    /// The sum or product of `phi` and something that `value` is, perhaps limited, perhaps on one way alone.
     std::optional<Value> sum_with(Value phi, Value value, int depth = 0) const {
         constexpr int k_deepest = 6;
         if (value == phi || !inside_[value] || depth > k_deepest)
@@ -118,6 +119,7 @@ private:
         const auto parts = operands(value);
         switch (at(value).op) {
         case Op::add:
+        case Op::multiply:
             if (parts[0] == phi || parts[1] == phi)
                 return value;
             return std::nullopt;
@@ -137,6 +139,11 @@ private:
         const auto parts = operands(update);
         Step result{phi, update, parts[parts[0] == phi ? 1 : 0], k_no_value, {}};
         Value core = result.added;
+        if (at(update).op == Op::multiply) {
+            result.scales = true;
+            result.core = inside_[core] ? core : phi;
+            return result;
+        }
         while (inside_[core] && at(core).op == Op::multiply) {
             const auto factors = operands(core);
             const bool first = inside_[factors[0]], second = inside_[factors[1]];
@@ -158,6 +165,8 @@ private:
         for (const Step& each : steps_)
             result.push_back({each});
         for (const Step& each : steps_) {
+            if (each.scales)
+                continue;
             const auto same = std::ranges::find_if(
                 together, [&](const std::vector<Step>& group) { return group.front().core == each.core; });
             if (same == together.end())
@@ -188,8 +197,11 @@ private:
         if (is_limit(test.smaller, test.larger) || is_limit(test.larger, test.smaller))
             return std::nullopt;
         const Cone to_cuts = cone(cuts);
-        std::vector<Value> field = merged(to_cuts.of(test.smaller), to_cuts.of(test.larger));
-        const std::vector<Value> others = carried_beside(field, cuts);
+        const std::vector<Value> measured = to_cuts.of(test.smaller), limit = to_cuts.of(test.larger);
+        std::vector<Value> field = merged(measured, limit), others = carried_beside(field, cuts);
+        std::erase_if(others, [&](Value other) {
+            return !std::ranges::binary_search(measured, other) && counts_turns(other, cuts);
+        });
         for (const Value other : others) {
             const std::vector<Value> before = to_cuts.of(next_of(other));
             if (!carried_beside(before, cuts).empty())
@@ -203,6 +215,10 @@ private:
             return std::nullopt;
         MarchingLoop loop = loop_of(needed(group, at_update, field), at_update, test, *kind);
         loop.in_next_turn = !others.empty();
+        loop.threshold_by_turn = std::ranges::any_of(limit, [&](Value value) {
+            return is_header_phi(value) && next_of(value) != value &&
+                   !std::ranges::binary_search(measured, value) && counts_turns(value, cuts);
+        });
         loop.stops_before = loop.kind == MarchingLoop::Kind::sphere_tracing && is_above_zero(test.larger) &&
                             !computes(depending(to_cuts.of(test.larger), cuts));
         return loop;
@@ -216,6 +232,26 @@ private:
 
     /// What a value that the loop carries becomes for the next turn.
     Value next_of(Value phi) const { return operands(phi)[back_slot_]; }
+
+    /// What it becomes is made of itself and its like by sums and products: neither the place nor a distance
+    /// has a part in it.
+    bool counts_turns(Value phi, const std::vector<Value>& cuts) const {
+        const std::vector<Value> made = made_of(phi);
+        return !computes(made) &&
+               std::ranges::none_of(cuts, [&](Value cut) { return std::ranges::binary_search(made, cut); });
+    }
+
+    /// All that a value is computed from in the loop, in this turn and those before.
+    std::vector<Value> made_of(Value value) const {
+        std::vector<Value> all = cone().of(value);
+        for (size_t before = 0; before != all.size();) {
+            before = all.size();
+            for (const Value each : std::vector(all))
+                if (is_header_phi(each))
+                    all = merged(all, cone().of(next_of(each)));
+        }
+        return all;
+    }
 
     /// Real numbers that the loop carries beside the place on the ray: a distance that is tested in the next
     /// turn is one, but if it depends on itself, too, it is no function of the place.
@@ -280,7 +316,8 @@ private:
         return std::ranges::any_of(values, [this](Value value) { return is_computed(value); });
     }
 
-    /// A step that is made of the field's values is a sphere tracer's, one that nothing changes is fixed.
+    /// A step that is made of the field's values is a sphere tracer's; one that is made of sums and products,
+    /// of the way so far and of numbers that count turns, is fixed.
     std::optional<MarchingLoop::Kind> kind_of(const Step& step, const std::vector<Value>& field) const {
         std::vector<Value> added = cone().of(step.added);
         for (const Value value : std::vector(added))
@@ -290,7 +327,7 @@ private:
         std::ranges::set_intersection(added, field, std::back_inserter(shared));
         if (computes(shared))
             return MarchingLoop::Kind::sphere_tracing;
-        if (step.core == k_no_value || step.core == step.phi)
+        if (step.core == k_no_value || step.core == step.phi || !computes(made_of(step.added)))
             return MarchingLoop::Kind::fixed_step;
         return std::nullopt;
     }

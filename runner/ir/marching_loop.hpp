@@ -9,7 +9,8 @@
 
 namespace tidemark::ir {
 
-/// A value that the loop carries forward along the ray: start + factors * s, where s is the ray's parameter.
+/// A value that the loop carries forward along the ray: start + factors * s, where s is the ray's parameter;
+/// or that parameter itself.
 struct Carried {
     Value phi = k_no_value;
     Value update = k_no_value;    ///< what it becomes for the next turn
@@ -17,6 +18,7 @@ struct Carried {
 };
 
 struct MarchingLoop {
+    /// The distance chooses the step; or it does not: steps of one length, or that grow with the way.
     enum class Kind { sphere_tracing, fixed_step } kind = Kind::sphere_tracing;
     uint32_t header = 0; ///< block
     uint32_t entry = 0;  ///< block that the loop is entered from
@@ -29,6 +31,8 @@ struct MarchingLoop {
     Value threshold = k_no_value;
     bool at_equality = false; ///< and where it is 0
     bool at_nan = false;      ///< and where it is NaN
+    /// It changes from turn to turn, whatever the place: a hit is below that of the first turn.
+    bool threshold_by_turn = false;
     Value comparison = k_no_value;
     uint32_t test = 0; ///< block of the comparison
     /// A hit is a small distance above 0: one below 0 lies past the surface. Else the march may wait for

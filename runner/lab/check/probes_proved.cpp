@@ -165,7 +165,7 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
         return loop.kind == ir::MarchingLoop::Kind::fixed_step;
     };
     if (std::ranges::all_of(loops, fixed))
-        return none("the march goes in steps of a fixed length");
+        return none("the march goes in steps that the distance does not choose");
     const Scales scales = TRY(scales_of(bench, *pass));
     if (scales.hits == 0)
         return none("no ray is proved to come to a zero of the distance");

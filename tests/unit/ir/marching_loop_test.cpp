@@ -50,6 +50,51 @@ TEST(MarchingLoop, is_found_in_the_forms_that_authors_write) {
                 Kind::fixed_step, 1);
 }
 
+TEST(MarchingLoop, is_found_where_steps_grow_with_the_way_or_from_turn_to_turn) {
+    expect_loop("t = 0.1; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break; t *= 1.02; }",
+                Kind::fixed_step, 1);
+    expect_loop(
+        "t = 0.1; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break; t += 0.02 * t; }",
+        Kind::fixed_step, 1);
+    expect_loop("float dt = 0.01; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break;\n"
+                "t += dt; dt = 0.02 * t; }",
+                Kind::fixed_step, 1);
+    expect_loop(
+        "vec3 p = ro, go = rd + vec3(iTime, 2.0 * iTime, 0.1 + iTime); float dt = 0.01;\n"
+        "for (int i = 0; i < 400; ++i) { if (map(p) < 0.0) break; p += go * dt; dt *= 1.01; }\nt = p.z;",
+        Kind::fixed_step, 3);
+    expect_loop("float dt = 0.01; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break;\n"
+                "t += dt; dt *= 1.05; }",
+                Kind::fixed_step, 1);
+}
+
+TEST(MarchingLoop, may_have_a_threshold_that_grows_each_turn) {
+    expect_loop("float eps = 0.001; for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "if (d < eps || t > 9.0) break; t += 0.5 * d; eps *= 1.1; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("float eps = 0.001; for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "if (d < eps || t > 9.0) break; t += 0.5 * d; eps = 0.001 * t; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "if (d < 0.001 * float(1 + i)) break; t += 0.5 * d; }",
+                Kind::sphere_tracing, 1);
+}
+
+/// A hit is what falls below the threshold of the first turn: one that shrinks is another question.
+TEST(MarchingLoop, with_a_threshold_that_shrinks_is_not_faithful) {
+    const Function function =
+        marcher("length(p) - 1.0", "float eps = 0.1; for (int i = 0; i < 99; ++i) {\n"
+                                   "float d = map(ro + rd * t); if (d < eps) break; t += 0.5 * d; "
+                                   "eps *= 0.9; }");
+    const auto loops = find_marching_loops(function);
+    ASSERT_EQ(loops.size(), 1u);
+    FloatEvaluator evaluator = entered(function, loops, 0);
+    const FloatEvaluator at_entry = evaluator;
+    const March followed = follow(evaluator, function, loops[0]);
+    EXPECT_TRUE(followed.hit);
+    EXPECT_FALSE(is_faithful(slice_of(function, loops[0]), at_entry, followed));
+}
+
 /// What counts the way behind the test is a turn late there.
 TEST(MarchingLoop, carries_what_its_distance_is_made_of_alone) {
     const std::string march = "vec3 p = ro, go = vec3(iTime, 2.0 * iTime, 0.1 + iTime);\n"
