@@ -31,7 +31,8 @@ struct MarchingLoop {
     Value threshold = k_no_value;
     bool at_equality = false; ///< and where it is 0
     bool at_nan = false;      ///< and where it is NaN
-    /// It changes from turn to turn, whatever the place: a hit is below that of the first turn.
+    bool at_hit = false;      ///< it is always left there
+    /// It changes from turn to turn, too: a hit is below what it were in the first turn at that place.
     bool threshold_by_turn = false;
     Value comparison = k_no_value;
     uint32_t test = 0; ///< block of the comparison
@@ -40,6 +41,18 @@ struct MarchingLoop {
     bool stops_before = false;
     /// Where a carried value exceeds it, the loop gives up; none: no such test.
     Value far = k_no_value;
+    /// The turns behind a hit, or behind `far`, go on to do nothing: where the condition of that block is so.
+    struct Idle {
+        uint32_t block;
+        bool when;
+    };
+    std::optional<Idle> idle{};
+    /// What a turn adds to the ray's parameter; none: not known, or not the same on all ways.
+    Value advance = k_no_value;
+    uint32_t step = 0; ///< block of the update
+    /// Turns that it makes at least where the distance and the place do not end it, if numbers of the text
+    /// alone say so.
+    std::optional<uint32_t> turns{};
     int line = 0; ///< of the comparison
     /// Comparisons of reals in that line of the loop, in the order of the text, and which of them it is.
     size_t comparisons = 1, which = 0;

@@ -78,6 +78,35 @@ TEST(MarchingLoop, may_have_a_threshold_that_grows_each_turn) {
     expect_loop("for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
                 "if (d < 0.001 * float(1 + i)) break; t += 0.5 * d; }",
                 Kind::sphere_tracing, 1);
+    expect_loop("float eps = 0.001; for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "eps *= 1.0 + 0.03 * t; if (d < eps || t > 9.0) break; t += 0.5 * d; }",
+                Kind::sphere_tracing, 1);
+}
+
+TEST(MarchingLoop, may_go_on_to_do_nothing_where_it_has_come_to_its_end) {
+    expect_loop("float d = 1.0, eps = 0.001; for (int i = 0; i < 99; ++i) if (d > eps && t < 9.0) {\n"
+                "d = map(ro + rd * t); eps = 0.001 * exp(0.1 * t); t += 0.5 * d; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("float d = 1.0, glow = 0.0; for (int i = 0; i < 99; ++i) { if (d < 0.001) continue;\n"
+                "d = map(ro + rd * t); glow += exp(-d); t += 0.5 * d; } t += glow;",
+                Kind::sphere_tracing, 1);
+    // What is left out is not all that the condition looks at.
+    EXPECT_TRUE(loops_of("float d = 1.0; for (int i = 0; i < 99; ++i) { if (d > 0.001)\n"
+                         "{ d = map(ro + rd * t); t += 0.5 * d; } else d += 0.1; }")
+                    .empty());
+}
+
+TEST(MarchingLoop, knows_how_often_it_turns) {
+    const auto turns = [](const std::string& head) {
+        const auto loops = loops_of("int n = 0; float h = 0.0, eps = 1e-3; " + head +
+                                    " { float d = map(ro + rd * t); if (d < eps) break; t += d; }");
+        return loops.size() == 1 ? loops[0].turns : std::nullopt;
+    };
+    EXPECT_EQ(turns("for (int i = 0; i < 100; ++i)"), 100u);
+    EXPECT_EQ(turns("for (int i = 64; i > 0; i -= 2)"), 32u);
+    EXPECT_EQ(turns("for (float i = 0.0; i < 1.0; i += 0.01)"), 101u); // each sum is rounded
+    EXPECT_EQ(turns("while (n++ < 50)"), 50u);
+    EXPECT_EQ(turns("for (int i = 0; i < int(iTime); ++i)"), std::nullopt);
 }
 
 /// A hit is what falls below the threshold of the first turn: one that shrinks is another question.
