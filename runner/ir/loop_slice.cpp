@@ -19,8 +19,9 @@ bool overlap(const Access& a, const Access& b) {
 
 class Slicer {
 public:
-    Slicer(const Function& whole, const MarchingLoop& loop)
-        : whole_(whole), loop_(loop), block_of_(blocks_of_instructions(whole)), kept_(whole.blocks.size()),
+    Slicer(const Function& whole, const MarchingLoop& loop, SliceOf what)
+        : whole_(whole), loop_(loop), with_step_(what == SliceOf::step),
+          block_of_(blocks_of_instructions(whole)), kept_(whole.blocks.size()),
           roles_(whole.instructions.size()), number_(whole.instructions.size(), k_no_value) {}
 
     LoopSlice run() {
@@ -54,7 +55,7 @@ private:
             if (whole_.instructions[value].op == Op::store && kept_[block_of_[value]])
                 stores_.push_back(value);
     }
-    bool ends_turn(uint32_t block) const { return block == loop_.test && !loop_.in_next_turn; }
+    bool ends_turn(uint32_t block) const { return block == loop_.test && !loop_.in_next_turn && !with_step_; }
 
     bool is_cut(Value value) const {
         return std::ranges::any_of(loop_.carried,
@@ -65,6 +66,8 @@ private:
     void keep_instructions() {
         keep(loop_.distance);
         keep(loop_.threshold);
+        if (with_step_)
+            keep(loop_.advance);
         for (const Carried& each : loop_.carried)
             keep(loop_.cut(each));
         for (uint32_t block = 0; block < kept_.size(); ++block)
@@ -243,6 +246,8 @@ private:
         turn.test = block_number_[loop_.test];
         turn.distance = number_[loop_.distance];
         turn.threshold = number_[loop_.threshold];
+        turn.advance = with_step_ ? number_[loop_.advance] : k_no_value;
+        turn.step = block_number_[loop_.step];
         turn.far = turn.comparison = k_no_value;
         for (Carried& each : turn.carried)
             each = {number_[each.phi], number_[each.update]};
@@ -251,6 +256,7 @@ private:
 
     const Function& whole_;
     const MarchingLoop& loop_;
+    bool with_step_;
     std::vector<uint32_t> block_of_;
     std::vector<bool> kept_; ///< blocks
     std::vector<Role> roles_;
@@ -266,8 +272,8 @@ private:
 
 } // namespace
 
-LoopSlice slice_of(const Function& function, const MarchingLoop& loop) {
-    return Slicer(function, loop).run();
+LoopSlice slice_of(const Function& function, const MarchingLoop& loop, SliceOf what) {
+    return Slicer(function, loop, what).run();
 }
 
 } // namespace tidemark::ir

@@ -19,6 +19,12 @@ struct LoopSlice {
     bool stores = false;         ///< a turn changes the memory
 };
 
-LoopSlice slice_of(const Function& function, const MarchingLoop& loop);
+/// What a slice is to compute.
+enum class SliceOf {
+    distance, ///< up to the test
+    step      ///< and what the turn then adds to the ray's parameter: of a loop whose `advance` is known
+};
+
+LoopSlice slice_of(const Function& function, const MarchingLoop& loop, SliceOf what = SliceOf::distance);
 
 } // namespace tidemark::ir

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ir/evaluate.hpp"
+#include "ir/interval_system.hpp"
 #include "ir/loop_slice.hpp"
 #include "ir/point.hpp"
 
@@ -21,9 +22,10 @@ class LoopTurn {
 public:
     using Number = typename System::Value;
 
-    template <class Real>
-    LoopTurn(const LoopSlice& slice, const PointEvaluator<Real>& entered, Textures<Number> textures = {})
-        : turn_(&slice.turn), stores_(slice.stores), evaluator_(slice.function) {
+    template <class Entered>
+    LoopTurn(const LoopSlice& slice, const Evaluator<Entered>& entered, Textures<Number> textures = {})
+        : turn_(&slice.turn), stores_(slice.stores), leave_(uint32_t(slice.function.blocks.size()) - 1),
+          evaluator_(slice.function) {
         evaluator_.textures = std::move(textures);
         for (Value i = 0; i < slice.inputs.size(); ++i)
             if (const Instruction& input = slice.function.instructions[i]; input.op != Op::constant)
@@ -40,10 +42,7 @@ public:
     /// Up to the test that looks at the distance at those places: stopped where it has come to that. The next
     /// turn, if it is that one's, goes on as the text does.
     Ended run(const std::vector<Number>& places, Decisions& decisions) {
-        if (stores_)
-            evaluator_.memory() = memory_;
-        for (size_t i = 0; i < turn_->carried.size(); ++i)
-            evaluator_.pin(turn_->cut(turn_->carried[i]), places[i]);
+        set_out(places);
         int left = turn_->in_next_turn ? 2 : 1;
         const auto visit = [&](uint32_t block) {
             if (block == turn_->latch)
@@ -54,10 +53,54 @@ public:
         evaluator_.unpin();
         return ended;
     }
+    /// Of a slice that has the step: through the test, to what is then added to the ray's parameter; stopped
+    /// where the loop goes on.
+    Ended step(const std::vector<Number>& places, Decisions& decisions) {
+        set_out(places);
+        bool again = false, tested = false;
+        const auto visit = [&](uint32_t block) {
+            if (tested && block != leave_)
+                return false;
+            if (block == turn_->test)
+                stay();
+            tested = again && turn_->in_next_turn && !turn_->cut_at_update && block == turn_->test;
+            if (again && turn_->cut_at_update && block == turn_->step) {
+                advance_ = evaluator_.value(turn_->advance);
+                return false;
+            }
+            if (block != turn_->latch || again)
+                return true;
+            again = true;
+            evaluator_.unpin();
+            advance_ = evaluator_.value(turn_->advance);
+            return turn_->cut_at_update || turn_->in_next_turn;
+        };
+        const Ended ended = evaluator_.run(decisions, visit, first_block_, turn_->entry);
+        evaluator_.unpin();
+        return ended;
+    }
+    const Number& advance() const { return advance_; }
     const Number& distance() const { return evaluator_.value(turn_->distance); }
     const Number& threshold() const { return evaluator_.value(turn_->threshold); }
 
 private:
+    /// Where the loop goes on, the distance is not below the threshold.
+    void stay() {
+        if constexpr (std::is_same_v<Number, Interval>)
+            if (turn_->at_hit) {
+                Interval& distance = evaluator_.value(turn_->distance);
+                distance.low = std::max(distance.low, threshold().low);
+                distance.high = std::max(distance.low, distance.high);
+            }
+    }
+
+    void set_out(const std::vector<Number>& places) {
+        if (stores_)
+            evaluator_.memory() = memory_;
+        for (size_t i = 0; i < turn_->carried.size(); ++i)
+            evaluator_.pin(turn_->cut(turn_->carried[i]), places[i]);
+    }
+
     template <class Real>
     static Number number_of(const Point<Real>& point, Scalar type) {
         if constexpr (std::is_same_v<Number, Point<Real>>)
@@ -65,6 +108,12 @@ private:
         else
             return type == Scalar::real ? System::number(double(point.real))
                                         : System::constant(point.bits, type);
+    }
+    static Number number_of(const Interval& interval, Scalar) {
+        if constexpr (std::is_same_v<Number, Interval>)
+            return interval;
+        else
+            return {interval, {}};
     }
 
     /// Once for all turns; but where a jump within one of them may be gone through, each turn begins with
@@ -80,7 +129,9 @@ private:
 
     const MarchingLoop* turn_;
     bool stores_;
+    uint32_t leave_; ///< block behind the loop
     Evaluator<System> evaluator_;
+    Number advance_{};
     std::vector<Number> memory_{}; ///< as the loop is entered, where a turn changes it
     uint32_t first_block_ = 0;
 };

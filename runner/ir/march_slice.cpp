@@ -14,6 +14,9 @@ constexpr size_t k_most_decisions = 14;
 constexpr int k_few_ways = 32;
 constexpr int k_many_ways = 2048;
 constexpr uint64_t k_most_steps = 2'000'000;
+int most_ways(Care care) {
+    return care == Care::thorough ? k_many_ways : k_few_ways;
+}
 /// Instructions that count as one run: a field of seven octaves has a thousand.
 constexpr uint64_t k_long_run = 20'000;
 
@@ -29,50 +32,61 @@ Textures<Tangent> with_slopes(const Textures<Interval>& textures) {
     };
 }
 
-/// How far a carried value goes where the parameter goes 1.
 template <class Real>
-double factor_of(const Carried& carried, const PointEvaluator<Real>& entered) {
-    double product = 1;
+Interval bounds(const Point<Real>& point) {
+    return {point.real, point.real};
+}
+const Interval& bounds(const Interval& interval) {
+    return interval;
+}
+
+/// How far a carried value goes where the parameter goes 1.
+template <class System>
+Interval factor_of(const Carried& carried, const Evaluator<System>& entered) {
+    Interval product = k_one;
     for (const Value factor : carried.factors)
-        product *= entered.value(factor).real;
+        product = product * bounds(entered.value(factor));
     return product;
 }
 
 } // namespace
 
-template <class Real>
-MarchSlice::MarchSlice(const LoopSlice& slice, const PointEvaluator<Real>& entered,
+template <class System>
+MarchSlice::MarchSlice(const LoopSlice& slice, const Evaluator<System>& entered,
                        const Textures<Interval>& textures, Surface surface)
     : loop_(&slice.loop), surface_(surface), intervals_(slice, entered, textures),
       tangents_(slice, entered, with_slopes(textures)) {
     intervals_.evaluator().most_steps = tangents_.evaluator().most_steps = k_most_steps;
     for (const Carried& each : loop_->carried) {
         const bool itself = loop_->by_parameter();
-        first_.push_back(itself ? 0 : entered.value(each.phi).real);
-        factor_.push_back(itself ? 1 : factor_of(each, entered));
+        first_.push_back(itself ? Interval{} : bounds(entered.value(each.phi)));
+        factor_.push_back(itself ? k_one : factor_of(each, entered));
     }
-    start_ = loop_->by_parameter() ? entered.value(loop_->carried[0].phi).real : 0;
+    start_ = loop_->by_parameter() ? bounds(entered.value(loop_->carried[0].phi)).low : 0;
+    if (loop_->limited())
+        far_ = bounds(entered.value(loop_->far)).high;
 }
-template MarchSlice::MarchSlice(const LoopSlice&, const PointEvaluator<float>&, const Textures<Interval>&,
-                                Surface);
+template MarchSlice::MarchSlice(const LoopSlice&, const FloatEvaluator&, const Textures<Interval>&, Surface);
 template MarchSlice::MarchSlice(const LoopSlice&, const PointEvaluator<double>&, const Textures<Interval>&,
+                                Surface);
+template MarchSlice::MarchSlice(const LoopSlice&, const Evaluator<IntervalSystem>&, const Textures<Interval>&,
                                 Surface);
 
 double MarchSlice::parameter(const Turn& turn) const {
     size_t longest = 0;
     for (size_t i = 1; i < factor_.size(); ++i)
-        if (std::abs(factor_[i]) > std::abs(factor_[longest]))
+        if (std::abs(factor_[i].low) > std::abs(factor_[longest].low))
             longest = i;
-    return (turn.carried[longest] - first_[longest]) / factor_[longest];
+    return (turn.carried[longest] - first_[longest].low) / factor_[longest].low;
 }
 
 double MarchSlice::unit() const {
     if (std::ranges::any_of(loop_->carried, [](const Carried& each) { return each.factors.empty(); }))
         return 1;
-    double squares = 0;
-    for (const double factor : factor_)
-        squares += factor * factor;
-    return std::sqrt(squares);
+    Interval squares;
+    for (const Interval& factor : factor_)
+        squares = squares + square(factor);
+    return std::sqrt(squares.low);
 }
 
 template <class System>
@@ -100,8 +114,14 @@ double MarchSlice::end(const March& march) const {
 Interval MarchSlice::place(size_t carried, const Interval& parameter) const {
     if (loop_->by_parameter())
         return parameter;
-    return Interval{first_[carried], first_[carried]} +
-           Interval{factor_[carried], factor_[carried]} * parameter;
+    return first_[carried] + factor_[carried] * parameter;
+}
+
+std::vector<Interval> MarchSlice::places(const Interval& parameter) const {
+    std::vector<Interval> places;
+    for (size_t i = 0; i < loop_->carried.size(); ++i)
+        places.push_back(place(i, parameter));
+    return places;
 }
 
 std::optional<Interval> MarchSlice::distance(const Interval& parameter, Care care) {
@@ -110,16 +130,13 @@ std::optional<Interval> MarchSlice::distance(const Interval& parameter, Care car
 }
 
 auto MarchSlice::distances(const Interval& parameter, Care care) -> std::optional<Distances> {
-    std::vector<Interval> places;
-    for (size_t i = 0; i < loop_->carried.size(); ++i)
-        places.push_back(place(i, parameter));
-    intervals_.evaluator().splits = care != Care::quick;
-    const int most_ways = care == Care::thorough ? k_many_ways : k_few_ways;
+    const std::vector<Interval> at = places(parameter);
+    set(care);
     Decisions decisions(k_most_decisions);
     std::optional<Distances> all;
     for (int way = 0; way == 0 || decisions.next(); ++way) {
-        const auto one = run(intervals_, places, decisions);
-        if (way == most_ways || decisions.exhausted())
+        const auto one = run(intervals_, at, decisions);
+        if (way == most_ways(care) || decisions.exhausted())
             return Distances{everything(false), everything(false)}; // too many ways: too many jumps
         if (!one)
             continue;
@@ -130,10 +147,26 @@ auto MarchSlice::distances(const Interval& parameter, Care care) -> std::optiona
     return all;
 }
 
+std::optional<Interval> MarchSlice::advance(const Interval& parameter, Care care) {
+    const std::vector<Interval> at = places(parameter);
+    set(care);
+    Decisions decisions(k_most_decisions);
+    std::optional<Interval> all;
+    for (int way = 0; way == 0 || decisions.next(); ++way) {
+        const Ended ended = intervals_.step(at, decisions);
+        evaluations_ += 1 + intervals_.evaluator().steps() / k_long_run;
+        if (way == most_ways(care) || decisions.exhausted() || ended == Ended::too_long)
+            return everything();
+        if (ended == Ended::stopped)
+            all = all ? hull(*all, intervals_.advance()) : intervals_.advance();
+    }
+    return all;
+}
+
 std::optional<Tangent> MarchSlice::tangent(const Interval& parameter) {
     std::vector<Tangent> places;
     for (size_t i = 0; i < loop_->carried.size(); ++i)
-        places.push_back({place(i, parameter), {factor_[i], factor_[i]}});
+        places.push_back({place(i, parameter), factor_[i]});
     Decisions none(0);
     const auto found = run(tangents_, places, none);
     if (!found || none.exhausted())
@@ -159,7 +192,7 @@ FloatField::FloatField(const LoopSlice& slice, const FloatEvaluator& entered)
     : turn_(slice, entered, entered.textures), by_parameter_(slice.loop.by_parameter()) {
     for (const Carried& each : slice.loop.carried) {
         first_.push_back(by_parameter_ ? 0 : entered.value(each.phi).real);
-        factor_.push_back(by_parameter_ ? 1 : float(factor_of(each, entered)));
+        factor_.push_back(by_parameter_ ? 1 : float(factor_of(each, entered).low));
     }
 }
 
@@ -181,24 +214,27 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
     };
     std::vector<float> before;
     const std::vector<bool> inside = natural_loop(function, loop.header);
+    const auto idle_condition = [&](uint32_t block) {
+        return evaluator.value(function.blocks[block].condition).bits != 0;
+    };
     const auto visit = [&](uint32_t block) {
         if (!inside[block])
             return false;
         if (block == loop.test && (!loop.in_next_turn || !before.empty())) {
-            march.threshold = evaluator.value(loop.threshold).real;
             march.turns.push_back({loop.in_next_turn ? before : carried(),
-                                   evaluator.value(loop.distance).real - march.threshold});
+                                   evaluator.value(loop.distance).real,
+                                   evaluator.value(loop.threshold).real});
         }
         if (block == loop.latch)
             before = carried();
-        return true;
+        return !loop.idle || block != loop.idle->block || idle_condition(block) != loop.idle->when;
     };
     if (loop.far != k_no_value)
         march.far = evaluator.value(loop.far).real;
     Decisions none(0);
     evaluator.run(none, visit, loop.header, loop.entry);
     if (!march.turns.empty()) {
-        const float last = march.turns.back().distance;
+        const float last = march.turns.back().distance();
         march.hit = loop.at_equality ? last <= 0 : last < 0;
     }
     return march;
@@ -206,14 +242,18 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
 
 bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const March& march) {
     LoopTurn<PointSystem<float>> own(slice, entered, entered.textures);
+    const auto same = [](float a, float b) {
+        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+    };
     return std::ranges::all_of(march.turns, [&](const Turn& turn) {
         std::vector<Point<float>> places;
         for (const float each : turn.carried)
             places.push_back({each, 0});
         Decisions none(0);
         const bool measured = own.run(places, none) == Ended::stopped;
-        const float distance = own.distance().real - own.threshold().real;
-        return measured && std::bit_cast<uint32_t>(distance) == std::bit_cast<uint32_t>(turn.distance);
+        const float threshold = own.threshold().real;
+        return measured && same(own.distance().real, turn.measured) &&
+               (slice.loop.threshold_by_turn ? threshold <= turn.threshold : same(threshold, turn.threshold));
     });
 }
 

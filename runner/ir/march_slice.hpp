@@ -14,15 +14,19 @@ namespace tidemark::ir {
 /// One turn of the loop as the text makes it, in float.
 struct Turn {
     std::vector<float> carried; ///< the values of MarchingLoop::carried where the distance is measured
-    float distance = 0;         ///< minus the threshold
+    float measured = 0;         ///< distance
+    float threshold = 0;
+
+    float distance() const { return measured - threshold; } ///< above the threshold
 };
 
 /// The march of one pixel.
 struct March {
     std::vector<Turn> turns;
-    float far = 0;       ///< the loop's limit, where it has one
-    float threshold = 0; ///< of the last turn
-    bool hit = false;    ///< it was left because of the distance
+    float far = 0;         ///< the loop's limit, where it has one
+    float threshold = 0;   ///< of the last turn
+    bool tightens = false; ///< it is smaller in some turn than in the first, though it is to grow
+    bool hit = false;      ///< it was left because of the distance
 };
 
 /// What becomes of conditions and jumps that are not decided: they cost width; or they are gone through one
@@ -37,22 +41,26 @@ inline Interval place_at(double parameter) {
     return {parameter, std::nextafter(parameter, k_infinity)};
 }
 
-/// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry.
+/// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry: of one
+/// ray, or of all rays of an area and a span of time at once, if it has intervals.
 class MarchSlice {
 public:
-    template <class Real>
-    MarchSlice(const LoopSlice& slice, const PointEvaluator<Real>& entered,
+    template <class System>
+    MarchSlice(const LoopSlice& slice, const Evaluator<System>& entered,
                const Textures<Interval>& textures = {}, Surface surface = Surface::threshold);
 
-    /// Where the ray begins, in terms of its parameter.
+    /// Where the ray begins, in terms of its parameter; the first of the rays.
     double start() const { return start_; }
     /// The parameter at which a turn measured.
     double parameter(const Turn& turn) const;
-    /// How long the way is that the parameter calls 1: 1, where the loop carries the parameter itself.
+    /// How long the way is that the parameter calls 1: 1, where the loop carries the parameter itself. Of
+    /// many rays at least.
     double unit() const;
     /// Up to where a first hit is looked for: the loop's limit; else the last place that the march came to,
     /// and beyond its own hit. What has no limit may go to infinity.
     double end(const March& march) const;
+    /// The loop's limit, where it has one: of many rays the largest.
+    std::optional<double> far() const { return far_; }
 
     /// Bounds, over that piece of the ray, of what is negative behind the surface; `partial` where NaN or an
     /// infinity may come of it. Nothing where the loop is left before it measures.
@@ -65,6 +73,10 @@ public:
     std::optional<Distances> distances(const Interval& parameter, Care care);
     /// The same with bounds of its slope, where all conditions are decided and nothing jumps: nothing else.
     std::optional<Tangent> tangent(const Interval& parameter);
+
+    /// Of a slice that has the step: what a turn adds to the parameter where it goes on from a place of the
+    /// piece; nothing where the loop is left at all of them.
+    std::optional<Interval> advance(const Interval& parameter, Care care);
 
     /// Of what `distance` gives: no place of the piece is a hit; every one is.
     bool excludes_hit(const std::optional<Interval>& distance) const;
@@ -82,13 +94,16 @@ private:
     std::optional<Compared<typename System::Value>>
     run(LoopTurn<System>& turn, const std::vector<typename System::Value>& places, Decisions& decisions);
     Interval place(size_t carried, const Interval& parameter) const;
+    std::vector<Interval> places(const Interval& parameter) const;
+    void set(Care care) { intervals_.evaluator().splits = care != Care::quick; }
 
     const MarchingLoop* loop_;
     Surface surface_;
     LoopTurn<IntervalSystem> intervals_;
     LoopTurn<TangentSystem> tangents_;
-    std::vector<double> first_, factor_;
+    std::vector<Interval> first_, factor_;
     double start_ = 0;
+    std::optional<double> far_;
     uint64_t evaluations_ = 0;
 };
 
@@ -107,9 +122,9 @@ private:
 };
 
 /// Runs the pixel that `evaluator` is set up for until it enters one of the loops; its index, none where it
-/// enters none.
-template <class Real>
-std::optional<size_t> enter_first(PointEvaluator<Real>& evaluator, const std::vector<MarchingLoop>& loops) {
+/// enters none, or where it is not known which.
+template <class System>
+std::optional<size_t> enter_first(Evaluator<System>& evaluator, const std::vector<MarchingLoop>& loops) {
     Decisions none(0);
     std::optional<size_t> entered;
     const auto visit = [&](uint32_t block) {
@@ -125,8 +140,9 @@ std::optional<size_t> enter_first(PointEvaluator<Real>& evaluator, const std::ve
 /// Goes on from there through the loop.
 March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop);
 
-/// Whether the slice at the text's own places has the text's own distances, bit by bit: else something that
-/// the loop carries beside the place changes the distance.
+/// Whether the slice at the text's own places has the text's own distances and thresholds, bit by bit: else
+/// something that the loop carries beside the place changes them. A threshold that changes by turns may be
+/// above that of the first.
 bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const March& march);
 
 } // namespace tidemark::ir

@@ -1,6 +1,7 @@
 #include "ir/marching_loop.hpp"
 
-#include "ir/dependence.hpp"
+#include "ir/idle_turn.hpp"
+#include "ir/loop_counter.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,6 +14,7 @@ struct ExitTest {
     Value smaller, larger;
     bool at_equality; ///< it is left, too, where they are equal
     bool at_nan;      ///< or where one of them is NaN
+    bool alone;       ///< nothing else has to hold beside it
     Value comparison;
     uint32_t block;
     int line;
@@ -23,6 +25,7 @@ struct Step {
     Value phi, update, added;
     Value core;                 ///< the factor of `added` that changes in the loop; none: it does not change
     std::vector<Value> factors; ///< the others
+    bool scales = false;        ///< `update` is a multiple of `phi`, and `added` says which one
 };
 
 class LoopReader {
@@ -32,6 +35,11 @@ public:
           inside_(function.instructions.size()) {
         for (Value i = function.blocks[0].first; i < inside_.size(); ++i)
             inside_[i] = blocks_[block_of[i]];
+        const auto& predecessors = function.blocks[header].predecessors;
+        const auto back = std::ranges::find_if(predecessors, [&](uint32_t each) { return blocks_[each]; });
+        if (back == predecessors.end() || predecessors.size() != 2)
+            return;
+        back_slot_ = size_t(back - predecessors.begin());
         read_tests();
         read_steps();
     }
@@ -55,6 +63,8 @@ private:
     std::span<const Value> operands(Value value) const { return function_.operands_of(at(value)); }
     Cone cone(std::vector<Value> stops = {}) const { return {function_, inside_, header_, std::move(stops)}; }
 
+    LoopBlocks loop() const { return {function_, block_of_, header_, back_slot_}; }
+
     // -- Where the loop is left
 
     void read_tests() {
@@ -66,51 +76,75 @@ private:
                        second_leaves = !blocks_[here.successors[1]];
             if (first_leaves != second_leaves)
                 add_tests(here.condition, first_leaves, block);
+            else if (!first_leaves && !idle_)
+                for (const size_t way : {0, 1})
+                    read_idle(block, way);
         }
     }
 
+    /// Where a turn does nothing, and none does after it, the loop has ended as if it were left.
+    void read_idle(uint32_t block, size_t way) {
+        if (idle_)
+            return;
+        idle_turn_ = IdleTurn::find(loop(), cone(), block, way);
+        if (!idle_turn_)
+            return;
+        idle_ = MarchingLoop::Idle{block, way == 0};
+        add_tests(function_.blocks[block].condition, way == 0, block);
+    }
+
     /// Of a condition that leaves the loop where it is `leaving`: a part alone may make it so.
-    void add_tests(Value condition, bool leaving, uint32_t block, int depth = 0) {
+    void add_tests(Value condition, bool leaving, uint32_t block, bool alone = true, int depth = 0) {
         constexpr int k_deepest = 16;
         if (!inside_[condition] || depth > k_deepest)
             return;
         const auto parts = operands(condition);
         switch (at(condition).op) {
-        case Op::logical_not: add_tests(parts[0], !leaving, block, depth + 1); return;
+        case Op::logical_not: add_tests(parts[0], !leaving, block, alone, depth + 1); return;
         case Op::logical_or:
         case Op::logical_and:
         case Op::phi: // && and || that are evaluated as far as needed
             for (const Value part : parts)
-                add_tests(part, leaving, block, depth + 1);
+                add_tests(part, leaving, block, alone && is_either(condition, leaving), depth + 1);
             return;
         case Op::less:
         case Op::less_equal: {
             const bool or_equal = at(condition).op == Op::less_equal;
             const Value smaller = parts[leaving ? 0 : 1], larger = parts[leaving ? 1 : 0];
-            tests_.push_back({smaller, larger, or_equal == leaving, !leaving, condition, block_of_[condition],
-                              at(condition).line});
+            tests_.push_back({smaller, larger, or_equal == leaving, !leaving, alone, condition,
+                              block_of_[condition], at(condition).line});
             return;
         }
         default: return;
         }
     }
 
+    /// Whether one of the parts is enough to make a condition so.
+    bool is_either(Value condition, bool so) const {
+        if (at(condition).op != Op::phi)
+            return (at(condition).op == Op::logical_or) == so;
+        const uint32_t merge = block_of_[condition];
+        const auto& predecessors = function_.blocks[merge].predecessors;
+        const auto parts = operands(condition);
+        for (size_t i = 0; i < parts.size(); ++i) { // the part that may decide it alone goes there at once
+            const Block& from = function_.blocks[predecessors[i]];
+            if (parts.size() == 2 && from.end == Block::End::branch && from.condition == parts[i])
+                return from.successors[so ? 0 : 1] == merge;
+        }
+        return false;
+    }
+
     // -- What a turn adds
 
     void read_steps() {
         const Block& here = function_.blocks[header_];
-        const auto back =
-            std::ranges::find_if(here.predecessors, [&](uint32_t each) { return blocks_[each]; });
-        if (back == here.predecessors.end())
-            return;
-        back_slot_ = size_t(back - here.predecessors.begin());
         for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi)
             if (at(phi).type == Scalar::real)
                 if (const auto update = sum_with(phi, next_of(phi)))
                     steps_.push_back(step(phi, *update));
     }
 
-    /// The sum of `phi` and something that `value` is, perhaps limited, perhaps on one way alone.
+    /// The sum or product of `phi` and something that `value` is, perhaps limited, perhaps on one way alone.
     std::optional<Value> sum_with(Value phi, Value value, int depth = 0) const {
         constexpr int k_deepest = 6;
         if (value == phi || !inside_[value] || depth > k_deepest)
@@ -118,6 +152,7 @@ private:
         const auto parts = operands(value);
         switch (at(value).op) {
         case Op::add:
+        case Op::multiply:
             if (parts[0] == phi || parts[1] == phi)
                 return value;
             return std::nullopt;
@@ -137,6 +172,11 @@ private:
         const auto parts = operands(update);
         Step result{phi, update, parts[parts[0] == phi ? 1 : 0], k_no_value, {}};
         Value core = result.added;
+        if (at(update).op == Op::multiply) {
+            result.scales = true;
+            result.core = inside_[core] ? core : phi;
+            return result;
+        }
         while (inside_[core] && at(core).op == Op::multiply) {
             const auto factors = operands(core);
             const bool first = inside_[factors[0]], second = inside_[factors[1]];
@@ -158,6 +198,8 @@ private:
         for (const Step& each : steps_)
             result.push_back({each});
         for (const Step& each : steps_) {
+            if (each.scales)
+                continue;
             const auto same = std::ranges::find_if(
                 together, [&](const std::vector<Step>& group) { return group.front().core == each.core; });
             if (same == together.end())
@@ -173,7 +215,7 @@ private:
 
     // -- A distance along the way
 
-    bool is_header_phi(Value value) const { return at(value).op == Op::phi && block_of_[value] == header_; }
+    bool is_header_phi(Value value) const { return loop().is_header_phi(value); }
 
     std::optional<MarchingLoop> march(const std::vector<Step>& group, bool at_update,
                                       const ExitTest& test) const {
@@ -188,8 +230,11 @@ private:
         if (is_limit(test.smaller, test.larger) || is_limit(test.larger, test.smaller))
             return std::nullopt;
         const Cone to_cuts = cone(cuts);
-        std::vector<Value> field = merged(to_cuts.of(test.smaller), to_cuts.of(test.larger));
-        const std::vector<Value> others = carried_beside(field, cuts);
+        const std::vector<Value> measured = to_cuts.of(test.smaller), limit = to_cuts.of(test.larger);
+        std::vector<Value> field = merged(measured, limit), others = carried_beside(field, cuts);
+        std::erase_if(others, [&](Value other) {
+            return !std::ranges::binary_search(measured, other) && counts_turns(other, cuts);
+        });
         for (const Value other : others) {
             const std::vector<Value> before = to_cuts.of(next_of(other));
             if (!carried_beside(before, cuts).empty())
@@ -203,6 +248,11 @@ private:
             return std::nullopt;
         MarchingLoop loop = loop_of(needed(group, at_update, field), at_update, test, *kind);
         loop.in_next_turn = !others.empty();
+        loop.threshold_by_turn = std::ranges::any_of(limit, [&](Value value) {
+            return is_header_phi(value) && next_of(value) != value &&
+                   std::ranges::find(cuts, value) == cuts.end() &&
+                   !std::ranges::binary_search(measured, value) && counts_turns(value, cuts);
+        });
         loop.stops_before = loop.kind == MarchingLoop::Kind::sphere_tracing && is_above_zero(test.larger) &&
                             !computes(depending(to_cuts.of(test.larger), cuts));
         return loop;
@@ -214,8 +264,29 @@ private:
         return result;
     }
 
-    /// What a value that the loop carries becomes for the next turn.
-    Value next_of(Value phi) const { return operands(phi)[back_slot_]; }
+    /// What a value that the loop carries becomes for the next turn, unless that does nothing.
+    Value next_of(Value phi) const {
+        const Value next = operands(phi)[back_slot_];
+        return idle_turn_ ? idle_turn_->busy(loop(), next) : next;
+    }
+
+    /// What it becomes is made of itself, of its like and of the place by sums and products.
+    bool counts_turns(Value phi, const std::vector<Value>& cuts) const {
+        return !computes(made_of(phi, cuts));
+    }
+
+    /// All that a value is computed from in the loop, in this turn and those before, up to `stops`.
+    std::vector<Value> made_of(Value value, const std::vector<Value>& stops = {}) const {
+        const Cone to_stops = cone(stops);
+        std::vector<Value> all = to_stops.of(value);
+        for (size_t before = 0; before != all.size();) {
+            before = all.size();
+            for (const Value each : std::vector(all))
+                if (is_header_phi(each) && std::ranges::find(stops, each) == stops.end())
+                    all = merged(all, to_stops.of(next_of(each)));
+        }
+        return all;
+    }
 
     /// Real numbers that the loop carries beside the place on the ray: a distance that is tested in the next
     /// turn is one, but if it depends on itself, too, it is no function of the place.
@@ -280,7 +351,8 @@ private:
         return std::ranges::any_of(values, [this](Value value) { return is_computed(value); });
     }
 
-    /// A step that is made of the field's values is a sphere tracer's, one that nothing changes is fixed.
+    /// A step that is made of the field's values is a sphere tracer's; one that is made of sums and products,
+    /// of the way so far and of numbers that count turns, is fixed.
     std::optional<MarchingLoop::Kind> kind_of(const Step& step, const std::vector<Value>& field) const {
         std::vector<Value> added = cone().of(step.added);
         for (const Value value : std::vector(added))
@@ -290,7 +362,7 @@ private:
         std::ranges::set_intersection(added, field, std::back_inserter(shared));
         if (computes(shared))
             return MarchingLoop::Kind::sphere_tracing;
-        if (step.core == k_no_value || step.core == step.phi)
+        if (step.core == k_no_value || step.core == step.phi || !computes(made_of(step.added)))
             return MarchingLoop::Kind::fixed_step;
         return std::nullopt;
     }
@@ -306,6 +378,7 @@ private:
         loop.at_equality = test.at_equality;
         loop.at_nan = test.at_nan;
         loop.comparison = test.comparison;
+        loop.at_hit = test.alone;
         loop.test = test.block;
         loop.line = test.line;
         place_in_line(loop);
@@ -313,11 +386,34 @@ private:
             (blocks_[each] ? loop.latch : loop.entry) = each;
         for (const Step& each : group)
             loop.carried.push_back({each.phi, each.update, each.factors});
+        loop.idle = idle_;
+        const Step& first = group.front();
+        const bool plain = std::ranges::all_of(
+            group, [&](const Step& each) { return !each.scales && next_of(each.phi) == each.update; });
+        if (plain && !idle_)
+            loop.advance = group.size() == 1 ? first.added : first.core;
+        loop.step = block_of_[first.update];
+        loop.turns = turns();
         for (const ExitTest& other : tests_)
             for (const Step& each : group)
                 if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller])
                     loop.far = other.smaller;
         return loop;
+    }
+
+    /// By the counter that ends it first.
+    std::optional<uint32_t> turns() const {
+        std::optional<uint32_t> least;
+        const Block& here = function_.blocks[header_];
+        for (const ExitTest& test : tests_)
+            for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi) {
+                const Value first = operands(phi)[1 - back_slot_];
+                const auto number = turns_of(
+                    function_, {phi, first, next_of(phi), test.smaller, test.larger, test.at_equality});
+                if (number && (!least || *number < *least))
+                    least = number;
+            }
+        return least;
     }
 
     /// As far as it is known without running.
@@ -344,6 +440,8 @@ private:
     std::vector<bool> blocks_;
     std::vector<bool> inside_; ///< of instructions
     size_t back_slot_ = 0;     ///< of the operand of a phi that comes from the turn before
+    std::optional<MarchingLoop::Idle> idle_;
+    std::optional<IdleTurn> idle_turn_;
     std::vector<ExitTest> tests_;
     std::vector<Step> steps_;
 };

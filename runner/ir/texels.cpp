@@ -249,9 +249,10 @@ Interval TexelLevel::range(const TexelIndex& first, const TexelIndex& last, uint
     return all;
 }
 
-Interval Texels::look_up(const Lookup& lookup, std::span<const Interval> operands) const {
+Interval Texels::look_up(const Lookup& lookup, std::span<const Interval> operands,
+                         UnnamedLevel unnamed) const {
     switch (lookup.form) {
-    case Lookup::Form::sample: return sampled(lookup, operands);
+    case Lookup::Form::sample: return sampled(lookup, operands, unnamed);
     case Lookup::Form::fetch: return fetched(lookup, operands);
     case Lookup::Form::size: {
         const TexelLevel* level = level_at(operands);
@@ -290,8 +291,10 @@ Interval Texels::fetched(const Lookup& lookup, std::span<const Interval> operand
     return inside ? found : hull(found, {0, 0});
 }
 
-Interval Texels::sampled(const Lookup& lookup, std::span<const Interval> operands) const {
-    const Interval wanted = level_of(lookup, operands, levels.front().size());
+Interval Texels::sampled(const Lookup& lookup, std::span<const Interval> operands,
+                         UnnamedLevel unnamed) const {
+    const bool any = unnamed == UnnamedLevel::any && chooses_level(lookup);
+    const Interval wanted = any ? everything() : level_of(lookup, operands, levels.front().size());
     const auto at = [&](double level, bool linear) {
         return filtered(levels[size_t(level)], lookup, operands, linear);
     };
@@ -341,9 +344,10 @@ Interval Texels::filtered(const TexelLevel& level, const Lookup& lookup, std::sp
     return Filter(level, lookup.component, beyond).at(std::span(places).first(axes), linear, layer);
 }
 
-Interval look_up(const TextureSet& textures, const Lookup& lookup, std::span<const Interval> operands) {
+Interval look_up(const TextureSet& textures, const Lookup& lookup, std::span<const Interval> operands,
+                 UnnamedLevel unnamed) {
     const auto found = textures.find(lookup.sampler);
-    return found == textures.end() ? everything() : found->second->look_up(lookup, operands);
+    return found == textures.end() ? everything() : found->second->look_up(lookup, operands, unnamed);
 }
 
 } // namespace tidemark::ir

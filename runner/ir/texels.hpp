@@ -43,6 +43,10 @@ private:
     std::vector<Extrema> extrema_;
 };
 
+/// Which level a look-up takes that names none: what neighbouring pixels do, from which a device chooses it,
+/// is not known here.
+enum class UnnamedLevel { base, any };
+
 struct Texels {
     enum class Kind { plane, cube, volume } kind = Kind::plane;
     enum class Wrap { repeat, clamp, mirror } wrap = Wrap::repeat;
@@ -51,8 +55,8 @@ struct Texels {
     bool minify_linear = true;
     std::vector<TexelLevel> levels;
 
-    /// A look-up without a level takes the base level: what neighbouring pixels do is not known here.
-    Interval look_up(const Lookup& lookup, std::span<const Interval> operands) const;
+    Interval look_up(const Lookup& lookup, std::span<const Interval> operands,
+                     UnnamedLevel unnamed = UnnamedLevel::base) const;
     bool chooses_level(const Lookup& lookup) const {
         return mipmaps != Mipmaps::none && lookup.form == Lookup::Form::sample && !lookup.has_level &&
                !lookup.has_gradients;
@@ -61,7 +65,7 @@ struct Texels {
 private:
     const TexelLevel* level_at(std::span<const Interval> number) const;
     Interval fetched(const Lookup& lookup, std::span<const Interval> operands) const;
-    Interval sampled(const Lookup& lookup, std::span<const Interval> operands) const;
+    Interval sampled(const Lookup& lookup, std::span<const Interval> operands, UnnamedLevel unnamed) const;
     template <class AtLevel>
     Interval between_levels(const Interval& level, AtLevel at) const;
     Interval filtered(const TexelLevel& level, const Lookup& lookup, std::span<const Interval> operands,
@@ -71,9 +75,10 @@ private:
 /// By the name of the sampler. Of one that is not there nothing is known.
 using TextureSet = std::map<std::string, std::shared_ptr<const Texels>, std::less<>>;
 
-Interval look_up(const TextureSet& textures, const Lookup& lookup, std::span<const Interval> operands);
+Interval look_up(const TextureSet& textures, const Lookup& lookup, std::span<const Interval> operands,
+                 UnnamedLevel unnamed = UnnamedLevel::base);
 
-/// At one place.
+/// At one place, of the base level where none is named.
 template <class Real>
 Point<Real> look_up(const TextureSet& textures, const Lookup& lookup, std::span<const Point<Real>> operands) {
     std::vector<Interval> places;
@@ -89,6 +94,13 @@ Point<Real> look_up(const TextureSet& textures, const Lookup& lookup, std::span<
 }
 
 /// For an evaluator that lives no longer than the set.
+inline Textures<Interval> textures_at_any_level(const TextureSet& textures) {
+    return [&textures](const Lookup& lookup, std::span<const Interval> operands) {
+        return look_up(textures, lookup, operands, UnnamedLevel::any);
+    };
+}
+
+/// Likewise.
 template <class Number>
 Textures<Number> textures_in(const TextureSet& textures) {
     return [&textures](const Lookup& lookup, std::span<const Number> operands) {

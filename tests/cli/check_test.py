@@ -99,6 +99,32 @@ class Check(ProgramTest):
                 self.assertGreater(float(said[1]), 0.85 * scale)
                 self.assertAlmostEqual(float(said[2]), scale, delta=0.06 * scale)
 
+    def test_how_fast_the_field_falls_is_proved_between_the_rays_too(self):
+        for field, falls in (("length(p) - 1.0", 1.0), ("1.6 * (length(p) - 1.0)", 1.6)):
+            with self.subTest(field):
+                scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "d").replace("length(p) - 1.0", field))
+                entry = self.verdicts(scene, "--probe", "step_scale")["step_scale"]
+                said = re.search(r"the slope is bounded on ([\d.]+) % of the way to the surface: the distance falls by ([\d.]+) a unit at most, by ([\d.]+) on 95 %",
+                                 entry["found"])
+                self.assertTrue(said, entry["found"])
+                self.assertGreater(float(said[1]), 99)
+                self.assertGreater(float(said[2]), 0.99 * falls)
+                self.assertLess(float(said[2]), 1.3 * falls)
+
+    def test_that_rays_keep_within_their_turns_is_proved(self):
+        march = MARCH.replace("max(d, 0.4)", "d")
+        entry = self.verdicts(self.write("march.glsl", march), "--probe", "turns")["turns"]
+        self.assertEqual(entry["verdict"], "pass", entry["found"])
+        said = re.match(r"0 % of 288 rays run out of the loop's 99 turns; the others need (\d+) at most; ([\d.]+) % are proved not to, "
+                        r"of 72 rays at ([\d.]+) % of all times from 0 to 10 s$", entry["found"])
+        self.assertTrue(said, entry["found"])
+        self.assertLess(int(said[1]), 99)
+        self.assertGreater(float(said[2]), 90)
+        self.assertGreater(float(said[3]), 90)
+        entry = self.verdicts(self.write("march.glsl", march.replace("i < 99", "i < 4")), "--probe", "turns")["turns"]
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertRegex(entry["found"], r"^[1-9][\d.]* % of 288 rays run out of the loop's 4 turns, as pixel \d+,\d+ at .* s: \S*march.glsl:5 tests")
+
     def test_the_far_plane_is_the_definition_that_limits_the_march(self):
         text = "#define REACH 9.0\n" + MARCH.replace("t > 9.0", "t > REACH").replace("max(d, 0.4)", "d")
         entry = self.verdicts(self.write("march.glsl", text), "--probe", "far")["far"]

@@ -16,7 +16,7 @@ std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
         text += fmt::format(
             "  march     {}:{}: {}, leaves here where it is near the surface\n", where.file, where.line,
             loop.kind == ir::MarchingLoop::Kind::sphere_tracing ? "steps by the distance (sphere tracing)"
-                                                                : "steps of a fixed length");
+                                                                : "steps that the distance does not choose");
     }
     return text;
 }

@@ -130,9 +130,12 @@ private:
         return places;
     }
 
-    /// `t += step`; where the distance is that behind the step, `ahead = t + step` as well.
+    /// `t += step` or, if there is none, `t *= factor`; where the distance is that behind the step, `ahead =
+    /// t + step` as well.
     Result<void> find_place() {
         std::vector<NodeId> places = targets([this](NodeId id) { return goes_on(id); });
+        if (places.empty())
+            places = targets([this](NodeId id) { return text_.word_of(id) == "*="; });
         if (places.empty() && lines_.at_update)
             places = targets([this](NodeId id) { return text_.word_of(id) == "="; });
         if (places.empty())

@@ -43,8 +43,8 @@ std::optional<double> FieldOnRays::hit(size_t ray) const {
 double FieldOnRays::longest(size_t ray) const {
     double longest = 0;
     for (const ir::Turn& turn : rays_[ray].march.turns)
-        if (std::isfinite(turn.distance))
-            longest = std::max(longest, std::abs(double(turn.distance)));
+        if (std::isfinite(turn.distance()))
+            longest = std::max(longest, std::abs(double(turn.distance())));
     return longest;
 }
 

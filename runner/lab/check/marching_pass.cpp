@@ -40,6 +40,12 @@ Result<std::optional<MarchingPass>> marching_pass(ProbeBench& bench) {
     return std::nullopt;
 }
 
+Answer without_march(ProbeBench& bench) {
+    const auto& image = bench.image_function();
+    return {Verdict::not_applicable, image ? "no loop of a pass is found to march along a ray"
+                                           : "the text cannot be followed: " + image.error().message};
+}
+
 Result<RayCounts> count_proved(ProbeBench& bench, const MarchingPass& pass) {
     const PassFunction& function = *pass.function;
     RayCounts counts;

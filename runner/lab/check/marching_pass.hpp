@@ -1,6 +1,7 @@
 // The pass of a scene that marches along rays, and what is proved of those that probes look at.
 #pragma once
 
+#include "lab/check/probe.hpp"
 #include "lab/check/probe_bench.hpp"
 #include "lab/march/proved_hits.hpp"
 
@@ -22,6 +23,9 @@ struct MarchingPass {
 
 /// Image, if it does; else the first of those that lead to it.
 Result<std::optional<MarchingPass>> marching_pass(ProbeBench& bench);
+
+/// Why nothing can be proved of the rays of a scene that has none.
+Answer without_march(ProbeBench& bench);
 
 /// Pixels evenly spread over the picture; `look` says how many evaluations the ray of a pixel took, and what
 /// is left when some seconds are over is not looked at.

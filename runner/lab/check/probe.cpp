@@ -64,6 +64,11 @@ std::span<const Probe> all_probes() {
          "taken, "
          "proved from the text; and the longest of the march's own",
          ask_step_scale},
+        {"turns",
+         "rays that run out of the turns of their march's loop; and bounds of the turns that they need, "
+         "proved "
+         "from the text by how far each step goes at least",
+         ask_turns},
         {"drift", "whether mainHit says what mainImage's own march does, recorded while it runs (mainHit)",
          ask_drift},
         {"overstep", "rays with a sample below the surface: proof that a step was too long (hits)",

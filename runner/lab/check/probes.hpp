@@ -58,6 +58,7 @@ Result<Answer> ask_drift(ProbeBench& bench);
 // probes_proved.cpp
 Result<Answer> ask_first_hit(ProbeBench& bench);
 Result<Answer> ask_step_scale(ProbeBench& bench);
+Result<Answer> ask_turns(ProbeBench& bench);
 
 // probes_rays.cpp
 Result<Answer> ask_rays(ProbeBench& bench);

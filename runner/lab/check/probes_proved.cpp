@@ -3,7 +3,7 @@
 #include "ir/step_scale.hpp"
 #include "lab/check/marching_pass.hpp"
 #include "lab/check/probes.hpp"
-#include "lab/march/march_rays.hpp"
+#include "lab/march/area_slopes.hpp"
 #include "lab/statistics.hpp"
 
 #include <fmt/format.h>
@@ -31,20 +31,16 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
         text += fmt::format("; of {:.3g} % it is not known ({})", percent(counts.undecided, counts.rays),
                             to_string(counts.commonest()));
     if (counts.at_base_level > 0)
-        text += "; textures without a level are read at their base level";
+        text +=
+            fmt::format("; {:.3g} % of the rays are looked at with the base level of textures whose mipmap "
+                        "the device chooses",
+                        percent(counts.at_base_level, counts.rays));
     if (counts.wrong_loop) {
         const SourceLocation where = function.locate(function.loops()[*counts.wrong_loop].line);
         text += fmt::format("; {}:{} tests the distance: {} there", where.file, where.line,
                             counts.step_over > 0 ? "take shorter steps" : "take more steps");
     }
     return text;
-}
-
-/// Why nothing can be proved of a scene's rays.
-Answer without_march(ProbeBench& bench) {
-    const auto& image = bench.image_function();
-    return none(image ? "no loop of a pass is found to march along a ray"
-                      : "the text cannot be followed: " + image.error().message);
 }
 
 } // namespace
@@ -74,6 +70,8 @@ namespace {
 
 /// Of a ray, beside what its first hit takes.
 constexpr uint64_t k_most_for_scale = 400;
+/// Of all areas of a picture.
+constexpr uint64_t k_most_of_areas = 20'000;
 /// A step that is as long as the distance, but for roundings.
 constexpr double k_rounded = 1.001;
 
@@ -95,6 +93,7 @@ struct Scales {
     size_t loop = 0; ///< of that ray
     glm::ivec2 pixel{0};
     FrameState state{};
+    AreaSlopes areas{}; ///< between the rays, too
 
     bool bounded() const { return 2 * safe.size() > hits; } ///< on most of them
 };
@@ -133,8 +132,26 @@ Result<Scales> scales_of(ProbeBench& bench, const MarchingPass& pass) {
             const bool marches = ray && ray->slice && !ray->march.turns.empty();
             return marches ? add(*ray, pixel, state, scales) : 0;
         });
+        scales.areas.add(area_slopes(rays, k_most_of_areas));
     }
     return scales;
+}
+
+/// Of all rays of a picture, not only those that are looked at.
+std::string areas_sentence(const AreaSlopes& areas) {
+    const double way = areas.way(), bounded = areas.bounded_way();
+    if (!(way > 0))
+        return {};
+    std::string text = fmt::format(
+        "; between the rays the slope is bounded on {:.3g} % of the way to the surface", 100 * bounded / way);
+    if (bounded > 0)
+        text += fmt::format(": the distance falls by {:.3g} a unit at most, by {:.3g} on 95 % of it",
+                            areas.falls_on(1), areas.falls_on(0.95));
+    if (areas.jumps > 0)
+        text += fmt::format("; on {:.3g} % it may jump", 100 * areas.jumps / way);
+    if (areas.not_finite > 0)
+        text += fmt::format("; on {:.3g} % it may be NaN or infinite", 100 * areas.not_finite / way);
+    return text;
 }
 
 std::string scales_sentence(const Scales& scales) {
@@ -151,7 +168,8 @@ std::string scales_sentence(const Scales& scales) {
         text += fmt::format("; {:.2g} x steps over the hit from {:.4g} on the ray of pixel {},{} at {:g} s",
                             scales.least.unsafe, scales.least.at, scales.pixel.x, scales.pixel.y,
                             scales.state.seconds());
-    return text + fmt::format("; its own steps are {:.2g} x in the median", median(scales.own));
+    return text + fmt::format("; its own steps are {:.2g} x in the median", median(scales.own)) +
+           areas_sentence(scales.areas);
 }
 
 } // namespace
@@ -165,7 +183,7 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
         return loop.kind == ir::MarchingLoop::Kind::fixed_step;
     };
     if (std::ranges::all_of(loops, fixed))
-        return none("the march goes in steps of a fixed length");
+        return none("the march goes in steps that the distance does not choose");
     const Scales scales = TRY(scales_of(bench, *pass));
     if (scales.hits == 0)
         return none("no ray is proved to come to a zero of the distance");

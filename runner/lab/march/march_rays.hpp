@@ -3,18 +3,22 @@
 #pragma once
 
 #include "ir/texels.hpp"
-#include "lab/march/pass_function.hpp"
+#include "lab/march/input_ranges.hpp"
 
 #include <optional>
 
 namespace tidemark::lab {
 
-/// A pass as its text and a frame have it.
-struct DrawnPass {
-    const PassFunction& function;
-    const render::Renderer& renderer; ///< has drawn the frame
-    size_t pass = 0;
-    render::FrameInputs inputs;
+/// Rays of an area of the picture, in pixels from the lower left corner, over a span of time.
+struct RayArea {
+    ir::Interval x, y;
+    std::optional<ir::Interval> time{}; ///< in seconds; none: the frame's
+};
+
+/// All of them at once, in front of the loop that each of them enters.
+struct AreaRays {
+    size_t loop = 0;
+    ir::MarchSlice slice;
 };
 
 /// A ray in front of the loop that marches along it.
@@ -40,8 +44,16 @@ public:
     /// Nothing where it enters no loop. Any number of threads may ask.
     std::optional<MarchRay> enter(glm::ivec2 pixel, ir::Surface surface) const;
 
+    /// Nothing where it is not certain that all rays enter one loop, or where that has no such slice. Any
+    /// number of threads may ask.
+    std::optional<AreaRays> enter_all(const RayArea& area, ir::SliceOf what, ir::Surface surface) const;
+
 private:
+    ir::Textures<ir::Interval> textures_of_all(bool at_any_time) const;
+
     DrawnPass drawn_;
+    std::vector<std::optional<ir::LoopSlice>> steps_; ///< of each loop
+    InputRanges ranges_;
     ir::TextureSet textures_;
     ir::FloatEvaluator floats_;
     ir::PointEvaluator<double> doubles_;

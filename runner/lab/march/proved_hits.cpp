@@ -11,17 +11,23 @@ using Verdict = ir::FirstHit::Verdict;
 
 /// A march stops within its threshold, and nobody sees a step of a hundredth.
 constexpr double k_same_end = 0.01;
+/// Levels differ by more than what a hit is narrowed down to; narrower than what is seen.
+constexpr double k_width_at_any_level = 1e-3;
+/// Each asks all levels; most of what is decided so takes some fifty.
+constexpr uint64_t k_most_at_any_level = 500;
 /// Below the threshold by more than a rounding.
 constexpr float k_surely_below = -1e-5f;
 
 /// No sample of the march may have been below the threshold where that is excluded. One that goes backwards
-/// may come to what lies before its start.
-bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {
+/// may come to what lies before its start. Of a threshold that changes by turns zero counts: the first one is
+/// not below that.
+bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found,
+                 bool threshold_by_turn) {
     const double free_to = found.verdict == Verdict::none ? found.where.high : found.where.low;
     return std::ranges::any_of(march.turns, [&](const ir::Turn& turn) {
         const double at = slice.parameter(turn);
-        return turn.distance < k_surely_below && at >= slice.start() &&
-               at < free_to - 1e-6 * std::max(1.0, std::abs(free_to));
+        return (threshold_by_turn ? turn.measured : turn.distance()) < k_surely_below &&
+               at >= slice.start() && at < free_to - 1e-6 * std::max(1.0, std::abs(free_to));
     });
 }
 
@@ -30,7 +36,7 @@ bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::
 /// back.
 double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
     const double last = slice.parameter(march.turns.back());
-    if (!march.hit || march.threshold != 0)
+    if (!march.hit || march.turns.back().threshold != 0)
         return last;
     double before = slice.start();
     for (const ir::Turn& turn : march.turns)
@@ -72,7 +78,6 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
     unknown = chooses_level = false; // from here on it is the march that reads
     const ir::March march = ir::follow(evaluator, function.function(), loop_slice.loop);
     ray.turns = march.turns.size();
-    ray.at_base_level = chooses_level;
     if (unknown) {
         ray.outcome = Outcome::unknown_texture;
         return ray;
@@ -91,11 +96,18 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
         ray.reason = ir::FirstHit::Reason::not_finite;
         return ray;
     }
-    const ir::FirstHit found = ir::first_hit(slice, end, most_evaluations);
+    ir::FirstHit found;
+    if (chooses_level) {
+        ir::MarchSlice at_any(loop_slice, entered, ir::textures_at_any_level(textures));
+        found = ir::first_hit(at_any, end, k_most_at_any_level, k_width_at_any_level);
+    }
+    ray.at_base_level = chooses_level && found.verdict == Verdict::undecided;
+    if (!chooses_level || ray.at_base_level)
+        found = ir::first_hit(slice, end, most_evaluations);
     ray.outcome = outcome_of(slice, march, found);
     ray.reason = found.reason;
     ray.evaluations = found.evaluations;
-    ray.contradicted = contradicts(slice, march, found);
+    ray.contradicted = contradicts(slice, march, found, loop_slice.loop.threshold_by_turn);
     return ray;
 }
 

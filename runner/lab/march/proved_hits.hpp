@@ -30,7 +30,9 @@ struct ProvedRay {
     size_t turns = 0; ///< of the march
     /// The march was below the threshold where that was excluded: a defect of ours.
     bool contradicted = false;
-    bool at_base_level = false; ///< it reads a texture whose mipmap the device chooses
+    /// It reads a texture whose mipmap the device chooses, and is not decided for all of them: for the base
+    /// level alone, if at all.
+    bool at_base_level = false;
 };
 
 /// The ray of that pixel, with the pass's textures; nothing where it enters no marching loop.

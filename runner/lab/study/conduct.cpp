@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace tidemark::lab {
 namespace {
@@ -132,16 +133,21 @@ private:
         return record_hits();
     }
 
-    /// Hits that no author tells are recorded, if there is something to hold them against.
+    /// Hits that no author tells are recorded, if there is something to hold them against: of the scene as it
+    /// is, which is the first point.
     Result<void> record_hits() {
         if (glsl::hit_scene(scene_))
             return {};
         auto specimen =
             Specimen::create(scene_, {{}, study().precision}, study().extent, HitSource::main_hit_or_march);
-        const auto hits = specimen ? specimen->hits(study().views.front()) : fail(specimen.error());
+        const View& view = study().views.front();
+        if (specimen)
+            specimen->picture(view); // first: what a driver puts off belongs to the first picture
+        const auto hits = specimen ? specimen->hits(view) : fail(specimen.error());
         set().hits_recorded = hits.has_value();
         if (hits) {
             hit_source_ = HitSource::main_hit_or_march;
+            specimens_.front() = *std::move(specimen);
             return {};
         }
         remark("the march of mainImage is not recorded: " + to_string(hits.error()));
@@ -160,8 +166,10 @@ private:
                 point.failure = "interrupted";
                 continue;
             }
-            auto specimen = Specimen::create(scene_, {point.point.settings, study().precision},
-                                             study().extent, hit_source_);
+            auto specimen = specimens_[i]
+                                ? Result<Specimen>(*std::exchange(specimens_[i], std::nullopt))
+                                : Specimen::create(scene_, {point.point.settings, study().precision},
+                                                   study().extent, hit_source_);
             auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
             if (!sight && i == 0) // the scene as it is
                 return fail(std::move(sight.error()));

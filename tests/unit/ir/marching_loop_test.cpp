@@ -50,6 +50,80 @@ TEST(MarchingLoop, is_found_in_the_forms_that_authors_write) {
                 Kind::fixed_step, 1);
 }
 
+TEST(MarchingLoop, is_found_where_steps_grow_with_the_way_or_from_turn_to_turn) {
+    expect_loop("t = 0.1; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break; t *= 1.02; }",
+                Kind::fixed_step, 1);
+    expect_loop(
+        "t = 0.1; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break; t += 0.02 * t; }",
+        Kind::fixed_step, 1);
+    expect_loop("float dt = 0.01; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break;\n"
+                "t += dt; dt = 0.02 * t; }",
+                Kind::fixed_step, 1);
+    expect_loop(
+        "vec3 p = ro, go = rd + vec3(iTime, 2.0 * iTime, 0.1 + iTime); float dt = 0.01;\n"
+        "for (int i = 0; i < 400; ++i) { if (map(p) < 0.0) break; p += go * dt; dt *= 1.01; }\nt = p.z;",
+        Kind::fixed_step, 3);
+    expect_loop("float dt = 0.01; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break;\n"
+                "t += dt; dt *= 1.05; }",
+                Kind::fixed_step, 1);
+}
+
+TEST(MarchingLoop, may_have_a_threshold_that_grows_each_turn) {
+    expect_loop("float eps = 0.001; for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "if (d < eps || t > 9.0) break; t += 0.5 * d; eps *= 1.1; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("float eps = 0.001; for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "if (d < eps || t > 9.0) break; t += 0.5 * d; eps = 0.001 * t; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "if (d < 0.001 * float(1 + i)) break; t += 0.5 * d; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("float eps = 0.001; for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
+                "eps *= 1.0 + 0.03 * t; if (d < eps || t > 9.0) break; t += 0.5 * d; }",
+                Kind::sphere_tracing, 1);
+}
+
+TEST(MarchingLoop, may_go_on_to_do_nothing_where_it_has_come_to_its_end) {
+    expect_loop("float d = 1.0, eps = 0.001; for (int i = 0; i < 99; ++i) if (d > eps && t < 9.0) {\n"
+                "d = map(ro + rd * t); eps = 0.001 * exp(0.1 * t); t += 0.5 * d; }",
+                Kind::sphere_tracing, 1);
+    expect_loop("float d = 1.0, glow = 0.0; for (int i = 0; i < 99; ++i) { if (d < 0.001) continue;\n"
+                "d = map(ro + rd * t); glow += exp(-d); t += 0.5 * d; } t += glow;",
+                Kind::sphere_tracing, 1);
+    // What is left out is not all that the condition looks at.
+    EXPECT_TRUE(loops_of("float d = 1.0; for (int i = 0; i < 99; ++i) { if (d > 0.001)\n"
+                         "{ d = map(ro + rd * t); t += 0.5 * d; } else d += 0.1; }")
+                    .empty());
+}
+
+TEST(MarchingLoop, knows_how_often_it_turns) {
+    const auto turns = [](const std::string& head) {
+        const auto loops = loops_of("int n = 0; float h = 0.0, eps = 1e-3; " + head +
+                                    " { float d = map(ro + rd * t); if (d < eps) break; t += d; }");
+        return loops.size() == 1 ? loops[0].turns : std::nullopt;
+    };
+    EXPECT_EQ(turns("for (int i = 0; i < 100; ++i)"), 100u);
+    EXPECT_EQ(turns("for (int i = 64; i > 0; i -= 2)"), 32u);
+    EXPECT_EQ(turns("for (float i = 0.0; i < 1.0; i += 0.01)"), 101u); // each sum is rounded
+    EXPECT_EQ(turns("while (n++ < 50)"), 50u);
+    EXPECT_EQ(turns("for (int i = 0; i < int(iTime); ++i)"), std::nullopt);
+}
+
+/// A hit is what falls below the threshold of the first turn: one that shrinks is another question.
+TEST(MarchingLoop, with_a_threshold_that_shrinks_is_not_faithful) {
+    const Function function =
+        marcher("length(p) - 1.0", "float eps = 0.1; for (int i = 0; i < 99; ++i) {\n"
+                                   "float d = map(ro + rd * t); if (d < eps) break; t += 0.5 * d; "
+                                   "eps *= 0.9; }");
+    const auto loops = find_marching_loops(function);
+    ASSERT_EQ(loops.size(), 1u);
+    FloatEvaluator evaluator = entered(function, loops, 0);
+    const FloatEvaluator at_entry = evaluator;
+    const March followed = follow(evaluator, function, loops[0]);
+    EXPECT_TRUE(followed.hit);
+    EXPECT_FALSE(is_faithful(slice_of(function, loops[0]), at_entry, followed));
+}
+
 /// What counts the way behind the test is a turn late there.
 TEST(MarchingLoop, carries_what_its_distance_is_made_of_alone) {
     const std::string march = "vec3 p = ro, go = vec3(iTime, 2.0 * iTime, 0.1 + iTime);\n"

@@ -143,6 +143,19 @@ TEST(Texels, lie_between_their_levels) {
     EXPECT_FALSE(with_levels(Texels::Mipmaps::linear).chooses_level(lookup));
 }
 
+TEST(Texels, of_a_level_that_the_device_chooses_may_be_any) {
+    const auto at = [](Texels::Mipmaps mipmaps, const Lookup& lookup, UnnamedLevel unnamed) {
+        return with_levels(mipmaps).look_up(lookup, std::array<Interval, 3>{}, unnamed);
+    };
+    for (const auto mipmaps : {Texels::Mipmaps::linear, Texels::Mipmaps::nearest}) {
+        EXPECT_LE(at(mipmaps, {}, UnnamedLevel::any).low, 0);
+        EXPECT_GE(at(mipmaps, {}, UnnamedLevel::any).high, 30);
+        EXPECT_EQ(at(mipmaps, {}, UnnamedLevel::base).high, 0);
+        EXPECT_EQ(at(mipmaps, {.has_level = true}, UnnamedLevel::any).high, 0);
+    }
+    EXPECT_EQ(at(Texels::Mipmaps::none, {}, UnnamedLevel::any).high, 0);
+}
+
 TEST(Texels, are_fetched_by_their_indices) {
     const Texels texture = texels(Texels::Wrap::repeat);
     const Lookup fetch{.form = Lookup::Form::fetch, .component = 1, .has_level = true};

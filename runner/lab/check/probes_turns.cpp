@@ -1,0 +1,175 @@
+// Whether rays run out of the turns that their march has: as it goes in float, and as bounded by how far each
+// step goes at least.
+#include "base/try.hpp"
+#include "ir/turn_bound.hpp"
+#include "lab/check/marching_pass.hpp"
+#include "lab/check/probes.hpp"
+#include "lab/march/march_rays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+/// Of the bound of one ray, or of one for a span of time.
+constexpr uint64_t k_most_of_a_bound = 1'000;
+/// The span that is looked at, and how far it is cut.
+constexpr ir::Interval k_span{0, 10};
+constexpr double k_shortest_span = 10.0 / 16;
+/// Rays that are looked at over it: of so many one.
+constexpr size_t k_every = 4;
+/// How far behind its last turn the wall is looked for that ends a march without a limit.
+constexpr double k_behind = 2;
+
+struct TurnCounts {
+    size_t rays = 0, out = 0, proved = 0, contradicted = 0;
+    size_t needed = 0; ///< by a march that does not run out, at most
+    uint32_t turns = 0;
+    size_t rays_over_time = 0;
+    double proved_seconds = 0; ///< of all of those
+    glm::ivec2 pixel{0};       ///< of the first that runs out
+    FrameState state{};
+    int line = 0;
+};
+
+double share(double some, double all) {
+    return all == 0 ? 0 : 100 * some / all;
+}
+
+class TurnLook {
+public:
+    TurnLook(const MarchRays& rays, const FrameState& state, TurnCounts& counts)
+        : rays_(rays), state_(state), counts_(counts) {}
+
+    /// What it took.
+    uint64_t look_at(glm::ivec2 pixel) {
+        const auto ray = rays_.enter(pixel, ir::Surface::threshold);
+        if (!ray)
+            return 0;
+        const ir::MarchingLoop& loop = rays_.function().loops()[ray->loop];
+        if (!loop.turns || loop.kind == ir::MarchingLoop::Kind::fixed_step || ray->march.turns.empty())
+            return 1;
+        const ir::March& march = ray->march;
+        ++counts_.rays;
+        counts_.turns = std::max(counts_.turns, *loop.turns);
+        const bool out = runs_out(*ray, loop);
+        if (out)
+            remember(pixel, loop);
+        else
+            counts_.needed = std::max(counts_.needed, march.turns.size());
+        if (!ray->slice || out)
+            return 1;
+        used_ = 0;
+        const double end = loop.limited() ? march.far : behind(*ray->slice, march);
+        const auto most = bound({at(pixel.x), at(pixel.y)}, ray->loop, end);
+        counts_.proved += most.has_value();
+        counts_.contradicted += most && *most < march.turns.size();
+        if (number_++ % k_every == 0) {
+            ++counts_.rays_over_time;
+            counts_.proved_seconds += most ? proved_of(pixel, k_span, ray->loop, end) : 0;
+        }
+        return used_;
+    }
+
+private:
+    static ir::Interval at(int pixel) { return {pixel + 0.5, pixel + 0.5}; }
+
+    static double behind(const ir::MarchSlice& slice, const ir::March& march) {
+        return slice.start() + k_behind * (slice.parameter(march.turns.back()) - slice.start());
+    }
+
+    static bool runs_out(const MarchRay& ray, const ir::MarchingLoop& loop) {
+        const ir::March& march = ray.march;
+        const bool beyond = loop.limited() && march.turns.back().carried[0] > march.far;
+        return !march.hit && !beyond && march.turns.size() >= *loop.turns;
+    }
+
+    void remember(glm::ivec2 pixel, const ir::MarchingLoop& loop) {
+        if (counts_.out++ > 0)
+            return;
+        counts_.pixel = pixel;
+        counts_.state = state_;
+        counts_.line = loop.line;
+    }
+
+    std::optional<uint32_t> bound(const RayArea& area, size_t loop, double end) {
+        auto all = rays_.enter_all(area, ir::SliceOf::step, ir::Surface::threshold);
+        ++used_;
+        if (!all || all->loop != loop)
+            return std::nullopt;
+        const auto most = ir::most_turns(all->slice, all->slice.far().value_or(end),
+                                         *rays_.function().loops()[loop].turns, k_most_of_a_bound);
+        used_ += all->slice.evaluations();
+        return most;
+    }
+
+    /// Seconds of the span: the whole, or those of its halves.
+    double proved_of(glm::ivec2 pixel, const ir::Interval& span, size_t loop, double end) {
+        if (bound({at(pixel.x), at(pixel.y), span}, loop, end))
+            return span.width();
+        if (span.width() <= k_shortest_span)
+            return 0;
+        const double middle = span.low + span.width() / 2;
+        return proved_of(pixel, {span.low, middle}, loop, end) +
+               proved_of(pixel, {middle, span.high}, loop, end);
+    }
+
+    const MarchRays& rays_;
+    const FrameState& state_;
+    TurnCounts& counts_;
+    size_t number_ = 0;
+    uint64_t used_ = 0;
+};
+
+std::string turns_sentence(const PassFunction& function, const TurnCounts& counts) {
+    std::string text = fmt::format("{:.3g} % of {} rays run out of the loop's {} turns",
+                                   share(double(counts.out), double(counts.rays)), counts.rays, counts.turns);
+    if (counts.out > 0) {
+        const SourceLocation where = function.locate(counts.line);
+        text += fmt::format(", as pixel {},{} at {:g} s: {}:{} tests the distance", counts.pixel.x,
+                            counts.pixel.y, counts.state.seconds(), where.file, where.line);
+    }
+    text += fmt::format("; the others need {} at most; {:.3g} % are proved not to", counts.needed,
+                        share(double(counts.proved), double(counts.rays)));
+    if (counts.rays_over_time > 0)
+        text +=
+            fmt::format(", of {} rays at {:.3g} % of all times from {:g} to {:g} s", counts.rays_over_time,
+                        share(counts.proved_seconds, double(counts.rays_over_time) * k_span.width()),
+                        k_span.low, k_span.high);
+    return text;
+}
+
+} // namespace
+
+Result<Answer> ask_turns(ProbeBench& bench) {
+    const auto pass = TRY(marching_pass(bench));
+    if (!pass)
+        return without_march(bench);
+    TurnCounts counts;
+    for (const double moment : k_ray_moments) {
+        const FrameState state = state_at(moment);
+        const render::Renderer& renderer = *TRY(bench.drawn(state));
+        const MarchRays rays({*pass->function, renderer, pass->index, render::inputs_of(state)});
+        TurnLook look(rays, state, counts);
+        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) { return look.look_at(pixel); });
+    }
+    if (counts.rays == 0)
+        return Answer{Verdict::not_applicable,
+                      "no ray comes to a loop that steps by a distance, and counts its turns up to a number"};
+    if (counts.contradicted > 0)
+        return Answer{
+            Verdict::not_applicable,
+            fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted)};
+    Answer answer{Verdict::pass, turns_sentence(*pass->function, counts)};
+    if (share(double(counts.out), double(counts.rays)) > bench.promises().most_exhausted_percent) {
+        answer.verdict = Verdict::warn;
+        answer.sentence += "; take more steps, or longer ones";
+        answer.where = counts.state;
+    }
+    return answer;
+}
+
+} // namespace tidemark::lab
