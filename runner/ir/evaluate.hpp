@@ -75,6 +75,8 @@ public:
     /// Instructions of the last run.
     uint64_t steps() const { return steps_; }
 
+    System& system() { return system_; }
+
     void unpin() { pinned_.clear(); }
     /// Whatever the text computes there, it is this number.
     void pin(Value at, const Number& number) {

@@ -163,18 +163,47 @@ std::optional<Interval> MarchSlice::advance(const Interval& parameter, Care care
     return all;
 }
 
-std::optional<Tangent> MarchSlice::tangent(const Interval& parameter) {
+std::vector<Tangent> MarchSlice::moving_places(const Interval& parameter) const {
     std::vector<Tangent> places;
     for (size_t i = 0; i < loop_->carried.size(); ++i)
         places.push_back({place(i, parameter), factor_[i]});
+    return places;
+}
+
+Tangent MarchSlice::own(const Compared<Tangent>& found) const {
+    const auto& [distance, threshold] = found;
+    if (surface_ == Surface::zero)
+        return distance;
+    return {distance.value - threshold.value, distance.slope - threshold.slope};
+}
+
+std::optional<Tangent> MarchSlice::tangent(const Interval& parameter) {
     Decisions none(0);
-    const auto found = run(tangents_, places, none);
+    const auto found = run(tangents_, moving_places(parameter), none);
     if (!found || none.exhausted())
         return std::nullopt;
-    const auto& [distance, threshold] = *found;
-    const Tangent above{distance.value - threshold.value, distance.slope - threshold.slope};
-    const Tangent own = surface_ == Surface::zero ? distance : above;
-    return !own.value.partial && std::isfinite(own.slope.low) ? std::optional(own) : std::nullopt;
+    const Tangent all = own(*found);
+    return !all.value.partial && std::isfinite(all.slope.low) ? std::optional(all) : std::nullopt;
+}
+
+std::optional<Interval> MarchSlice::slope_beside_jumps(const Interval& parameter) {
+    bool& aside = tangents_.evaluator().system().jumps_aside;
+    aside = true;
+    Decisions decisions(k_most_decisions);
+    std::optional<Interval> all;
+    for (int way = 0; way == 0 || decisions.next(); ++way) {
+        const auto found = run(tangents_, moving_places(parameter), decisions);
+        const bool open = way == most_ways(Care::close) || decisions.exhausted();
+        const Tangent one = found && !open ? own(*found) : Tangent{};
+        if (open || one.value.partial || !std::isfinite(one.slope.low)) {
+            all.reset();
+            break;
+        }
+        if (found)
+            all = all ? hull(*all, one.slope) : one.slope;
+    }
+    aside = false;
+    return all;
 }
 
 bool MarchSlice::excludes_hit(const std::optional<Interval>& distance) const {

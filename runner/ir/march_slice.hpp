@@ -73,6 +73,8 @@ public:
     std::optional<Distances> distances(const Interval& parameter, Care care);
     /// The same with bounds of its slope, where all conditions are decided and nothing jumps: nothing else.
     std::optional<Tangent> tangent(const Interval& parameter);
+    /// Bounds of its slope beside jumps, whatever conditions are; nothing where those are not known.
+    std::optional<Interval> slope_beside_jumps(const Interval& parameter);
 
     /// Of a slice that has the step: what a turn adds to the parameter where it goes on from a place of the
     /// piece; nothing where the loop is left at all of them.
@@ -95,6 +97,8 @@ private:
     run(LoopTurn<System>& turn, const std::vector<typename System::Value>& places, Decisions& decisions);
     Interval place(size_t carried, const Interval& parameter) const;
     std::vector<Interval> places(const Interval& parameter) const;
+    std::vector<Tangent> moving_places(const Interval& parameter) const;
+    Tangent own(const Compared<Tangent>& found) const;
     void set(Care care) { intervals_.evaluator().splits = care != Care::quick; }
 
     const MarchingLoop* loop_;

@@ -49,13 +49,22 @@ bool is_one_number(Op op, const Interval& a) {
     return IntervalSystem().compute(op, Scalar::real, Scalar::real, {a, {}, {}}).point();
 }
 
-Interval slope_beside_jumps(Op op, const Interval& value, const Tangent& a, const Tangent& b) {
+Interval slope_at_jumps(Op op, const Interval& value, const Tangent& a, const Tangent& b, bool aside) {
     const Interval turns = b.value.point() && b.value.low > 0 ? a.value / b.value : everything();
+    const auto rest = [&](Op jumps, const Interval& of) {
+        return aside || is_one_number(jumps, of) ? a.slope : everything();
+    };
     switch (op) {
-    case Op::fract: return is_one_number(Op::floor, a.value) ? a.slope : everything();
-    case Op::modulo: return is_one_number(Op::floor, turns) ? a.slope : everything();
-    case Op::nearest_rest: return is_one_number(Op::round, turns) ? a.slope : everything();
-    case Op::remainder: return is_one_number(Op::truncate, turns) ? a.slope : everything();
+    case Op::fract: return rest(Op::floor, a.value);
+    case Op::modulo: return b.constant() ? rest(Op::floor, turns) : everything();
+    case Op::nearest_rest: return b.constant() ? rest(Op::round, turns) : everything();
+    case Op::remainder: return b.constant() ? rest(Op::truncate, turns) : everything();
+    case Op::floor:
+    case Op::ceil:
+    case Op::truncate:
+    case Op::round:
+    case Op::round_even:
+    case Op::sign: return aside || value.point() ? Interval{} : everything();
     default: return value.point() ? Interval{} : everything();
     }
 }
@@ -84,7 +93,8 @@ Interval slope_of_product(const Tangent& a, const Tangent& b) {
     return b.constant() ? a.slope * b.value : a.slope * b.value + a.value * b.slope;
 }
 
-Interval slope_of(Op op, const Interval& value, const Tangent& a, const Tangent& b, const Tangent& c) {
+Interval slope_of(Op op, const Interval& value, const Tangent& a, const Tangent& b, const Tangent& c,
+                  bool aside) {
     switch (op) {
     case Op::add: return b.constant() ? a.slope : a.constant() ? b.slope : a.slope + b.slope;
     case Op::subtract: return b.constant() ? a.slope : a.slope - b.slope;
@@ -100,14 +110,16 @@ Interval slope_of(Op op, const Interval& value, const Tangent& a, const Tangent&
     case Op::mix: return a.slope * (k_one - c.value) + b.slope * c.value + (b.value - a.value) * c.slope;
     case Op::select: {
         const auto way = IntervalSystem::decide(a.value);
-        return !way ? everything() : *way ? b.slope : c.slope;
+        if (!way)
+            return aside ? hull(b.slope, c.slope) : everything();
+        return *way ? b.slope : c.slope;
     }
     case Op::narrowed: return intersection(a.slope, b.slope);
     default: break;
     }
     if (const auto factor = derivative(op, a.value, value))
         return *factor * a.slope;
-    return slope_beside_jumps(op, value, a, b);
+    return slope_at_jumps(op, value, a, b, aside);
 }
 
 } // namespace
@@ -117,10 +129,12 @@ Tangent TangentSystem::compute(Op op, Scalar result, Scalar of, const Operands<T
     const Interval value = IntervalSystem().compute(op, result, of, {a.value, b.value, c.value});
     if (value.point() && op != Op::narrowed)
         return {value, {}};
-    if (result != Scalar::real || of != Scalar::real)
-        return {value, op == Op::select ? slope_of(op, value, a, b, c) : everything()};
+    if (op == Op::select)
+        return {value, slope_of(op, value, a, b, c, jumps_aside)};
+    if (result != Scalar::real || of != Scalar::real) // whole numbers jump, and nothing else
+        return {value, jumps_aside && op != Op::bits_as ? Interval{} : everything()};
     const bool constant = a.constant() && b.constant() && c.constant();
-    return {value, constant ? Interval{} : slope_of(op, value, a, b, c)};
+    return {value, constant ? Interval{} : slope_of(op, value, a, b, c, jumps_aside)};
 }
 
 } // namespace tidemark::ir

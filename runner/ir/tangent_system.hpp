@@ -20,6 +20,9 @@ class TangentSystem {
 public:
     using Value = Tangent;
 
+    /// Slopes are those beside all jumps; else everything where the value may jump.
+    bool jumps_aside = false;
+
     static Value constant(uint32_t bits, Scalar type) { return {IntervalSystem::constant(bits, type), {}}; }
     static Value number(double real) { return {IntervalSystem::number(real), {}}; }
     static Value unknown() { return {everything(), everything()}; }
@@ -33,7 +36,9 @@ public:
         return IntervalSystem::range(index.value);
     }
     /// Of two cells of memory, of which either is read: the value may jump.
-    static Value hull(const Value& a, const Value& b) { return {ir::hull(a.value, b.value), everything()}; }
+    Value hull(const Value& a, const Value& b) const {
+        return {ir::hull(a.value, b.value), jumps_aside ? ir::hull(a.slope, b.slope) : everything()};
+    }
     static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
     static bool may_be_split(const Value&) { return false; }
 };

@@ -147,8 +147,8 @@ std::string areas_sentence(const AreaSlopes& areas) {
     if (bounded > 0)
         text += fmt::format(": the distance falls by {:.3g} a unit at most, by {:.3g} on 95 % of it",
                             areas.falls_on(1), areas.falls_on(0.95));
-    if (areas.jumps > 0)
-        text += fmt::format("; on {:.3g} % it may jump", 100 * areas.jumps / way);
+    if (areas.may_jump > 0)
+        text += fmt::format(", beside jumps that are not excluded on {:.3g} %", 100 * areas.may_jump / way);
     if (areas.not_finite > 0)
         text += fmt::format("; on {:.3g} % it may be NaN or infinite", 100 * areas.not_finite / way);
     return text;

@@ -15,7 +15,7 @@ namespace tidemark::lab {
 namespace {
 
 /// Of the bound of one ray, or of one for a span of time.
-constexpr uint64_t k_most_of_a_bound = 1'000;
+constexpr uint64_t k_most_of_a_bound = 500;
 /// The span that is looked at, and how far it is cut.
 constexpr ir::Interval k_span{0, 10};
 constexpr double k_shortest_span = 10.0 / 16;
@@ -25,8 +25,10 @@ constexpr size_t k_every = 4;
 constexpr double k_behind = 2;
 
 struct TurnCounts {
-    size_t rays = 0, out = 0, proved = 0, contradicted = 0;
-    size_t needed = 0; ///< by a march that does not run out, at most
+    size_t rays = 0, out = 0;
+    size_t looked_at = 0, proved = 0, contradicted = 0; ///< of rays that were to be bounded
+    size_t unfollowed = 0;                              ///< whose step is not one value that each turn adds
+    size_t needed = 0;                                  ///< by a march that does not run out, at most
     uint32_t turns = 0;
     size_t rays_over_time = 0;
     double proved_seconds = 0; ///< of all of those
@@ -44,30 +46,38 @@ public:
     TurnLook(const MarchRays& rays, const FrameState& state, TurnCounts& counts)
         : rays_(rays), state_(state), counts_(counts) {}
 
-    /// What it took.
-    uint64_t look_at(glm::ivec2 pixel) {
-        const auto ray = rays_.enter(pixel, ir::Surface::threshold);
+    /// As it goes in float.
+    void follow(glm::ivec2 pixel) {
+        const auto ray = enter(pixel);
         if (!ray)
-            return 0;
-        const ir::MarchingLoop& loop = rays_.function().loops()[ray->loop];
-        if (!loop.turns || loop.kind == ir::MarchingLoop::Kind::fixed_step || ray->march.turns.empty())
-            return 1;
-        const ir::March& march = ray->march;
+            return;
+        const ir::MarchingLoop& loop = loop_of(*ray);
         ++counts_.rays;
         counts_.turns = std::max(counts_.turns, *loop.turns);
-        const bool out = runs_out(*ray, loop);
-        if (out)
+        if (runs_out(*ray, loop))
             remember(pixel, loop);
         else
-            counts_.needed = std::max(counts_.needed, march.turns.size());
-        if (!ray->slice || out)
+            counts_.needed = std::max(counts_.needed, ray->march.turns.size());
+    }
+
+    /// Evaluations that it took.
+    uint64_t bound(glm::ivec2 pixel) {
+        const auto ray = enter(pixel);
+        if (!ray)
+            return 0;
+        const ir::MarchingLoop& loop = loop_of(*ray);
+        const bool out = runs_out(*ray, loop);
+        ++counts_.looked_at;
+        counts_.unfollowed += !out && (!ray->slice || loop.advance == ir::k_no_value);
+        if (!ray->slice)
             return 1;
         used_ = 0;
+        const ir::March& march = ray->march;
         const double end = loop.limited() ? march.far : behind(*ray->slice, march);
         const auto most = bound({at(pixel.x), at(pixel.y)}, ray->loop, end);
         counts_.proved += most.has_value();
-        counts_.contradicted += most && *most < march.turns.size();
-        if (number_++ % k_every == 0) {
+        counts_.contradicted += most && (out || *most < march.turns.size());
+        if (!out && number_++ % k_every == 0) {
             ++counts_.rays_over_time;
             counts_.proved_seconds += most ? proved_of(pixel, k_span, ray->loop, end) : 0;
         }
@@ -75,6 +85,17 @@ public:
     }
 
 private:
+    const ir::MarchingLoop& loop_of(const MarchRay& ray) const { return rays_.function().loops()[ray.loop]; }
+
+    /// One whose loop steps by a distance, and counts its turns.
+    std::optional<MarchRay> enter(glm::ivec2 pixel) const {
+        auto ray = rays_.enter(pixel, ir::Surface::threshold);
+        if (!ray || ray->march.turns.empty() || !loop_of(*ray).turns ||
+            loop_of(*ray).kind == ir::MarchingLoop::Kind::fixed_step)
+            return std::nullopt;
+        return ray;
+    }
+
     static ir::Interval at(int pixel) { return {pixel + 0.5, pixel + 0.5}; }
 
     static double behind(const ir::MarchSlice& slice, const ir::March& march) {
@@ -132,9 +153,12 @@ std::string turns_sentence(const PassFunction& function, const TurnCounts& count
         text += fmt::format(", as pixel {},{} at {:g} s: {}:{} tests the distance", counts.pixel.x,
                             counts.pixel.y, counts.state.seconds(), where.file, where.line);
     }
-    text += fmt::format("; the others need {} at most; {:.3g} % are proved not to", counts.needed,
-                        share(double(counts.proved), double(counts.rays)));
-    if (counts.rays_over_time > 0)
+    text += fmt::format("; the others need {} at most; of {} rays {:.3g} % are proved not to", counts.needed,
+                        counts.looked_at, share(double(counts.proved), double(counts.looked_at)));
+    if (counts.unfollowed > 0)
+        text += fmt::format(" (what {:.3g} % add to their way is not followed)",
+                            share(double(counts.unfollowed), double(counts.looked_at)));
+    if (counts.proved > 0 && counts.rays_over_time > 0)
         text +=
             fmt::format(", of {} rays at {:.3g} % of all times from {:g} to {:g} s", counts.rays_over_time,
                         share(counts.proved_seconds, double(counts.rays_over_time) * k_span.width()),
@@ -154,7 +178,11 @@ Result<Answer> ask_turns(ProbeBench& bench) {
         const render::Renderer& renderer = *TRY(bench.drawn(state));
         const MarchRays rays({*pass->function, renderer, pass->index, render::inputs_of(state)});
         TurnLook look(rays, state, counts);
-        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) { return look.look_at(pixel); });
+        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) {
+            look.follow(pixel);
+            return 0;
+        });
+        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) { return look.bound(pixel); });
     }
     if (counts.rays == 0)
         return Answer{Verdict::not_applicable,

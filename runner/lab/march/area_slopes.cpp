@@ -36,15 +36,18 @@ private:
         const auto tangent = slice_.tangent(piece);
         if (tangent && !(tangent->value.high > 0))
             return false;
-        if (tangent && -tangent->slope.low <= k_steepest * unit_) {
-            slopes_.bounded.push_back({std::max(0.0, -tangent->slope.low / unit_), piece.width() * unit_});
+        const auto beside = tangent ? std::optional(tangent->slope) : slice_.slope_beside_jumps(piece);
+        if (beside && -beside->low <= k_steepest * unit_) {
+            const double way = piece.width() * unit_;
+            slopes_.bounded.push_back({std::max(0.0, -beside->low / unit_), way});
+            slopes_.may_jump += tangent ? 0 : way;
             return true;
         }
         if (cuts == 1) {
             const auto distance = slice_.distance(piece, ir::Care::quick);
             if (distance && !distance->partial && !(distance->high > 0))
                 return false;
-            (distance && distance->partial ? slopes_.not_finite : slopes_.jumps) += piece.width() * unit_;
+            (distance && distance->partial ? slopes_.not_finite : slopes_.unbounded) += piece.width() * unit_;
             return true;
         }
         bool more = true;
@@ -81,7 +84,8 @@ double AreaSlopes::falls_on(double part) const {
 
 void AreaSlopes::add(const AreaSlopes& more) {
     bounded.insert(bounded.end(), more.bounded.begin(), more.bounded.end());
-    jumps += more.jumps;
+    may_jump += more.may_jump;
+    unbounded += more.unbounded;
     not_finite += more.not_finite;
 }
 
@@ -102,7 +106,7 @@ AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations) {
             if (!std::isfinite(way) || !(way > 0))
                 continue;
             if (!all || all->loop != one->loop) { // what comes before the march may differ
-                slopes.jumps += way;
+                slopes.unbounded += way;
                 continue;
             }
             AreaLook(all->slice, end, slopes).run();

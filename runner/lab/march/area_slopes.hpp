@@ -11,17 +11,16 @@ namespace tidemark::lab {
 /// of some length along them. Ways are as long as the picture's rays go through them.
 struct AreaSlopes {
     struct Bound {
-        double falls; ///< by so much at most where the way is 1
+        double falls; ///< by so much at most where the way is 1, beside jumps
         double way;
     };
     std::vector<Bound> bounded{};
-    double jumps = 0;      ///< where the field may jump, or too much is open
-    double not_finite = 0; ///< or may be NaN or infinite
-    double not_entered =
-        0; ///< areas, in parts of the picture, whose rays may do different things before the march
+    double may_jump = 0;   ///< of those ways
+    double unbounded = 0;  ///< ways where the field may be as steep as anything, as far as is known
+    double not_finite = 0; ///< or NaN, or infinite
 
     double bounded_way() const;
-    double way() const { return bounded_way() + jumps + not_finite; }
+    double way() const { return bounded_way() + unbounded + not_finite; }
     /// The least number that bounds the slope on such a part of the ways that are bounded.
     double falls_on(double part) const;
 

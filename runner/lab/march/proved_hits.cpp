@@ -45,6 +45,13 @@ double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
     return before;
 }
 
+/// As narrow as a march is judged.
+bool is_narrow(const ir::FirstHit& found) {
+    return found.verdict == Verdict::none ||
+           (found.verdict == Verdict::hit &&
+            found.where.width() <= k_same_end * std::max(1.0, std::abs(found.where.high)));
+}
+
 Outcome outcome_of(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {
     if (found.verdict == Verdict::undecided)
         return Outcome::undecided;
@@ -101,7 +108,7 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
         ir::MarchSlice at_any(loop_slice, entered, ir::textures_at_any_level(textures));
         found = ir::first_hit(at_any, end, k_most_at_any_level, k_width_at_any_level);
     }
-    ray.at_base_level = chooses_level && found.verdict == Verdict::undecided;
+    ray.at_base_level = chooses_level && !is_narrow(found);
     if (!chooses_level || ray.at_base_level)
         found = ir::first_hit(slice, end, most_evaluations);
     ray.outcome = outcome_of(slice, march, found);

@@ -114,5 +114,27 @@ TEST(TangentSystem, has_no_slope_where_a_value_jumps) {
     EXPECT_EQ(tangent_of(Op::atan2, 2, {{-0.1, -1, 0}, {1, 0, 0}}, {0, 0.2}).slope.low, -k_infinity);
 }
 
+TEST(TangentSystem, has_the_slopes_beside_the_jumps_if_asked_for) {
+    TangentSystem system;
+    system.jumps_aside = true;
+    const Tangent wide{{0.2, 3.4}, {-1, 2}}, three{{3, 3}, {}}, none{};
+    const auto slope = [&](Op op, const Tangent& a, const Tangent& b, const Tangent& c = {}) {
+        return system.compute(op, Scalar::real, op == Op::select ? Scalar::boolean : Scalar::real, {a, b, c})
+            .slope;
+    };
+    for (const Op op : {Op::fract, Op::modulo}) {
+        EXPECT_LE(slope(op, wide, three).low, -1);
+        EXPECT_GE(slope(op, wide, three).high, 2);
+        EXPECT_TRUE(std::isfinite(slope(op, wide, three).high));
+    }
+    EXPECT_EQ(slope(Op::floor, wide, none).high, 0);
+    const Tangent either{{0, 1}, {}};
+    EXPECT_EQ(slope(Op::select, either, three, wide).low, -1);
+    EXPECT_EQ(slope(Op::select, either, three, wide).high, 2);
+    system.jumps_aside = false;
+    EXPECT_EQ(slope(Op::fract, wide, none).high, k_infinity);
+    EXPECT_EQ(slope(Op::select, either, three, wide).high, k_infinity);
+}
+
 } // namespace
 } // namespace tidemark::ir
