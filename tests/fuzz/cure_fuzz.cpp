@@ -45,8 +45,10 @@ std::vector<glsl::Cure> proposed(const glsl::ParsedText& text) {
             cures.push_back(*std::move(cure));
     for (const glsl::DomainSite& each : glsl::find_domain_sites(text, facts, glsl::DomainScope::floats))
         std::ranges::move(glsl::domain_guards(text, facts, each.node), std::back_inserter(cures));
-    for (glsl::Cut& each : glsl::Cutter(text, facts).cuts())
-        cures.push_back(std::move(each.change));
+    const glsl::Cutter cutter(text, facts);
+    for (auto& cuts : {cutter.cuts(), cutter.levels([](std::string_view) { return true; })})
+        for (const glsl::Cut& each : cuts)
+            cures.push_back(each.change);
     return cures;
 }
 

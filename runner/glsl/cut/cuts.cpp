@@ -18,6 +18,8 @@ constexpr double k_least_work = 4;
 /// Of the turns that a loop has.
 constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
 constexpr double k_fewest_turns = 2;
+/// Coarser ones show in nearly any picture.
+constexpr int k_coarsest_level = 3;
 
 /// What is written from one word to another, where no macro is in the way.
 std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_t last) {
@@ -192,6 +194,44 @@ std::vector<Cut> Cutter::cuts() const {
             add_statement(id, cuts);
     }
     std::ranges::stable_sort(cuts, std::greater<>(), &Cut::work);
+    return cuts;
+}
+
+/// A look-up itself, without what its coordinates cost.
+double Cutter::work_of_call(NodeId id) const {
+    double once = work_.once(id);
+    for (const NodeId part : tree_.children(id))
+        once -= work_.once(part);
+    return work_.of(id) * once / work_.once(id);
+}
+
+/// Nothing where the words are not the author's own.
+std::optional<WrittenTokens> Cutter::look_up_by_neighbours(NodeId id) const {
+    if (tree_[id].kind != NodeKind::call || called_name(text_, id) != "texture" ||
+        tree_.child_count(id) != 3 || tree_[tree_.child(id, 1)].kind != NodeKind::name ||
+        facts_.function("texture"))
+        return std::nullopt;
+    const auto written = written_for(text_, id, id);
+    const bool whole =
+        written && text_.tokens()[written->first].is("texture") && text_.tokens()[written->last].is(")");
+    return whole ? written : std::nullopt;
+}
+
+/// Left to the neighbours, the level is computed, and the two around it are mixed: about half of the work. A
+/// bias adds to that, so it is no cut.
+std::vector<Cut> Cutter::levels(const std::function<bool(std::string_view)>& has_mipmaps) const {
+    std::vector<Cut> cuts;
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        const auto call = look_up_by_neighbours(id);
+        if (!call || is_kept(id) || work_.of(id) == 0 || !has_mipmaps(text_.word_of(tree_.child(id, 1))))
+            continue;
+        for (int level = 0; level <= k_coarsest_level; ++level)
+            cuts.push_back({{{in_place_of(text_, {call->first, call->first}, "textureLod"),
+                              wrapped(text_, {call->last, call->last}, fmt::format(", {}.0", level), "")},
+                             fmt::format("{}: level {} alone in `{}`", place_of(id), level,
+                                         in_short(text_.excerpt(id)))},
+                            work_of_call(id) / 2});
+    }
     return cuts;
 }
 

@@ -1,12 +1,13 @@
-// What could be left out of a text: terms, factors, statements, turns of loops, and values that a number
-// could stand for. Places and words only; whether a cut pays, and what it does to the picture, is for who
-// draws it.
+// What could be left out of a text: terms, factors, statements, turns of loops, the choice of a texture's
+// level, and values that a number could stand for. Places and words only; whether a cut pays, and what it
+// does to the picture, is for who draws it.
 #pragma once
 
 #include "glsl/cure/written.hpp"
 #include "glsl/cut/work_estimate.hpp"
 #include "glsl/syntax/types.hpp"
 
+#include <functional>
 #include <set>
 #include <span>
 #include <string>
@@ -33,6 +34,8 @@ public:
 
     /// The most work first.
     std::vector<Cut> cuts() const;
+    /// One level of its mipmaps for a look-up, whatever its neighbours ask for, of samplers that have any.
+    std::vector<Cut> levels(const std::function<bool(std::string_view sampler)>& has_mipmaps) const;
     std::vector<Replaceable> replaceables() const;
     /// `numbers` are those of the expression's type.
     Cut replaced(const Replaceable& expression, std::span<const double> numbers) const;
@@ -51,6 +54,8 @@ private:
     void add_turns(NodeId loop, std::vector<Cut>& cuts) const;
     void add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
              std::vector<Cut>& cuts) const;
+    std::optional<WrittenTokens> look_up_by_neighbours(NodeId id) const;
+    double work_of_call(NodeId id) const;
     std::optional<ValueType> type_of(NodeId id) const;
     std::string place_of(NodeId id) const;
 

@@ -3,6 +3,7 @@
 #include "base/try.hpp"
 #include "glsl/instrument/seen_values.hpp"
 #include "glsl/rewrite.hpp"
+#include "lab/check/text_words.hpp"
 #include "lab/trace/stand_in.hpp"
 #include "lab/trace/watched_run.hpp"
 #include "render/frame_stepper.hpp"
@@ -80,6 +81,8 @@ private:
         }
         for (glsl::Cut& cut : cutter.cuts())
             add(std::move(cut));
+        for (glsl::Cut& cut : cutter.levels(which_have_mipmaps(scene_.passes[pass])))
+            add(std::move(cut));
         if (scene_.passes[pass].kind != scene::PassKind::cubemap)
             add_replaced(renderer, pass, **text, cutter);
     }
@@ -87,10 +90,13 @@ private:
     /// Common stands in several passes.
     void add(glsl::Cut cut) {
         const glsl::Wrap& wrap = cut.change.wraps.front();
+        std::string words;
+        for (const glsl::Wrap& each : cut.change.wraps)
+            words += each.front;
         const auto place = [](const glsl::WrittenWord& word) {
             return std::tuple(word.where.file, word.where.line, word.where.column);
         };
-        if (known_.insert({place(wrap.first), place(wrap.last), wrap.front}).second)
+        if (known_.insert({place(wrap.first), place(wrap.last), words}).second)
             found_.cuts.push_back(std::move(cut));
     }
 

@@ -111,6 +111,40 @@ TEST(Cut, ANumberStandsForAnExpression) {
     EXPECT_NE(with(text, {cut.change}).find("c.xyz = vec3(1.0, 0.25, -1e-07); }"), std::string::npos);
 }
 
+std::vector<std::string> levels_of(const std::string& text) {
+    const auto read = parsed(text);
+    const TreeFacts facts = find_facts(*read);
+    std::vector<std::string> texts;
+    for (const Cut& cut :
+         Cutter(*read, facts).levels([](std::string_view name) { return name == "noise"; })) {
+        EXPECT_GT(cut.work, 0);
+        texts.push_back(with(text, {cut.change}));
+    }
+    return texts;
+}
+
+TEST(Cut, ALookUpTakesOneLevel) {
+    const std::string head = "out vec4 c; in vec2 p; uniform sampler2D noise, flat_one;\n";
+    EXPECT_EQ(
+        levels_of(head + "void main() { c = texture(noise, p * vec2(2.0)); }\n"),
+        (std::vector<std::string>{head + "void main() { c = textureLod(noise, p * vec2(2.0), 0.0); }\n",
+                                  head + "void main() { c = textureLod(noise, p * vec2(2.0), 1.0); }\n",
+                                  head + "void main() { c = textureLod(noise, p * vec2(2.0), 2.0); }\n",
+                                  head + "void main() { c = textureLod(noise, p * vec2(2.0), 3.0); }\n"}));
+    EXPECT_EQ(
+        levels_of("#define T(x) texture(noise, x)\n" + head + "void main() { c = T(p) + T(c.xy); }\n")[1],
+        "#define T(x) textureLod(noise, x, 1.0)\n" + head + "void main() { c = T(p) + T(c.xy); }\n");
+    for (const std::string call : {"texture(flat_one, p)", "textureLod(noise, p, 2.0)",
+                                   "texture(noise, p, 1.0)", "textureOffset(noise, p, ivec2(1))"})
+        EXPECT_TRUE(levels_of(head + "void main() { c = " + call + "; }\n").empty()) << call;
+    EXPECT_TRUE(levels_of(head + "void f() { c = texture(noise, p); }\nvoid main() {}\n").empty())
+        << "nobody calls it";
+    EXPECT_TRUE(levels_of(head + "void main() { while (c.x < p.x) c += texture(noise, c.xy); }\n").empty())
+        << "it may never end";
+    EXPECT_TRUE(levels_of("#define L texture(noise,\n" + head + "void main() { c = L p); }\n").empty())
+        << "the macro says only a part of it";
+}
+
 TEST(Cut, TheMostWorkComesFirst) {
     const std::string text = in_main("s += dear(u); for (int i = 0; i < 64; i++) s *= dear(s) + u;");
     const auto cuts = cuts_of(text).cuts;
