@@ -39,7 +39,7 @@ ROOMS = {
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"],
              "cure": ["syntax", "flow", "analysis"], "cut": ["syntax", "flow", "cure"]},
-    "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "simplify": ["", "march", "study", "tune", "trace"], "trace": [], "pixel": ["march"],
+    "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "simplify": ["", "march", "study", "tune", "trace", "check"], "trace": [], "pixel": ["march"],
             "check": ["", "march", "trace"], "fix": ["", "march", "trace", "check"], "device": ["", "check", "study"]},
     # What runs in a browser, and includes nothing.
     "web": {"": [], "host": []},
