@@ -130,11 +130,11 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         self.assertEqual(scene.read_text(), before)
 
     def test_a_page_has_every_cure_and_what_is_left(self):
-        self.write("a.glsl", BODY % "float a[2]; c = vec4(sqrt(uv.x - 0.5), a[0], 0.0, 1.0);")
+        self.write("a.glsl", BODY % "float a[65]; c = vec4(sqrt(uv.x - 0.5), a[0], 0.0, 1.0);")
         self.fix("a.glsl", "-o", "page", code=1)
         page = (self.folder / "page" / "index.html").read_text()
         self.assertIn("1 cure, each measured on top of those before; 1 finding is not mended", page)
-        self.assertIn("+    float a[2]; c = vec4(sqrt(max(uv.x - 0.5, 0.0)), a[0]", page)
+        self.assertIn("+    float a[65]; c = vec4(sqrt(max(uv.x - 0.5, 0.0)), a[0]", page)
         self.assertIn("pixels that are not finite: ", page)
         self.assertIn("no cure is known for it", page)
         self.assertNotIn("<script src", page)
