@@ -38,7 +38,7 @@ ROOMS = {
     "live": {"": ["plugin"], "plugin": [""], "inputs": [""]},
     "glsl": {"": ["syntax", "flow", "double"], "syntax": [], "flow": ["syntax"], "double": ["syntax"], "specialise": ["syntax"],
              "analysis": ["syntax", "flow"], "instrument": ["syntax", "flow", "analysis"],
-             "cure": ["syntax", "flow", "analysis"], "cut": ["syntax", "flow", "cure"]},
+             "cure": ["syntax", "flow", "analysis"], "cut": ["syntax", "flow", "cure", "specialise"]},
     "lab": {"": [], "march": [""], "study": ["", "march"], "tune": ["", "march", "study"], "simplify": ["", "march", "study", "tune", "trace", "check"], "trace": [], "pixel": ["march"],
             "check": ["", "march", "trace"], "fix": ["", "march", "trace", "check"], "device": ["", "check", "study"]},
     # What runs in a browser, and includes nothing.

@@ -10,7 +10,7 @@
 #include "glsl/cure/rewrites.hpp"
 #include "glsl/cure/whole_counter.hpp"
 #include "glsl/cure/whole_hashes.hpp"
-#include "glsl/cut/cuts.hpp"
+#include "glsl/cut/once_a_pixel.hpp"
 
 #include <iterator>
 #include <string>
@@ -49,6 +49,8 @@ std::vector<glsl::Cure> proposed(const glsl::ParsedText& text) {
     for (auto& cuts : {cutter.cuts(), cutter.levels([](std::string_view) { return true; })})
         for (const glsl::Cut& each : cuts)
             cures.push_back(each.change);
+    if (auto cut = glsl::once_a_pixel(text, facts, cutter.work()))
+        cures.push_back(std::move(cut->change));
     return cures;
 }
 

@@ -61,5 +61,43 @@ TEST(CutPlaces, without_mipmaps_there_is_no_level_to_take) {
     EXPECT_TRUE(levels_of(image_of("c = texture(iChannel1, uv);")).empty());
 }
 
+/// Rotations, a light and a knob's power, in functions that a march calls.
+const char* const k_march = R"(
+#define R(a) mat2(cos(a), sin(a), -sin(a), cos(a))
+#define T (iTime * 0.7)
+#iUniform float sharpness = 3.0 in { 1.0, 9.0 }
+vec3 light() { return normalize(vec3(cos(iTime), 1.0, sin(iTime))); }
+float map(vec3 p) {
+    float wave = 0.5 + 0.5 * sin(T);
+    p.xz *= R(T);
+    p.xy *= R(-wave);
+    return length(max(abs(p) - vec3(0.5, 0.3, wave), 0.0)) - 0.1 * pow(wave, sharpness);
+}
+void mainImage(out vec4 c, in vec2 p) {
+    vec3 d = normalize(vec3((2.0 * p - iResolution.xy) / iResolution.y, 1.5)), o = vec3(0.0, 0.0, -3.0);
+    float t = 0.0;
+    for (int i = 0; i < 40; ++i)
+        t += map(o + t * d);
+    vec2 e = vec2(0.001, 0.0);
+    vec3 q = o + t * d, n = vec3(map(q + e.xyy), map(q + e.yxy), map(q + e.yyx)) - map(q);
+    c = vec4(t < 9.0 ? vec3(0.5 + 0.5 * dot(normalize(n), light())) : d, 1.0);
+}
+)";
+
+TEST(CutPlaces, what_is_computed_once_a_pixel_shows_the_same) {
+    const scene::Scene scene = scene_of(k_march);
+    auto found = find_cuts(scene, default_views(), k_extent, [] { return true; });
+    ASSERT_TRUE(found);
+    std::erase_if(found->cuts, [](const glsl::Cut& cut) {
+        return cut.change.reason.find("once a pixel") == std::string::npos;
+    });
+    ASSERT_EQ(found->cuts.size(), 1U);
+    auto bench = CutBench::create(scene, k_extent, default_views());
+    ASSERT_TRUE(bench);
+    const auto trial = bench->try_cuts(std::span(&found->cuts[0].change, 1), bench->own(), k_any_error);
+    ASSERT_TRUE(trial) << "the driver refuses it";
+    EXPECT_LT(trial->error, 1e-3) << "drivers may round differently";
+}
+
 } // namespace
 } // namespace tidemark::lab

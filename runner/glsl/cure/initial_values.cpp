@@ -7,22 +7,6 @@
 namespace tidemark::glsl {
 namespace {
 
-/// k_no_node of a prototype.
-NodeId body_of_function(const ParsedText& text, NodeId function) {
-    const SyntaxTree& tree = text.tree();
-    for (const NodeId part : tree.children(function))
-        if (tree[part].kind == NodeKind::block)
-            return part;
-    return k_no_node;
-}
-
-std::optional<Wrap> at_brace(const ParsedText& text, size_t word, std::string front, std::string behind) {
-    const Word& brace = text.words()[word];
-    if (brace.from_macro() || text.spelled(word).file.empty())
-        return std::nullopt;
-    return wrapped(text, {brace.spelled, brace.spelled}, std::move(front), std::move(behind));
-}
-
 /// Where the zero of a variable, a parameter or what a function gives is to be written.
 class Zeros {
 public:
@@ -40,8 +24,8 @@ public:
         const auto zero = zero_of(tree().child(parameter, 0), parameter);
         if (!zero || body == k_no_node)
             return std::nullopt;
-        return at_brace(text_, tree()[body].begin, "",
-                        fmt::format(" {} = {};", text_.word_of(parameter), *zero));
+        return at_word(text_, tree()[body].begin, "",
+                       fmt::format(" {} = {};", text_.word_of(parameter), *zero));
     }
 
     std::optional<Wrap> where_it_ends(NodeId function) {
@@ -49,7 +33,7 @@ public:
         const auto zero = zero_of(tree().child(function, 0), k_no_node);
         if (!zero || body == k_no_node)
             return std::nullopt;
-        return at_brace(text_, tree()[body].end - 1, fmt::format("return {}; ", *zero), "");
+        return at_word(text_, tree()[body].end - 1, fmt::format("return {}; ", *zero), "");
     }
 
 private:

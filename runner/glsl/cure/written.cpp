@@ -84,6 +84,21 @@ Wrap in_place_of(const ParsedText& text, WrittenTokens tokens, std::string inste
     return wrap;
 }
 
+NodeId body_of_function(const ParsedText& text, NodeId function) {
+    const SyntaxTree& tree = text.tree();
+    for (const NodeId part : tree.children(function))
+        if (tree[part].kind == NodeKind::block)
+            return part;
+    return k_no_node;
+}
+
+std::optional<Wrap> at_word(const ParsedText& text, size_t word, std::string front, std::string behind) {
+    const Word& at = text.words()[word];
+    if (at.from_macro() || text.spelled(word).file.empty())
+        return std::nullopt;
+    return wrapped(text, {at.spelled, at.spelled}, std::move(front), std::move(behind));
+}
+
 std::string fresh_name(const ParsedText& text, std::string_view wanted, size_t number) {
     for (;; ++number) {
         std::string name = std::string(wanted) + (number == 1 ? "" : std::to_string(number));

@@ -25,6 +25,12 @@ Wrap wrapped(const ParsedText& text, WrittenTokens tokens, std::string front, st
 /// `instead` for them.
 Wrap in_place_of(const ParsedText& text, WrittenTokens tokens, std::string instead);
 
+/// Around one word; nothing where it is not its author's own, but a macro's.
+std::optional<Wrap> at_word(const ParsedText& text, size_t word, std::string front, std::string behind);
+
+/// k_no_node of a prototype.
+NodeId body_of_function(const ParsedText& text, NodeId function);
+
 /// `wanted`, or that with a number, from `number` on: one that no word of the text has. 1 is not written.
 std::string fresh_name(const ParsedText& text, std::string_view wanted, size_t number = 1);
 

@@ -43,6 +43,7 @@ public:
     /// Loops that nothing in their heads ends: all that they depend on in their bodies and in the functions
     /// called there is left alone, for without it they may never end.
     const std::vector<NodeId>& endless() const { return endless_; }
+    const WorkEstimate& work() const { return work_; }
 
 private:
     void find_kept();

@@ -33,6 +33,11 @@ bool WordEdits::stands_alone(size_t begin, size_t end) const {
     return depth == 0;
 }
 
+std::pair<size_t, size_t> WordEdits::tokens_of(size_t begin, size_t end) const {
+    const std::vector<size_t>& code = text_.preprocessed().code;
+    return {first_from_[begin], *std::prev(std::ranges::lower_bound(code, size_t(first_from_[end])))};
+}
+
 void WordEdits::replace(size_t begin, size_t end, std::string_view replacement) {
     const std::vector<text::Token>& tokens = text_.tokens();
     const std::vector<size_t>& code = text_.preprocessed().code;

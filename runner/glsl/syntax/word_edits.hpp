@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tidemark::glsl {
@@ -19,6 +20,9 @@ public:
     bool stands_alone(size_t begin, size_t end) const;
     /// Whether something can be put in front of `word` alone.
     bool begins_alone(size_t word) const { return word == 0 || last_before_[word] < first_from_[word]; }
+
+    /// The first and the last token that is written for words that stand alone.
+    std::pair<size_t, size_t> tokens_of(size_t begin, size_t end) const;
 
     /// Of words that stand alone and were not changed before. Directives between them stay.
     void replace(size_t begin, size_t end, std::string_view replacement);

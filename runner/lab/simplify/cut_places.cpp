@@ -1,6 +1,7 @@
 #include "lab/simplify/cut_places.hpp"
 
 #include "base/try.hpp"
+#include "glsl/cut/once_a_pixel.hpp"
 #include "glsl/instrument/seen_values.hpp"
 #include "glsl/rewrite.hpp"
 #include "lab/check/text_words.hpp"
@@ -83,6 +84,8 @@ private:
             add(std::move(cut));
         for (glsl::Cut& cut : cutter.levels(which_have_mipmaps(scene_.passes[pass])))
             add(std::move(cut));
+        if (auto cut = glsl::once_a_pixel(**text, facts, cutter.work()))
+            add(*std::move(cut));
         if (scene_.passes[pass].kind != scene::PassKind::cubemap)
             add_replaced(renderer, pass, **text, cutter);
     }
@@ -163,9 +166,12 @@ Result<CutPlaces> find_cuts(const scene::Scene& scene, const std::vector<View>& 
 }
 
 bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer) {
-    const glsl::Wrap &in = inner.wraps.front(), &out = outer.wraps.front();
-    return in.first.where.file == out.first.where.file && begin_of(out) <= begin_of(in) &&
-           end_of(in) <= end_of(out);
+    return std::ranges::all_of(inner.wraps, [&](const glsl::Wrap& in) {
+        return std::ranges::any_of(outer.wraps, [&](const glsl::Wrap& out) {
+            return in.first.where.file == out.first.where.file && begin_of(out) <= begin_of(in) &&
+                   end_of(in) <= end_of(out);
+        });
+    });
 }
 
 } // namespace tidemark::lab

@@ -1,5 +1,5 @@
 // Cuts: what is proposed to be left out of a text, and what the text then says.
-#include "glsl/cut/cuts.hpp"
+#include "glsl/cut/once_a_pixel.hpp"
 #include "glsl/flow/loop_bound.hpp"
 #include "glsl_support.hpp"
 
@@ -143,6 +143,65 @@ TEST(Cut, ALookUpTakesOneLevel) {
         << "it may never end";
     EXPECT_TRUE(levels_of("#define L texture(noise,\n" + head + "void main() { c = L p); }\n").empty())
         << "the macro says only a part of it";
+}
+
+/// `none` where there is nothing to be computed once.
+std::string once(const std::string& text) {
+    const auto read = parsed(text);
+    const TreeFacts facts = find_facts(*read);
+    const auto cut = once_a_pixel(*read, facts, WorkEstimate(*read, facts));
+    return cut ? with(text, {cut->change}) : "none";
+}
+
+/// A scene whose `map` is called in a loop.
+std::string marched(const std::string& map, const std::string& declared = "",
+                    const std::string& assigned = "") {
+    return "uniform float iTime;\nmat2 turn(float a) { return mat2(cos(a), -sin(a), sin(a), cos(a)); }\n" +
+           declared + map + "void mainImage(out vec4 c, vec2 p) {" + assigned +
+           " for (int i = 0; i < 9; i++) c += map(p); }\n"
+           "out vec4 colour;\nvoid main() { mainImage(colour, vec2(1.0)); }\n";
+}
+
+TEST(Cut, WhatIsTheSameEverywhereIsComputedOnceAPixel) {
+    EXPECT_EQ(once(marched("float map(vec2 p) { p *= turn(iTime*.5); return p.x; }\n")),
+              marched("float map(vec2 p) { p *= same_everywhere; return p.x; }\n", "mat2 same_everywhere; ",
+                      " same_everywhere = turn(iTime*.5);"));
+    EXPECT_EQ(once(marched(
+                  "float map(vec2 p) { float t = 2.0 * iTime; return p.x * sin(t) + cos(t) + sin(t); }\n")),
+              marched("float map(vec2 p) { float t = 2.0 * iTime; return p.x * same_everywhere + "
+                      "same_everywhere2 + same_everywhere; }\n",
+                      "float same_everywhere; float same_everywhere2; ",
+                      " same_everywhere = sin((2.0 * iTime)); same_everywhere2 = cos((2.0 * iTime));"));
+}
+
+TEST(Cut, WhatAMacroSaysIsComputedOnceWhereItIsUsedAsAWhole) {
+    const std::string macros =
+        "#define T (iTime * 0.5)\n#define R(a) mat2(cos(a), sin(a), -sin(a), cos(a))\n";
+    EXPECT_EQ(once(macros + marched("float map(vec2 p) { p *= R(T); return p.x; }\n")),
+              macros + marched("float map(vec2 p) { p *= same_everywhere; return p.x; }\n",
+                               "mat2 same_everywhere; ", " same_everywhere = R(T);"));
+    EXPECT_EQ(once("#define M p.x * sin(iTime)\n" + marched("float map(vec2 p) { return M; }\n")), "none");
+}
+
+TEST(Cut, WhatIsNotTheSameOrNotComputedAgainIsLeft) {
+    for (const std::string map : {
+             "float map(vec2 p) { return p.x * sin(p.y); }\n",                    // of the pixel
+             "float map(vec2 p) { return p.x * (2.0 * iTime); }\n",               // costs next to nothing
+             "float map(vec2 p) { float t = iTime; t += p.x; return sin(t); }\n", // changes
+             "float map(vec2 p) { for (int i = 0; i < 3; i++) p += sin(float(i)); return p.x; }\n", // each
+                                                                                                    // turn
+             "float map(vec2 c) { return c.x; }\nfloat unused() { return sin(iTime); }\n",
+         })
+        EXPECT_EQ(once(marched(map)), "none") << map;
+    const std::string map = "float map(vec2 p) { return p.x * sin(iTime); }\n";
+    EXPECT_NE(once(marched(map)), "none");
+    EXPECT_EQ(once(marched(map + "float first = map(vec2(1.0));\n")), "none") << "runs before mainImage";
+    EXPECT_EQ(once(marched(map + "#ifdef TIDEMARK_HIT\nvoid mainHit() {}\n#endif\n")), "none")
+        << "runs in place of mainImage";
+    EXPECT_EQ(once("uniform float iTime, c;\nfloat map(vec2 p) { return p.x * sin(c); }\n" +
+                   marched("").substr(marched("").find("void mainImage"))),
+              "none")
+        << "means a parameter there";
 }
 
 TEST(Cut, TheMostWorkComesFirst) {
