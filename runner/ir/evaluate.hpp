@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <new>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,7 @@ template <class System>
 class Evaluator {
 public:
     using Number = typename System::Value;
+    static_assert(std::is_trivially_destructible_v<Number>, "a result is written over what was there");
 
     Evaluator(const Function& function, System system = {})
         : function_(&function), system_(std::move(system)), values_(function.instructions.size()),
@@ -140,22 +143,28 @@ private:
             if (!pinned || !is_pinned(i))
                 execute(i, decisions);
     }
+    /// Results are made in their places: a copy, read while its members are being written, makes the machine
+    /// wait.
     void execute(uint32_t index, Decisions& decisions) {
         const Instruction& instruction = function_->instructions[index];
         const auto operands = function_->operands_of(instruction);
-        Number& result = values_[index];
+        Number* const result = &values_[index];
         switch (instruction.op) {
         case Op::phi: return;
-        case Op::constant: result = system_.constant(instruction.immediate, instruction.type); return;
-        case Op::undefined: result = system_.constant(0, instruction.type); return;
-        case Op::load: result = load(instruction, operands); return;
+        case Op::constant:
+            new (result) Number(system_.constant(instruction.immediate, instruction.type));
+            return;
+        case Op::undefined: new (result) Number(system_.constant(0, instruction.type)); return;
+        case Op::load: new (result) Number(load(instruction, operands)); return;
         case Op::store: store(instruction, operands); return;
-        case Op::texel: result = textures ? looked_up(instruction, operands) : system_.unknown(); return;
+        case Op::texel:
+            new (result) Number(textures ? looked_up(instruction, operands) : system_.unknown());
+            return;
         case Op::derivative_x:
         case Op::derivative_y:
-            result = derivative ? derivative(instruction.op, operands[0]) : system_.unknown();
+            new (result) Number(derivative ? derivative(instruction.op, operands[0]) : system_.unknown());
             return;
-        default: result = computed(instruction, operands, decisions);
+        default: new (result) Number(computed(instruction, operands, decisions));
         }
     }
 

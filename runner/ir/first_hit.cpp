@@ -20,6 +20,26 @@ constexpr double k_shorter = 1 - 1e-12;
 /// Wider than a slope makes it.
 constexpr double k_jump = 1e3;
 
+/// Whether to ask again what did not help last time: after each failure twice as many times not, up to a few.
+class Patience {
+public:
+    bool ask(bool needed) {
+        if (!needed && left_ > 0) {
+            --left_;
+            return false;
+        }
+        return true;
+    }
+    void helped(bool did) {
+        wait_ = did ? 0 : std::min(2 * wait_ + 1, k_longest);
+        left_ = wait_;
+    }
+
+private:
+    static constexpr int k_longest = 7;
+    int wait_ = 0, left_ = 0;
+};
+
 class HitSearch {
 public:
     HitSearch(MarchSlice& slice, double last, uint64_t most, double relative_width)
@@ -60,23 +80,33 @@ private:
         std::optional<double> hit_by{}; ///< there is one up to here
     };
 
-    /// Where slopes told more of the last cell than bounds, they are looked at first. A closer look costs a
-    /// run for each way: it is taken where the others leave it open.
+    /// Where slopes told more of the last cell than bounds, they are looked at first. What did not help is
+    /// not asked at every cell; at the narrowest all are. A closer look costs a run for each way: it is taken
+    /// where the others leave it open.
     Look look_at(const Interval& cell) {
         const Look all{cell.width()};
-        if (!slopes_told_ && slice_.excludes_hit(slice_.distance(cell, Care::quick)))
+        const bool narrow = cell.width() <= narrowest(cell.low);
+        const bool slopes_first = std::exchange(slopes_told_, false);
+        if (!slopes_first && is_free(cell, Care::quick))
             return all;
-        if (const auto tangent = slice_.tangent(cell)) {
-            slopes_told_ = !slice_.excludes_hit(tangent->value);
-            return slopes_told_ ? by_slope(cell, tangent->slope) : all;
+        if (slopes_.ask(narrow || slopes_first)) {
+            const auto tangent = slice_.tangent(cell);
+            slopes_.helped(tangent.has_value());
+            if (tangent) {
+                slopes_told_ = !slice_.excludes_hit(tangent->value);
+                return slopes_told_ ? by_slope(cell, tangent->slope) : all;
+            }
         }
-        const bool asked = !std::exchange(slopes_told_, false);
-        if (!asked && slice_.excludes_hit(slice_.distance(cell, Care::quick)))
+        if (slopes_first && is_free(cell, Care::quick))
             return all;
-        const bool near = cell.width() < length_ * k_looked_at;
-        const Care care = cell.width() > narrowest(cell.low) ? Care::close : Care::thorough;
-        return near && slice_.excludes_hit(slice_.distance(cell, care)) ? all : Look{};
+        if (cell.width() >= length_ * k_looked_at || !ways_.ask(narrow))
+            return {};
+        const bool free = is_free(cell, narrow ? Care::thorough : Care::close);
+        ways_.helped(free);
+        return free ? all : Look{};
     }
+
+    bool is_free(const Interval& cell, Care care) { return slice_.excludes_hit(slice_.distance(cell, care)); }
 
     /// By the mean value theorem: the field falls no faster than the lowest slope, and as fast as the
     /// highest.
@@ -140,6 +170,7 @@ private:
     double length_;
     double near_;
     bool slopes_told_ = false;
+    Patience slopes_, ways_;
 };
 
 } // namespace
