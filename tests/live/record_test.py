@@ -2,7 +2,7 @@
 import signal
 
 from support import png, probe
-from support.live import LiveTest, Screen, View, main
+from support.live import LiveTest, Screen, View, main, wait_for
 
 SIZE = ("--size", "200x100")
 VALUES = probe.vector("iMouse", "xyzw") | {"camera": "iCamera[3].x", "toggled":
@@ -111,8 +111,10 @@ class Record(LiveTest):
                 view = self.view("a.glsl", *SIZE, "--record", f"{stop.name}.txt")
                 view.key("ctrl+space") # a paused window sleeps until something happens
                 view.wait_for_title(" - paused at ")
+                paused = view.title()
                 view.drag((100, 50), (60, 70))
                 view.key("ctrl+Right")
+                wait_for(lambda: view.title() != paused, "the step after the drag")
                 view.program.send_signal(stop)
                 self.assertEqual(view.wait_for_end(), 130)
                 self.assertRegex((self.folder / f"{stop.name}.txt").read_text(), r"(?m)^\d+ press left 100 50$")

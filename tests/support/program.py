@@ -32,13 +32,15 @@ def environment(**changes: str | None) -> dict[str, str]:
 
 def let_it_crash() -> None:
     """A sanitized program that crashes ends by the signal, like any other, instead of a report."""
-    os.environ["ASAN_OPTIONS"] = ":".join(filter(None, [
-        os.environ.get("ASAN_OPTIONS"), "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:handle_abort=0"]))
+    for options in ("ASAN_OPTIONS", "TSAN_OPTIONS"):
+        os.environ[options] = ":".join(filter(None, [
+            os.environ.get(options), "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:handle_abort=0"]))
 
 
 def is_sanitized() -> bool:
     binary = pathlib.Path(PROGRAM)
-    return binary.is_file() and b"__asan_init" in binary.read_bytes()
+    code = binary.read_bytes() if binary.is_file() else b""
+    return b"__asan_init" in code or b"__tsan_init" in code
 
 
 def not_sanitized(test):
