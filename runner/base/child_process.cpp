@@ -7,7 +7,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,12 +14,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 
 extern "C" { // glibc 2.36 leaves it to us
 #include <sys/pidfd.h>
 }
-
-extern char** environ;
 
 namespace tidemark {
 namespace {

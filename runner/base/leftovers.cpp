@@ -1,6 +1,5 @@
 #include "base/leftovers.hpp"
 
-#include <limits.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -9,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstring>
 #include <new>

@@ -16,13 +16,17 @@
 
 namespace tidemark {
 
+class OutputPath;
+template <class Path>
+concept PlainPath = std::constructible_from<std::filesystem::path, Path> &&
+    !std::same_as<std::remove_cvref_t<Path>, OutputPath>;
+
 class OutputPath {
 public:
     OutputPath() = default;
     /// A name of our own choice: only the folder that it is in was named.
-    template <typename Path>
-    requires(std::constructible_from<std::filesystem::path, Path> &&
-             !std::same_as<std::remove_cvref_t<Path>, OutputPath>) OutputPath(Path&& path)
+    template <PlainPath Path>
+    OutputPath(Path&& path) // NOLINT(bugprone-forwarding-reference-overload): of no OutputPath
         : whole_(std::forward<Path>(path)), chosen_parts_(1) {}
     /// A person typed it, to its last part.
     static OutputPath typed(std::filesystem::path path);

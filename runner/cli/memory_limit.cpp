@@ -95,7 +95,7 @@ Result<uint64_t> parse_memory(std::string_view text, uint64_t machine) {
 
 std::string memory_text(uint64_t bytes) {
     constexpr std::array<const char*, 5> k_units{"bytes", "KiB", "MiB", "GiB", "TiB"};
-    double number = double(bytes);
+    auto number = double(bytes);
     size_t unit = 0;
     for (; number >= k_kibi && unit + 1 < k_units.size(); ++unit)
         number /= k_kibi;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -85,7 +86,7 @@ double difference_of(const image::Image& a, const image::Image& b) {
         float other = 0;
         std::memcpy(&one, a.bytes.data() + at, sizeof one);
         std::memcpy(&other, b.bytes.data() + at, sizeof other);
-        if (std::memcmp(&one, &other, sizeof one) == 0)
+        if (std::bit_cast<uint32_t>(one) == std::bit_cast<uint32_t>(other))
             continue;
         const double difference = std::abs(double(one) - double(other));
         largest = std::isnan(difference)

@@ -44,8 +44,7 @@ bool is_of_the_language(std::string_view word) {
     constexpr std::array<std::string_view, 3> k_families = {"vec", "mat", "sampler"};
     return std::ranges::find(k_words, word) != k_words.end() ||
            std::ranges::any_of(k_families, [&](std::string_view family) {
-               const size_t at = word.find(family);
-               return at != word.npos && at <= 1;
+               return word.find(family) <= 1; // with ivec2's prefix, or without
            });
 }
 

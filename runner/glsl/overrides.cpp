@@ -188,15 +188,16 @@ Result<void> override_definition(scene::Scene& scene, std::string_view setting) 
         mapped->apply(edits);
     }
     if (!replaced)
-        return fail(no_such_definition(name, std::move(names)));
+        return fail(no_such_definition(name, names));
     return {};
 }
 
 void override_definition(std::string& text, const scene::Setting& setting) {
     std::vector<std::string> others;
-    const auto edits = edits_of(text::tokenize(text), setting.name, setting.value, others);
-    for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
-        text.replace(edit->begin, edit->end - edit->begin, edit->replacement);
+    auto edits = edits_of(text::tokenize(text), setting.name, setting.value, others);
+    std::ranges::reverse(edits); // what stands in front keeps its place
+    for (const auto& edit : edits)
+        text.replace(edit.begin, edit.end - edit.begin, edit.replacement);
 }
 
 } // namespace tidemark::glsl

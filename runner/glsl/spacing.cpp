@@ -10,7 +10,6 @@ namespace {
 
 using text::Edit;
 using text::Token;
-using text::TokenKind;
 
 bool is_sign(const Token& token) {
     return token.is("+") || token.is("-");

@@ -197,7 +197,7 @@ Interval real(Op op, const Interval& a, const Interval& b, const Interval& c) {
     case Op::less_equal: return less(a, b, true);
     case Op::equal: return equal(a, b);
     case Op::not_equal: return negated(equal(a, b));
-    case Op::is_nan: return a.partial ? k_either : Interval{0, 0};
+    case Op::is_nan:
     case Op::is_inf: return a.partial ? k_either : Interval{0, 0};
     default: return everything();
     }

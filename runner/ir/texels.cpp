@@ -118,7 +118,7 @@ private:
             return level_.range(cell, cell, component_);
         }
         const size_t axis = axes - 1;
-        const double begin = double(cell[axis]);
+        const auto begin = double(cell[axis]);
         Interval share = parts[axis] - Interval{begin, begin};
         share = {std::clamp(share.low, 0.0, 1.0), std::clamp(share.high, 0.0, 1.0)};
         const Interval here = in_cell(cell, parts, axis);
@@ -185,7 +185,7 @@ Interval level_of(const Lookup& lookup, std::span<const Interval> operands, cons
     for (const size_t begin : {size_t(0), axes}) {
         Interval length{0, 0};
         for (size_t axis = 0; axis < axes; ++axis) {
-            const double texels = double(size[axis]);
+            const auto texels = double(size[axis]);
             length = length + square(rest[begin + axis] * Interval{texels, texels});
         }
         longest = maximum(longest, sqrt(length));
@@ -280,7 +280,7 @@ Interval Texels::fetched(const Lookup& lookup, std::span<const Interval> operand
     TexelIndex first{}, last{};
     bool inside = true;
     for (size_t axis = 0; axis < lookup.coordinates; ++axis) {
-        const double edge = double(level->size()[axis] - 1);
+        const auto edge = double(level->size()[axis] - 1);
         if (operands[axis].high < 0 || operands[axis].low > edge)
             return {0, 0};
         inside = inside && operands[axis].low >= 0 && operands[axis].high <= edge;
@@ -300,7 +300,7 @@ Interval Texels::sampled(const Lookup& lookup, std::span<const Interval> operand
     };
     if (wanted.high <= 0)
         return at(0, magnify_linear);
-    const double most = double(levels.size() - 1);
+    const auto most = double(levels.size() - 1);
     const Interval level{std::clamp(wanted.low, 0.0, most), std::clamp(wanted.high, 0.0, most)};
     const Interval minified = between_levels(level, [&](double number) { return at(number, minify_linear); });
     return wanted.low > 0 || magnify_linear == minify_linear ? minified
@@ -337,7 +337,7 @@ Interval Texels::filtered(const TexelLevel& level, const Lookup& lookup, std::sp
         std::ranges::copy(face->place, places.begin());
     }
     for (size_t axis = 0; axis < axes; ++axis) {
-        const double size = double(level.size()[axis]);
+        const auto size = double(level.size()[axis]);
         places[axis] = places[axis] * Interval{size, size};
     }
     const Wrap beyond = kind == Kind::cube ? Wrap::clamp : wrap;

@@ -25,7 +25,7 @@ struct Fact {
     Value condition = k_no_value;
     bool holds = false;
 
-    auto operator<=>(const Fact&) const = default;
+    auto operator<=>(const Fact&) const = default; // NOLINT(modernize-use-nullptr): of the C++ within
 };
 using Facts = std::vector<Fact>; ///< sorted
 

@@ -70,7 +70,7 @@ Result<Encoded> encode(const image::Image& picture, bool opaque_alpha_too) {
 /// A way of drawing a scene that is drawn and timed.
 class Contender {
 public:
-    Contender(const scene::Scene& scene, Way way) : scene_(scene), way_(std::move(way)) {}
+    Contender(scene::Scene scene, Way way) : scene_(std::move(scene)), way_(std::move(way)) {}
 
     /// From the scene to its first frame.
     Result<Elapsed> start() {

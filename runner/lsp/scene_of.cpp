@@ -64,7 +64,7 @@ std::optional<fs::path> scene_that_includes(const fs::path& folder, const fs::pa
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         if (!scene::is_shader_file(entry->path()) || ++seen > k_most_neighbours)
             continue;
-        const auto scene = own_scene(canonical_name(entry->path()), documents);
+        auto scene = own_scene(canonical_name(entry->path()), documents);
         if (scene && reads(*scene, file, documents))
             return scene;
     }

@@ -14,7 +14,7 @@ std::vector<std::string> order_to_try(const std::vector<bool>& device_is_softwar
     std::vector<std::string> order = hardware;
     order.insert(surfaceless_is_software ? order.end() : order.begin(), "surfaceless");
     order.insert(order.end(), software.begin(), software.end());
-    order.push_back("display");
+    order.emplace_back("display");
     return order;
 }
 

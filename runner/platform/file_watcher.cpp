@@ -297,7 +297,7 @@ void FileWatcher::Loop::on_event(Folder& folder, const char* name, int events) {
 void FileWatcher::Loop::touch(Tracked& file) {
     file.pending = true;
     file.last_event = std::chrono::steady_clock::now();
-    const uint64_t quiet = uint64_t(k_quiet.count());
+    const auto quiet = uint64_t(k_quiet.count());
     if (!uv_is_active(reinterpret_cast<uv_handle_t*>(&timer_)) || uv_timer_get_due_in(&timer_) > quiet)
         settle_in(quiet);
 }
@@ -312,7 +312,7 @@ void FileWatcher::Loop::settle() {
     // A folder that is deleted while somebody has it open sends no event: only looking tells.
     (void)follow_trails();
     const auto now = std::chrono::steady_clock::now();
-    const uint64_t quiet = uint64_t(k_quiet.count());
+    const auto quiet = uint64_t(k_quiet.count());
     uint64_t next = UINT64_MAX;
     std::map<fs::path, std::chrono::steady_clock::time_point> settled;
     for (auto& [spelling, file] : files_) {

@@ -33,13 +33,13 @@ void OutputWindow::State::listen() {
     glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
         State& state = of(source);
         state.framebuffer = {width, height};
-        state.events.push_back(FramebufferResized{state.framebuffer});
+        state.events.emplace_back(FramebufferResized{state.framebuffer});
     });
     glfwSetWindowRefreshCallback(handle,
-                                 [](GLFWwindow* source) { of(source).events.push_back(RedrawNeeded{}); });
+                                 [](GLFWwindow* source) { of(source).events.emplace_back(RedrawNeeded{}); });
     glfwSetWindowCloseCallback(handle, [](GLFWwindow* source) {
         glfwSetWindowShouldClose(source, GLFW_FALSE);
-        of(source).events.push_back(CloseRequested{});
+        of(source).events.emplace_back(CloseRequested{});
     });
     glfwSetKeyCallback(handle, [](GLFWwindow* source, int key, int scancode, int action, int) {
         if (const auto event = key_event(key, scancode, action))
@@ -84,7 +84,7 @@ Extent OutputWindow::framebuffer_extent() const {
 }
 
 Result<void> OutputWindow::make_current() {
-    const EGLSurface surface = glfwGetEGLSurface(state_->window.get());
+    EGLSurface surface = glfwGetEGLSurface(state_->window.get());
     if (!eglMakeCurrent(glfwGetEGLDisplay(), surface, surface, eglGetCurrentContext()))
         return fail(ErrorCode::no_context,
                     fmt::format("the output window cannot be drawn into: EGL error {:#06x}", eglGetError()));

@@ -109,17 +109,17 @@ void Window::State::listen() {
     glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
         State& state = of(source);
         state.framebuffer = {width, height};
-        state.events.push_back(FramebufferResized{state.framebuffer});
+        state.events.emplace_back(FramebufferResized{state.framebuffer});
     });
     glfwSetWindowRefreshCallback(handle,
-                                 [](GLFWwindow* source) { of(source).events.push_back(RedrawNeeded{}); });
+                                 [](GLFWwindow* source) { of(source).events.emplace_back(RedrawNeeded{}); });
     glfwSetWindowCloseCallback(handle, [](GLFWwindow* source) {
         glfwSetWindowShouldClose(source, GLFW_FALSE);
-        of(source).events.push_back(CloseRequested{});
+        of(source).events.emplace_back(CloseRequested{});
     });
     glfwSetWindowFocusCallback(handle, [](GLFWwindow* source, int focused) {
         if (!focused)
-            of(source).events.push_back(FocusLost{});
+            of(source).events.emplace_back(FocusLost{});
     });
     listen_to_people();
 }
@@ -130,22 +130,22 @@ void Window::State::listen_to_people() {
         State& state = of(source);
         state.cursor_x = x;
         state.cursor_y = y;
-        state.events.push_back(PointerMoved{state.pointer()});
+        state.events.emplace_back(PointerMoved{state.pointer()});
     });
     glfwSetMouseButtonCallback(handle, [](GLFWwindow* source, int button, int action, int) {
         State& state = of(source);
         if (button > GLFW_MOUSE_BUTTON_MIDDLE)
             return;
         if (action == GLFW_PRESS)
-            state.events.push_back(ButtonPressed{button_from_glfw(button), state.pointer()});
+            state.events.emplace_back(ButtonPressed{button_from_glfw(button), state.pointer()});
         else
-            state.events.push_back(ButtonReleased{button_from_glfw(button), state.pointer()});
+            state.events.emplace_back(ButtonReleased{button_from_glfw(button), state.pointer()});
     });
     glfwSetScrollCallback(handle, [](GLFWwindow* source, double right, double up) {
-        of(source).events.push_back(WheelTurned{right, up});
+        of(source).events.emplace_back(WheelTurned{right, up});
     });
     glfwSetCharCallback(handle, [](GLFWwindow* source, unsigned character) {
-        of(source).events.push_back(TextTyped{char32_t(character)});
+        of(source).events.emplace_back(TextTyped{char32_t(character)});
     });
     glfwSetKeyCallback(handle, [](GLFWwindow* source, int glfw_key, int scancode, int action, int) {
         if (const auto event = key_event(glfw_key, scancode, action))

@@ -68,8 +68,8 @@ public:
     bool can_be_tiled() const;
 
 private:
-    CompiledScene(scene::Scene scene, const RenderOptions& options)
-        : scene_(std::move(scene)), options_(options) {}
+    CompiledScene(scene::Scene scene, RenderOptions options)
+        : scene_(std::move(scene)), options_(std::move(options)) {}
     Result<void> choose_pass();
     Result<void> compile();
     std::vector<bool> reachable() const;

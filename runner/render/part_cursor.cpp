@@ -92,7 +92,7 @@ double PartCursor::share() const {
             behind += pixels_of(areas_[i]);
     }
     if (index_ < areas_.size()) {
-        const size_t width = size_t(areas_[index_].extent.width);
+        const auto width = size_t(areas_[index_].extent.width);
         behind +=
             areas_[index_].extent.pixels() * size_t(face_) + width * size_t(y_) + size_t(x_) * size_t(rows_);
     }

@@ -26,7 +26,7 @@ size_t PartSize::known_pixels(const Part& ahead, const std::vector<double>& rows
     const auto width = double(ahead.area.extent.width);
     double left = k_wanted_ms;
     for (int row = 0; row < ahead.area.extent.height; ++row) {
-        const size_t at = size_t(ahead.area.y + row);
+        const auto at = size_t(ahead.area.y + row);
         const double took = at < rows.size() ? rows[at] * width : 0;
         if (took >= left)
             return std::max(size_t((row + left / took) * width), k_block);

@@ -192,7 +192,7 @@ private:
 } // namespace
 
 std::string mark_of(size_t series, bool hollow) {
-    return fmt::format("<path class=\"shape {}{}\" d=\"{}\"/>", colour(series), hollow ? " hollow" : "",
+    return fmt::format(R"(<path class="shape {}{}" d="{}"/>)", colour(series), hollow ? " hollow" : "",
                        series == 0 ? k_cross : k_shapes[(series - 1) % k_shapes.size()]);
 }
 

@@ -419,7 +419,7 @@ Result<KnobValue> DirectiveReader::read_value(const Knob& knob) {
     const SourceLocation where = here();
     const auto literal = TRY(read_literal());
     const KnobTypeInfo& type = info(knob.type);
-    const size_t components = size_t(type.components);
+    const auto components = size_t(type.components);
     if (literal.numbers.size() != 1 && literal.numbers.size() != components)
         return fail(error_at(where, fmt::format("'{}' is a {}: it takes {}", knob.name, type.directive_name,
                                                 components == 1

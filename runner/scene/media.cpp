@@ -138,7 +138,7 @@ fs::path MediaFolder::find(std::string_view source) const {
     const fs::path path = relative_path_of(source);
     if (!path.empty() && is_file(folder_ / path))
         return folder_ / path;
-    if (const fs::path named = by_name(base_name_of(source)); !named.empty())
+    if (fs::path named = by_name(base_name_of(source)); !named.empty())
         return named;
     const Media* media = find_media(source);
     if (!media)

@@ -20,7 +20,6 @@
 #include <utility>
 
 namespace tidemark::web {
-namespace fs = std::filesystem;
 namespace {
 
 using image::Image;

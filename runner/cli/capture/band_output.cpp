@@ -32,7 +32,7 @@ Result<void> put_raw(const image::Image& image) {
 
 void add_rows(Sha256& hash, const image::Image& image) {
     const std::span<const std::byte> bytes(image.bytes);
-    for (size_t row = size_t(image.extent.height); row-- > 0;)
+    for (auto row = size_t(image.extent.height); row-- > 0;)
         hash.add(bytes.subspan(row * image.row_bytes(), image.row_bytes()));
 }
 

@@ -58,7 +58,8 @@ std::optional<SavedState> parse(const Json& header, std::string_view rest) {
         return std::nullopt;
     SavedState state{header.at("frame").get<int>(), glsl::Specialise(program)};
     for (const Json& pass : header.at("passes")) {
-        render::PassState& into = state.buffers.emplace_back(pass.at(0).get<std::string>());
+        state.buffers.push_back({pass.at(0).get<std::string>(), {}});
+        render::PassState& into = state.buffers.back();
         for (const Json& floats : pass.at(1))
             if (!take(rest, floats.get<size_t>(), into.textures.emplace_back()))
                 return std::nullopt;

@@ -46,9 +46,10 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
     std::vector<ChangedFile> files; // of the last cure that can be written
     mending.can_be_written = [&](std::span<const glsl::Cure> cures) {
         auto changed = cured.with_last(cures);
-        if (changed)
-            files = *std::move(changed);
-        return changed.has_value();
+        if (!changed)
+            return false;
+        files = *std::move(changed);
+        return true;
     };
     Result<void> driver; // a cure is offered for what was drawn: by a driver that works
     mending.offered = [&](const lab::Offer& offer, std::span<const glsl::Cure> cures) {

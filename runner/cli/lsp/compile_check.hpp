@@ -28,8 +28,8 @@ public:
     bool ended() const { return ended_; }
 
 private:
-    CompileCheck(std::filesystem::path scene, ForkedHelper helper, const ForkedLimits& limits)
-        : scene_(std::move(scene)), helper_(std::move(helper)), limits_(limits) {}
+    CompileCheck(std::filesystem::path scene, ForkedHelper helper, ForkedLimits limits)
+        : scene_(std::move(scene)), helper_(std::move(helper)), limits_(std::move(limits)) {}
 
     std::filesystem::path scene_;
     ForkedHelper helper_;

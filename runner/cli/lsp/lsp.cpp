@@ -38,7 +38,8 @@ struct LspOptions {
 
 class Server {
 public:
-    Server(const LspOptions& options, ForkedLimits limits) : options_(options), limits_(std::move(limits)) {}
+    Server(LspOptions options, ForkedLimits limits)
+        : options_(std::move(options)), limits_(std::move(limits)) {}
 
     Result<int> run() {
         while (!session_.exit_code()) {

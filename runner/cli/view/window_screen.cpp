@@ -31,12 +31,12 @@ std::vector<platform::InputEvent> WindowScreen::wait(double seconds) {
 void WindowScreen::listen_to_output(std::vector<platform::InputEvent>& events) {
     if (!output_)
         return;
-    for (platform::InputEvent& event : output_->take_events()) {
+    for (platform::InputEvent event : output_->take_events()) {
         if (std::holds_alternative<platform::CloseRequested>(event))
             return output_.reset();
         if (std::holds_alternative<platform::FramebufferResized>(event))
             event = platform::RedrawNeeded{};
-        events.push_back(std::move(event));
+        events.push_back(event);
     }
 }
 

@@ -104,7 +104,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 bool is_place(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     switch (tree[id].kind) {
-    case NodeKind::name: return true;
+    case NodeKind::name:
     case NodeKind::literal: return true;
     case NodeKind::member:
     case NodeKind::parenthesis: return is_place(text, tree.child(id, 0));

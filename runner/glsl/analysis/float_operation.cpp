@@ -12,7 +12,7 @@ bool is_pure(const SyntaxTree& tree, NodeId id) {
     switch (tree[id].kind) {
     case NodeKind::call:
     case NodeKind::assign:
-    case NodeKind::postfix: return false;
+    case NodeKind::postfix:
     case NodeKind::prefix: return false; // ++ and --; others stand in no target but its index
     default: break;
     }

@@ -13,7 +13,7 @@ namespace {
 std::string number_like(std::string_view digits, double value) {
     std::string text = fmt::format("{}", value);
     if (digits.find_first_of(".eE") != digits.npos)
-        return as_float(std::move(text));
+        return as_float(text);
     return digits.ends_with('u') ? text + "u" : text;
 }
 

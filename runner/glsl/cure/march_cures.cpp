@@ -144,7 +144,7 @@ std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place) {
     return cures;
 }
 
-std::vector<Cure> shorter_steps(const ParsedText& text, MarchPlace place) {
+std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place) {
     const NodeId loop = find_loop(text, place);
     const std::vector<NodeId> steps =
         loop == k_no_node ? std::vector<NodeId>() : find_steps(text, loop, place);

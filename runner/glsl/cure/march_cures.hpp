@@ -19,7 +19,7 @@ std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place);
 
 /// Steps of 0.8, 0.6 and so on of what they were, with as many more turns where a number says how many; empty
 /// where it is not certain what the step is.
-std::vector<Cure> shorter_steps(const ParsedText& text, MarchPlace place);
+std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place);
 
 /// A threshold of 4, 16, 64 and 256 times what the distance is compared with; empty where that is not a small
 /// number, by its digits or by the name of a constant.

@@ -169,16 +169,17 @@ std::vector<std::optional<long>> Shapes::lengths(NodeId type, NodeId declared) c
 
 const Shape& Shapes::of(NodeId type, NodeId declared) {
     const Shape* shape = &named(type);
-    const auto all = lengths(type, declared);
-    for (auto length = all.rbegin(); length != all.rend(); ++length)
-        shape = &array_of(*shape, *length);
+    auto all = lengths(type, declared);
+    std::ranges::reverse(all);
+    for (const auto& length : all)
+        shape = &array_of(*shape, length);
     return *shape;
 }
 
 Part Shapes::member(const Part& of, std::string_view name) const {
     if (!of.shape || of.shape->whole)
         return {of.slots, nullptr, false};
-    const unsigned first = unsigned(std::countr_zero(of.slots));
+    const auto first = unsigned(std::countr_zero(of.slots));
     for (const Shape::Member& member : of.shape->members)
         if (member.name == name)
             return {all_slots(member.shape->slots) << (first + member.first_slot), member.shape, of.exact};

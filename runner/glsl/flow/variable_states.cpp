@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 
 namespace tidemark::glsl {
 
@@ -35,8 +36,8 @@ void VariableStates::forget() {
 }
 
 size_t VariableStates::place_of(NodeId name) const {
-    for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
-        if (const auto found = scope->find(text_.word_of(name)); found != scope->end())
+    for (const auto& scope : std::ranges::reverse_view(scopes_))
+        if (const auto found = scope.find(text_.word_of(name)); found != scope.end())
             return found->second;
     return k_untracked;
 }

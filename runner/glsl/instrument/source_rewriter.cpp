@@ -35,7 +35,7 @@ std::string words_of(const ParsedText& text, NodeId id) {
 
 std::string fresh_prefix(const ParsedText& text) {
     for (int n = 0;; ++n) {
-        const std::string prefix = fmt::format("tmw{}_", n);
+        std::string prefix = fmt::format("tmw{}_", n);
         if (std::ranges::none_of(text.words(),
                                  [&](const Word& word) { return word.text.starts_with(prefix); }))
             return prefix;

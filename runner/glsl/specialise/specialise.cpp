@@ -85,7 +85,7 @@ private:
         const Variables variables = find_variables(text_, 1, NodeId(tree_.nodes.size() - 1));
         const ConstantFolding conditions(text_, variables, knobs_);
         int count = 0;
-        for (NodeId id = NodeId(tree_.nodes.size()); id-- > 1;) { // parents first
+        for (auto id = NodeId(tree_.nodes.size()); id-- > 1;) { // parents first
             const bool branch =
                 tree_[id].kind == NodeKind::if_else || tree_[id].kind == NodeKind::conditional;
             if (!branch || gone_[tree_[id].begin])
@@ -143,7 +143,7 @@ private:
             const Node& node = tree_[globals_[i].node];
             kept[i] = globals_[i].root || !edits_.stands_alone(node.begin, node.end);
         }
-        const std::vector<bool> reached = find_reached(text_, globals_, gone_, kept);
+        std::vector<bool> reached = find_reached(text_, globals_, gone_, kept);
         for (size_t i = 0; i < globals_.size(); ++i)
             if (!reached[i])
                 edits_.remove(tree_[globals_[i].node].begin, tree_[globals_[i].node].end);

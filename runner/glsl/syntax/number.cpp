@@ -30,9 +30,9 @@ std::optional<double> number(std::string_view word) {
     return value;
 }
 
-std::string as_float(std::string digits) {
+std::string as_float(std::string_view digits) {
     const bool whole = digits.find_first_of(".e") == digits.npos;
-    return whole ? digits + ".0" : digits;
+    return std::string(digits) + (whole ? ".0" : "");
 }
 
 } // namespace tidemark::glsl

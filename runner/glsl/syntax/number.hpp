@@ -14,6 +14,6 @@ std::optional<long> whole_number(std::string_view digits);
 std::optional<double> number(std::string_view word);
 
 /// `2.0` of `2`, and what is read as a float anyway as it is: of digits as C++ writes a number.
-std::string as_float(std::string digits);
+std::string as_float(std::string_view digits);
 
 } // namespace tidemark::glsl

@@ -40,7 +40,7 @@ Image widened(const Image& image, bool coloured, bool with_alpha) {
 
 SameChannels same_channels(Image left, Image right) {
     SameChannels same{std::move(left), std::move(right), {}};
-    const auto note = [&](std::string text) { same.note += (same.note.empty() ? "" : "; ") + text; };
+    const auto note = [&](const std::string& text) { same.note += (same.note.empty() ? "" : "; ") + text; };
     if (is_grey(same.left) != is_grey(same.right))
         note(fmt::format("{} is grey, which stands for its red, green and blue",
                          is_grey(same.left) ? "A" : "B"));

@@ -31,7 +31,7 @@ std::vector<uint16_t> ten_bit_planes(const Image& image, bool alpha) {
     const auto width = size_t(image.extent.width);
     std::vector<uint16_t> planes((alpha ? 4 : 3) * plane);
     const float* pixel = image.f32().data();
-    for (size_t row = size_t(image.extent.height); row-- > 0;) {
+    for (auto row = size_t(image.extent.height); row-- > 0;) {
         uint16_t* const to = &planes[row * width];
         for (size_t x = 0; x < width; ++x, pixel += 4) {
             const double red = shown(pixel[0]), green = shown(pixel[1]), blue = shown(pixel[2]);

@@ -25,7 +25,7 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
                             const DomainReading& reading) {
     const std::string_view name = glsl::domain_name(text, site.node);
     const auto whole = int32_t(reading.argument);
-    const float number = std::bit_cast<float>(reading.argument);
+    const auto number = std::bit_cast<float>(reading.argument);
     const std::string excerpt = fmt::format("`{}`", shortened(text.excerpt(site.node)));
     switch (site.kind) {
     case DomainKind::quotient:

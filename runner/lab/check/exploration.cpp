@@ -400,7 +400,7 @@ private:
 
     /// Milliseconds of CPU that one may take, by the looks so far.
     double whole_picture() const {
-        const double pixels = double((extent_.width == k_asked.width ? k_part : extent_).pixels());
+        const auto pixels = double((extent_.width == k_asked.width ? k_part : extent_).pixels());
         return spent_ / double(std::max<size_t>(looks_.size(), 1)) * double(k_asked.pixels()) / pixels;
     }
 

@@ -180,11 +180,10 @@ Result<Answer> ask_recorded_march(ProbeBench& bench) {
     for (const FrameState& view : views_over_time()) {
         const auto falls = TRY(bench.recorded(view, glsl::RecordAnswer::fall));
         for (int i = 0; i < int(falls.extent.pixels()); ++i)
-            if (const auto fall = falls.f32().subspan(size_t(4 * i), 4); double(fall[0]) > found.slope)
-                found = {double(fall[0]),
-                         double(fall[1]),
-                         {i % view.extent.width + 0.5, i / view.extent.width + 0.5},
-                         view};
+            if (const auto fall = falls.f32().subspan(size_t(4 * i), 4); double(fall[0]) > found.slope) {
+                const int row = i / view.extent.width;
+                found = {double(fall[0]), double(fall[1]), {i % view.extent.width + 0.5, row + 0.5}, view};
+            }
     }
     return judged(
         bench,

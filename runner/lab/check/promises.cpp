@@ -35,10 +35,10 @@ std::string names() {
 
 std::string take_reasons(Promises& promises, const Json& reasons) {
     if (!reasons.is_object())
-        return "'skip' takes {\"probe\": \"why\"}";
+        return R"('skip' takes {"probe": "why"})";
     for (const auto& [probe, reason] : reasons.items()) {
         if (!reason.is_string())
-            return "'skip' takes {\"probe\": \"why\"}";
+            return R"('skip' takes {"probe": "why"})";
         promises.skip[std::string(probe_name(probe))] = reason.get<std::string>();
     }
     return {};

@@ -41,7 +41,7 @@ struct InBoth {
 /// The pictures of a scene in the situations that cures are judged in.
 class DrawnScene {
 public:
-    DrawnScene(scene::Scene scene, const Promises& promises) : bench_(std::move(scene), promises) {}
+    DrawnScene(const scene::Scene& scene, const Promises& promises) : bench_(scene, promises) {}
 
     ProbeBench& bench() { return bench_; }
     /// Image in floats and in doubles. Fails where it has no doubles.

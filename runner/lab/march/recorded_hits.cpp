@@ -6,8 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <optional>
 
 namespace tidemark::lab {
@@ -54,10 +55,16 @@ image::Image answer(render::Renderer& renderer, glsl::RecordAnswer which, const 
     return renderer.read_back();
 }
 
+/// Of the same value, NaN or not.
+uint32_t as_bits(float value) {
+    return std::bit_cast<uint32_t>(value);
+}
+
 size_t different_pixels(const image::Image& a, const image::Image& b) {
     size_t count = 0;
     for (size_t i = 0; i < a.extent.pixels(); ++i)
-        count += std::memcmp(&a.f32()[4 * i], &b.f32()[4 * i], 3 * sizeof(float)) != 0;
+        count +=
+            !std::ranges::equal(a.f32().subspan(4 * i, 3), b.f32().subspan(4 * i, 3), {}, as_bits, as_bits);
     return count;
 }
 

@@ -48,7 +48,7 @@ size_t plotted_series(const WorkPrecisionSet& set, const Point& point) {
 }
 
 std::string series_key(size_t series, bool hollow) {
-    return "<svg viewBox=\"-8 -8 16 16\" aria-hidden=\"true\">" + report::mark_of(series, hollow) + "</svg>";
+    return R"(<svg viewBox="-8 -8 16 16" aria-hidden="true">)" + report::mark_of(series, hollow) + "</svg>";
 }
 
 size_t plotted_points(const WorkPrecisionSet& set, Across across) {

@@ -217,7 +217,7 @@ std::string csv_text(std::string_view text) {
 /// A name that no other column has.
 std::string free_name(std::string name, const std::vector<std::string>& taken) {
     while (std::ranges::find(taken, name) != taken.end())
-        name = "set " + name;
+        name.insert(0, "set ");
     return name;
 }
 

@@ -72,7 +72,7 @@ std::vector<Column> columns_of(const WorkPrecisionSet& set) {
 
 /// The first cell of a row: it leads to the point's card.
 std::string setting_cell(const WorkPrecisionSet& set, size_t point) {
-    return fmt::format("<td><a href=\"#point-{0}\" data-point=\"{0}\">{1}</a></td>", point,
+    return fmt::format(R"(<td><a href="#point-{0}" data-point="{0}">{1}</a></td>)", point,
                        escaped(set.points[point].point.label));
 }
 
@@ -81,7 +81,7 @@ std::string point_row(const WorkPrecisionSet& set, const std::vector<Column>& co
     if (!point.measured())
         return fmt::format("<tr><td>{}</td><td class=\"failed\" colspan=\"{}\">{}</td></tr>\n",
                            escaped(point.point.label), columns.size(), escaped(point.failure));
-    std::string html = fmt::format("<tr class=\"{}{}\" data-point=\"{}\">{}", point.on_front ? "front " : "",
+    std::string html = fmt::format(R"(<tr class="{}{}" data-point="{}">{})", point.on_front ? "front " : "",
                                    point.hollow ? "hollow" : "", i, setting_cell(set, i));
     for (const Column& column : columns)
         html += fmt::format("<td>{}</td>", column.cell(point));

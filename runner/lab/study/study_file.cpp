@@ -72,8 +72,9 @@ private:
         for (const auto& [name, value] : json.items())
             if (std::ranges::find(names, name) == names.end()) {
                 const std::string nearest = nearest_name(name, names);
-                wrong(at + "/" + name, nearest.empty() ? "a study knows nothing of that name"
-                                                       : fmt::format("did you mean \"{}\"?", nearest));
+                wrong(fmt::format("{}/{}", at, name), nearest.empty()
+                                                          ? "a study knows nothing of that name"
+                                                          : fmt::format("did you mean \"{}\"?", nearest));
             }
     }
 
@@ -128,7 +129,7 @@ private:
             wrong(pointer, "must be an object of knobs and values");
         else
             for (const auto& [knob, value] : json[name].items())
-                found.push_back({knob, value_of(value, pointer + "/" + knob)});
+                found.push_back({knob, value_of(value, fmt::format("{}/{}", pointer, knob))});
         return found;
     }
 
@@ -141,7 +142,7 @@ private:
         else
             for (const auto& [knob, values] : json["vary"].items()) {
                 Axis axis{knob, {}};
-                const std::string pointer = at + "/vary/" + knob;
+                const std::string pointer = fmt::format("{}/vary/{}", at, knob);
                 if (!values.is_array() || values.empty())
                     wrong(pointer, "must be an array of values, from the coarsest to the strictest");
                 else

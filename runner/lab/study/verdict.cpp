@@ -175,7 +175,7 @@ std::vector<std::string> sentences(const WorkPrecisionSet& set) {
                             "unknown",
                             what, blind == 1 ? std::string("1 pixel") : fmt::format("{} pixels", blind)));
     if (!set.circumstances.complete)
-        found.push_back("incomplete: the study was interrupted");
+        found.emplace_back("incomplete: the study was interrupted");
     return found;
 }
 

@@ -24,8 +24,8 @@ constexpr size_t k_most_repairs = 6;
 /// But for rounding, which the driver does in another order where it knows less.
 bool same(const PixelBits& a, const PixelBits& b) {
     for (size_t i = 0; i < a.size(); ++i) {
-        const float x = std::bit_cast<float>(a[i]);
-        const float y = std::bit_cast<float>(b[i]);
+        const auto x = std::bit_cast<float>(a[i]);
+        const auto y = std::bit_cast<float>(b[i]);
         if (std::isnan(x) != std::isnan(y) || std::isinf(x) != std::isinf(y) ||
             std::abs(x - y) > 1e-3f * std::max(1.0f, std::abs(x)))
             return false;
@@ -84,7 +84,7 @@ private:
 
     void compare(const WatchReading& reading) {
         if (!reading.arrived())
-            trace_.notes.push_back("the instrumented shader did not finish in this pixel");
+            trace_.notes.emplace_back("the instrumented shader did not finish in this pixel");
         const bool half = preview_.pass().kind == scene::PassKind::cubemap;
         if (is_finite(reading.colour) != is_finite(trace_.colour) ||
             (!half && !same(reading.colour, trace_.colour)))

@@ -208,7 +208,7 @@ std::optional<QualitySetting> around(const std::string& name, const std::string&
 
 /// What a number may be turned as: as what the march has it for, or else as what it is called.
 std::optional<QualitySetting> setting_of(const Setting& number, std::vector<Use> uses) {
-    std::ranges::stable_partition(uses, &Use::march);
+    std::stable_partition(uses.begin(), uses.end(), [](const Use& use) { return use.march; });
     const auto value = number_of(number.value);
     for (const Use& use : uses) {
         const RoleTraits& role = traits(use.role);

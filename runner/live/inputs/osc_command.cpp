@@ -23,7 +23,7 @@ tl::unexpected<Error> refuse(fmt::format_string<Words...> form, Words&&... words
 std::optional<double> number_of(const OscMessage& message) {
     if (message.arguments.size() != 1)
         return std::nullopt;
-    const auto* number = std::get_if<double>(&message.arguments[0]);
+    const auto* number = std::get_if<double>(message.arguments.data());
     return number ? std::optional(*number) : std::nullopt;
 }
 

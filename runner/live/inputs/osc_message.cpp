@@ -86,7 +86,7 @@ Result<OscMessage> parse_message(const OscLibrary& liblo, std::string_view packe
         liblo.deserialise(bytes.data(), bytes.size(), &error), liblo.free);
     if (!message)
         return refuse();
-    OscMessage read{std::string(bytes.c_str())};
+    OscMessage read{bytes.substr(0, bytes.find('\0'))}; // the address stands first
     const std::string_view types = liblo.types(message.get());
     for (int i = 0; i < liblo.count(message.get()); ++i) {
         auto argument = argument_of(types[size_t(i)], liblo.arguments(message.get())[i]);

@@ -13,7 +13,7 @@ constexpr double k_cell = 12;
 void draw_cells(const MagnifierField& magnifier, float cell) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const auto [columns, rows] = magnifier.cells;
+    const int columns = magnifier.cells.width, rows = magnifier.cells.height;
     const auto corner = [&](int column, int row) {
         return ImVec2(from.x + float(column) * cell, from.y + float(rows - row) * cell);
     };

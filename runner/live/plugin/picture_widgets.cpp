@@ -13,6 +13,7 @@ namespace tidemark::live {
 namespace {
 
 ImTextureID texture_of(const PictureField& picture) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui has names travel as pointers.
     return reinterpret_cast<ImTextureID>(uintptr_t(picture.texture));
 }
 

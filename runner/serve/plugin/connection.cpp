@@ -153,7 +153,7 @@ void Connection::write_next() {
     });
 }
 
-void Connection::drop(websocket::close_reason why) {
+void Connection::drop(const websocket::close_reason& why) {
     if (!std::exchange(closing_, true))
         socket_.async_close(why, [self = shared_from_this()](Error) { self->close(); });
 }

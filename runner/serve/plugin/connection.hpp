@@ -50,7 +50,7 @@ private:
     void listen();
     void hear(const std::string& message);
     void write_next();
-    void drop(boost::beast::websocket::close_reason why);
+    void drop(const boost::beast::websocket::close_reason& why);
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
     ViewerId id_;
