@@ -7,8 +7,6 @@
 namespace tidemark::render {
 namespace {
 
-using image::Image;
-
 constexpr Extent k_extent{97, 61};
 
 /// A clock that goes on with each look: a draw of 0 seconds is one part, and parts stay small.

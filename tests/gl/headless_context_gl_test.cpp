@@ -17,9 +17,7 @@ namespace tidemark::platform {
 namespace {
 
 using Pixel = std::array<unsigned char, 4>;
-using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 using testing::StartsWith;
 
 /// Clears an RGBA8 target to `colour` with the current context and reads a pixel back.

@@ -107,8 +107,10 @@ TEST_F(FlatViewTest, the_faces_of_a_cube_are_where_their_directions_are) {
     const gl::Texture cube = gl::make_cube_texture(k_side, GL_RGBA16F, 1);
     for (int face = 0; face < 6; ++face) {
         std::vector<Floats4> texels;
-        for (int i = 0; i < k_side * k_side; ++i)
-            texels.push_back({float(face), float(i % k_side), float(i / k_side), 1});
+        for (int i = 0; i < k_side * k_side; ++i) {
+            const int row = i / k_side;
+            texels.push_back({float(face), float(i % k_side), float(row), 1});
+        }
         gl::upload(cube, face, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
     }
     auto view = FlatView::create(cube);
@@ -137,8 +139,9 @@ TEST_F(FlatViewTest, neighbours_in_the_cross_touch_along_an_edge) {
     for (int face = 0; face < 6; ++face) {
         std::vector<Floats4> texels;
         for (int i = 0; i < k_side * k_side; ++i) {
+            const int row = i / k_side;
             const auto [x, y, z] =
-                image::direction_of({face, (i % k_side + 0.5) / k_side, (double(i / k_side) + 0.5) / k_side});
+                image::direction_of({face, (i % k_side + 0.5) / k_side, (row + 0.5) / k_side});
             const double length = std::sqrt(x * x + y * y + z * z);
             texels.push_back({float(x / length), float(y / length), float(z / length), 1});
         }

@@ -13,7 +13,6 @@ namespace {
 using image::Image;
 using image::SampleType;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 constexpr const char* k_places = R"(
 void mainImage(out vec4 c, in vec2 p) {

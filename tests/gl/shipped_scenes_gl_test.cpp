@@ -158,8 +158,9 @@ TEST_F(ShippedScenes, ThePseudo3dSeasNearEdgeIsTheSameAtEverySize) {
         for (int y = 0; y < extent.height / 9; ++y)
             for (int x = 0; x < extent.width; ++x)
                 blocks[size_t(8 * x / extent.width)] += double(floats_at(image, x, y)[1]);
+        const int pixels = extent.width / 8 * (extent.height / 9);
         for (double& block : blocks)
-            block /= double(extent.width / 8 * (extent.height / 9));
+            block /= pixels;
         return blocks;
     };
     const auto small = near_edge({128, 72}), large = near_edge({640, 360});

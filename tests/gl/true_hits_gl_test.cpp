@@ -31,7 +31,8 @@ TEST_F(Waters, FirstHitsFromTheTextAreThoseOfTheReferences) {
         const fields::Reference truth = reference(scene, water, inputs, k_few);
         size_t hits = 0, others = 0;
         for (size_t i = 0; i < k_few.pixels(); ++i) {
-            const glm::dvec2 place(double(i % k_few.width) + 0.5, double(i / k_few.width) + 0.5);
+            const size_t row = i / k_few.width;
+            const glm::dvec2 place(double(i % k_few.width) + 0.5, double(row) + 0.5);
             const double written =
                 fields::certified_march(truth.field, truth.ray(place), truth.range).distance;
             const double found = proved->hits.distance[i];

@@ -37,9 +37,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Events = std::vector<InputEvent>;
 using testing::Contains;
-using testing::EndsWith;
 using testing::IsEmpty;
-using testing::Not;
 using testing::StartsWith;
 
 /// Sets a variable of the environment (or unsets it) for as long as it lives.

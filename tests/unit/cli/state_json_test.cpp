@@ -10,7 +10,6 @@ namespace {
 
 using render::FrameState;
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 /// Every field is another than usual.
 FrameState unusual() {

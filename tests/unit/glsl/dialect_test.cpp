@@ -8,8 +8,6 @@ namespace tidemark::glsl {
 namespace {
 
 using scene::TextureKind;
-using testing::Each;
-using testing::Field;
 using testing::IsEmpty;
 
 const std::string k_main_image = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1); }\n";

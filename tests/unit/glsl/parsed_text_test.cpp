@@ -154,7 +154,7 @@ std::string watched(std::string_view text, WatchRequest request = {}) {
     all = all.substr(0, all.rfind("\nvoid main"));
     for (size_t at = 0; (at = all.find_first_of(" \n", at)) != all.npos;)
         all.erase(at, 1);
-    for (size_t at = 0; (at = all.find(",", at)) != all.npos; ++at) // the numbers of nodes say nothing
+    for (size_t at = 0; (at = all.find(',', at)) != all.npos; ++at) // the numbers of nodes say nothing
         while (at + 1 < all.size() && all[at + 1] >= '0' && all[at + 1] <= '9')
             all.erase(at + 1, 1);
     return all;

@@ -171,7 +171,7 @@ TEST(Domains, ReadingsAreOfTheirSite) {
     DomainWatch watch;
     watch.sites.resize(2);
     watch.objectives = {{0}, {1}};
-    const uint32_t half = std::bit_cast<uint32_t>(0.5F), less = std::bit_cast<uint32_t>(-0.25F);
+    const auto half = std::bit_cast<uint32_t>(0.5F), less = std::bit_cast<uint32_t>(-0.25F);
     const std::vector<uint32_t> words{0,
                                       0,
                                       0,

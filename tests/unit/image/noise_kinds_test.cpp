@@ -22,7 +22,7 @@ uint8_t in_file(const Image& image, int x, int y, int channel = 0) {
 
 std::vector<double> plane_of(const Image& image, int channel) {
     std::vector<double> plane;
-    for (size_t i = size_t(channel); i < image.samples(); i += size_t(image.channels))
+    for (auto i = size_t(channel); i < image.samples(); i += size_t(image.channels))
         plane.push_back(image.u8()[i]);
     return plane;
 }

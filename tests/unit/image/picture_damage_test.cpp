@@ -58,7 +58,7 @@ TEST_F(PictureDamage, what_is_no_picture_is_said) {
     EXPECT_EQ(outcome("text.png", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1); }"), what);
     EXPECT_EQ(outcome("one.jpg", "x"), what);
     EXPECT_EQ(outcome("zero.exr", std::string(4096, '\0')), what);
-    EXPECT_EQ(outcome("riff.webp", "RIFF\4\0\0\0WAVE"), what);
+    EXPECT_EQ(outcome("riff.webp", std::string("RIFF\4\0\0\0WAVE", 12)), what);
 }
 
 TEST_F(PictureDamage, a_file_cut_anywhere_is_no_picture) {

@@ -135,7 +135,7 @@ TEST_F(PictureFile, the_last_row_of_an_image_is_the_first_of_the_file) {
     for (const char* name : {"a.tif", "a.exr", "a.hdr", "a.jpg"}) {
         const Image read = written_and_read(in_folder(name), tall, natural_depth(name));
         const bool bytes = read.type == SampleType::u8;
-        const size_t last = size_t(63 * read.channels);
+        const auto last = size_t(63 * read.channels);
         EXPECT_GT(bytes ? float(read.u8()[last]) / 255.0f : read.f32()[last], 0.9f) << name;
         EXPECT_LT(bytes ? float(read.u8()[0]) / 255.0f : read.f32()[0], 0.1f) << name;
     }

@@ -246,7 +246,7 @@ TEST(Baseline, of_another_machine_or_another_study_is_told) {
     other.study.views[0].state = render::at_time(2);
     EXPECT_EQ(compare_with(old, "old.json", other).error().message,
               "--baseline 'old.json': that study has other views or another size");
-    for (const char* bad : {"{}", "[]", "3", "{\"schema\": \"tidemark study 1\"}"})
+    for (const char* bad : {"{}", "[]", "3", R"({"schema": "tidemark study 1"})"})
         EXPECT_FALSE(compare_with(bad, "old.json", usual())) << bad;
 }
 

@@ -207,7 +207,7 @@ TEST(BestBy, keeps_the_error_even_if_the_truth_s_own_is_against_it) {
     explored.add({{"A", "3"}}, 6, 0.0150);
     EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.02, {}}), &explored.set.points[2]);
     EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.001, {}}), nullptr);
-    EXPECT_EQ(best_by(explored.set, {}), &explored.set.points[0]);
+    EXPECT_EQ(best_by(explored.set, {}), &explored.set.points.front());
     explored.set.points[3].all.picture.samples.rmse = 0.009;
     EXPECT_EQ(best_by(explored.set, {}), &explored.set.points[3]);
 }
@@ -216,7 +216,7 @@ TEST(BestBy, of_a_time_is_the_most_exact_within_it) {
     Explored explored;
     explored.add({{"A", "1"}}, 4, 0.02);
     explored.add({{"A", "4"}}, 15, 0.001);
-    EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 12.0}), &explored.set.points[0]);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 12.0}), &explored.set.points.front());
     EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 16.0}), &explored.set.points[2]);
     EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 1.0}), nullptr);
 }
@@ -227,7 +227,7 @@ TEST(BestBy, says_nothing_of_points_without_an_error) {
     explored.add({{"A", "1"}}, 4, std::nan(""));
     explored.add({{"A", "2"}}, 4, 0.001).idle = true;
     explored.add({{"A", "3"}}, 4, 0.001).failure = "does not compile";
-    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.02, {}}), &explored.set.points[0]);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.02, {}}), &explored.set.points.front());
 }
 
 TEST(Blur, is_a_truth_that_cannot_tell) {

@@ -40,7 +40,7 @@ TEST(PageJson, is_found_in_what_a_page_shows_and_in_attributes) {
     const std::string shown = "<html><body><pre>" + with_entities(k_project) + "</pre></body></html>";
     EXPECT_THAT(projects_in_page(shown), ElementsAre(k_project));
     const std::string attribute =
-        "<div class=\"player\" data-shader=\"" + with_entities(k_project) + "\"></div>";
+        R"(<div class="player" data-shader=")" + with_entities(k_project) + "\"></div>";
     EXPECT_THAT(projects_in_page(attribute), ElementsAre(k_project));
 }
 

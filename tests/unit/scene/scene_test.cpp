@@ -34,7 +34,7 @@ TEST(LoadScene, a_bare_file) {
     EXPECT_EQ(scene.name(), "waves");
     EXPECT_EQ(scene.file, folder / "waves.glsl");
     ASSERT_EQ(scene.passes.size(), 1u);
-    EXPECT_EQ(&scene.image(), &scene.passes[0]);
+    EXPECT_EQ(&scene.image(), &scene.passes.front());
     EXPECT_EQ(scene.image().name, "Image");
     EXPECT_EQ(scene.image().text.text(), k_main_image);
     EXPECT_TRUE(scene.knobs.empty());

@@ -266,7 +266,7 @@ TEST(PictureEncoder, makes_a_film_that_ends_with_a_whole_picture) {
         const size_t before = made.size();
         encoder.push({image::Image(extent, 4, image::SampleType::u8), {.number = number}});
         changed.wait(lock, [&] { return made.size() > before; });
-        const std::string first = made[before];
+        std::string first = made[before];
         changed.wait(lock, [&] { return made.size() > before + 1; }); // it stands still then
         EXPECT_EQ(made.back(), fmt::format("{}: file, - <- 0", number + 1));
         return first;
