@@ -21,7 +21,8 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     REQUIRE(serve::answer_to(strange, k_token) == serve::Answer::forbidden);
 
     serve::Inbox inbox;
-    serve::Audience audience({.send = [](serve::ViewerId, const serve::SharedMessage&) {}, .film = true}, inbox);
+    serve::Audience audience({.send = [](serve::ViewerId, const serve::SharedMessage&) {}, .film = true},
+                             inbox);
     REQUIRE(audience.came(1));
     (void)audience.said(1, text);
     audience.left(1);

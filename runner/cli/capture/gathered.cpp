@@ -102,9 +102,10 @@ Gathered gathered_segments(const CapturePlan& plan, const Fingerprint& run, int 
                                            shard_of_segment(plan, shards, first), shards));
     std::error_code ignored;
     if (result.devices.empty() && std::filesystem::exists(plan.output.pattern(), ignored))
-        result.wrong.push_back(fmt::format("{} is there, and none of its segments: where it was joined before, "
-                                           "nothing is left to do",
-                                           plan.output.pattern().string()));
+        result.wrong.push_back(
+            fmt::format("{} is there, and none of its segments: where it was joined before, "
+                        "nothing is left to do",
+                        plan.output.pattern().string()));
     count_devices(result, "segments");
     return result;
 }

@@ -57,8 +57,9 @@ TEST(Initialise, StructuresAndArrays) {
     EXPECT_EQ(zeroed(types + "void main(){S s; s.b;}\n"),
               types + "void main(){S s=S(I(0.0, vec2[2](vec2(0.0), vec2(0.0))), false); s.b;}\n");
     EXPECT_EQ(in_main("float a[2]; a[int(u)];"), "float a[2]=float[2](0.0, 0.0); a[int(u)];");
-    EXPECT_EQ(in_main("vec2[900] a; a[1];"),
-              "vec2[900] a;for(int tidemark_0=0;tidemark_0<900;++tidemark_0){a[tidemark_0]=vec2(0.0);} a[1];");
+    EXPECT_EQ(
+        in_main("vec2[900] a; a[1];"),
+        "vec2[900] a;for(int tidemark_0=0;tidemark_0<900;++tidemark_0){a[tidemark_0]=vec2(0.0);} a[1];");
     EXPECT_EQ(in_main("float a[90][2]; a[1];"),
               "float a[90][2];for(int tidemark_0=0;tidemark_0<90;++tidemark_0)"
               "{a[tidemark_0]=float[2](0.0, 0.0);} a[1];");
@@ -73,18 +74,18 @@ TEST(Initialise, StructuresAndArrays) {
 }
 
 TEST(Initialise, ParametersThatGoOut) {
-    EXPECT_EQ(zeroed("void f(out vec4 o, vec2 p) { o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n"),
-              "void f(out vec4 o, vec2 p) {o=vec4(0.0); o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n");
+    EXPECT_EQ(
+        zeroed("void f(out vec4 o, vec2 p) { o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n"),
+        "void f(out vec4 o, vec2 p) {o=vec4(0.0); o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n");
     for (const char* body :
          {"o.r = 1.;", "if (p.x > 0.) o = vec4(1);", "if (p.x>0.) return; o = vec4(0.0);", "p;"}) {
         const std::string head = "void f(out vec4 o, vec2 p) {";
         const std::string tail = std::string(" ") + body + " }\nvoid main() { vec4 c; f(c, vec2(1)); }\n";
         EXPECT_EQ(zeroed(head + tail), head + "o=vec4(0.0);" + tail);
     }
-    EXPECT_EQ(
-        zeroed("void f(out float a[99]) { a[1] = 1.; }\nvoid main() { float a[99]; f(a); }\n"),
-        "void f(out float a[99]) {for(int tidemark_0=0;tidemark_0<99;++tidemark_0){a[tidemark_0]=0.0;} "
-        "a[1] = 1.; }\nvoid main() { float a[99]; f(a); }\n");
+    EXPECT_EQ(zeroed("void f(out float a[99]) { a[1] = 1.; }\nvoid main() { float a[99]; f(a); }\n"),
+              "void f(out float a[99]) {for(int tidemark_0=0;tidemark_0<99;++tidemark_0){a[tidemark_0]=0.0;} "
+              "a[1] = 1.; }\nvoid main() { float a[99]; f(a); }\n");
 }
 
 TEST(Initialise, Globals) {

@@ -1,4 +1,5 @@
-// Cures of what rounding, counting in floats and divergent neighbours do: which texts get one, and which none.
+// Cures of what rounding, counting in floats and divergent neighbours do: which texts get one, and which
+// none.
 #include "glsl/cure/hoisted_derivative.hpp"
 #include "glsl/cure/reduced_time.hpp"
 #include "glsl/cure/rewrites.hpp"
