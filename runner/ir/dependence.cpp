@@ -1,8 +1,13 @@
 #include "ir/dependence.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tidemark::ir {
+
+bool overlap(const Access& a, const Access& b) {
+    return a.first < b.first + b.size && b.first < a.first + a.size;
+}
 
 std::vector<uint32_t> blocks_of_instructions(const Function& function) {
     std::vector<uint32_t> blocks(function.instructions.size());
@@ -48,6 +53,21 @@ Cone::Cone(const Function& function, const std::vector<bool>& inside, uint32_t h
       last_phi_(first_phi_), stops_(std::move(stops)) {
     while (last_phi_ < function.blocks[header].last && function.instructions[last_phi_].op == Op::phi)
         ++last_phi_;
+    for (Value value = first_phi_; value < inside.size(); ++value)
+        if (inside[value] && function.instructions[value].op == Op::store)
+            stores_.push_back(value);
+}
+
+std::vector<Value> Cone::sources(Value value) const {
+    const Instruction& instruction = function_->instructions[value];
+    const auto operands = function_->operands_of(instruction);
+    std::vector<Value> sources(operands.begin(), operands.end());
+    if (instruction.op == Op::load)
+        std::ranges::copy_if(stores_, std::back_inserter(sources), [&](Value store) {
+            return overlap(function_->accesses[function_->instructions[store].immediate],
+                           function_->accesses[instruction.immediate]);
+        });
+    return sources;
 }
 
 std::vector<Value> Cone::of(Value value) const {
@@ -62,8 +82,7 @@ std::vector<Value> Cone::of(Value value) const {
         cone.push_back(each);
         const bool carried = each >= first_phi_ && each < last_phi_;
         if (!carried && std::ranges::find(stops_, each) == stops_.end())
-            std::ranges::copy(function_->operands_of(function_->instructions[each]),
-                              std::back_inserter(open));
+            std::ranges::copy(sources(each), std::back_inserter(open));
     }
     std::ranges::sort(cone);
     return cone;

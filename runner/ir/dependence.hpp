@@ -7,6 +7,8 @@
 
 namespace tidemark::ir {
 
+bool overlap(const Access& a, const Access& b);
+
 /// The block of every instruction; that of constants is 0.
 std::vector<uint32_t> blocks_of_instructions(const Function& function);
 
@@ -27,10 +29,14 @@ public:
 
     /// Sorted.
     std::vector<Value> of(Value value) const;
+    /// What a value in the loop is computed from at once: its operands; of a load the stores in the loop,
+    /// too, that may have written there.
+    std::vector<Value> sources(Value value) const;
 
 private:
     const Function* function_;
     const std::vector<bool>* inside_;
+    std::vector<Value> stores_; ///< in the loop
     uint32_t first_phi_, last_phi_;
     std::vector<Value> stops_;
 };

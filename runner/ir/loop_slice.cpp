@@ -13,10 +13,6 @@ constexpr uint32_t k_no_block = ~uint32_t{0};
 /// What becomes of an instruction of the whole function.
 enum class Role : uint8_t { left_out, input, invariant, turn };
 
-bool overlap(const Access& a, const Access& b) {
-    return a.first < b.first + b.size && b.first < a.first + a.size;
-}
-
 class Slicer {
 public:
     Slicer(const Function& whole, const MarchingLoop& loop, SliceOf what)

@@ -33,7 +33,7 @@ public:
         for (size_t i = 0; i < slice.cells.size(); ++i)
             evaluator_.memory()[i] = number_of(entered.memory()[slice.cells[i]], slice.function.cells[i]);
         if (stores_)
-            memory_ = evaluator_.memory();
+            memory_ = forget_stored(slice.function, evaluator_.memory());
         compute_invariants(slice.function.blocks[0]);
     }
 
@@ -92,6 +92,16 @@ private:
                 distance.low = std::max(distance.low, threshold().low);
                 distance.high = std::max(distance.low, distance.high);
             }
+    }
+
+    /// What a turn leaves in memory for the next one is known at no place between those of the march itself.
+    static std::vector<Number> forget_stored(const Function& function, std::vector<Number> memory) {
+        for (const Instruction& each : function.instructions)
+            if (each.op == Op::store) {
+                const Access& access = function.accesses[each.immediate];
+                std::fill_n(memory.begin() + access.first, access.size, System::unknown());
+            }
+        return memory;
     }
 
     void set_out(const std::vector<Number>& places) {

@@ -319,14 +319,15 @@ private:
 
     /// Those of the values that change with the place.
     std::vector<Value> depending(const std::vector<Value>& values, const std::vector<Value>& cuts) const {
+        const Cone loop = cone();
         std::vector<Value> result(cuts);
         std::ranges::sort(result);
         for (size_t before = 0; before != result.size();) {
             before = result.size();
             for (const Value value : values)
                 if (!std::ranges::binary_search(result, value) &&
-                    std::ranges::any_of(operands(value), [&](Value operand) {
-                        return std::ranges::binary_search(result, operand);
+                    std::ranges::any_of(loop.sources(value), [&](Value source) {
+                        return std::ranges::binary_search(result, source);
                     }))
                     result.insert(std::ranges::upper_bound(result, value), value);
         }
@@ -343,6 +344,7 @@ private:
         case Op::absolute:
         case Op::phi:
         case Op::load:
+        case Op::store:
         case Op::constant: return false;
         default: return at(value).type == Scalar::real;
         }

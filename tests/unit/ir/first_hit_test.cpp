@@ -36,6 +36,14 @@ TEST(FirstHit, of_a_sphere_is_where_the_distance_is_the_threshold) {
     EXPECT_EQ(beside.where.high, 20);
 }
 
+TEST(FirstHit, is_found_where_the_distance_goes_through_an_index) {
+    expect_hit(hit_of("length(p) - 1.0", 0, 20,
+                      "for (int i = 0; i < 99; ++i) { vec3 p = ro + rd * t, q = p;\n"
+                      "for (int k = 0; k < 3; ++k) q[k] = abs(p[(k + 1) % 3]);\n"
+                      "float d = map(q); if (d < 1e-3) break; t += d; }"),
+               3 - 1.001);
+}
+
 TEST(FirstHit, is_the_first_one_though_the_march_steps_over_it) {
     // A thin sheet, a step of 0.5 beyond it.
     const std::string march =

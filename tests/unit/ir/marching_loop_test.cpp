@@ -50,6 +50,13 @@ TEST(MarchingLoop, is_found_in_the_forms_that_authors_write) {
                 Kind::fixed_step, 1);
 }
 
+TEST(MarchingLoop, is_found_where_the_distance_goes_through_an_index) {
+    expect_loop("for (int i = 0; i < 99; ++i) { vec3 p = ro + rd * t, q = p;\n"
+                "for (int k = 0; k < 3; ++k) q[k] = abs(p[(k + 1) % 3]);\n"
+                "float d = map(q); if (d < 1e-3) break; t += d; }",
+                Kind::sphere_tracing, 1);
+}
+
 TEST(MarchingLoop, is_found_where_steps_grow_with_the_way_or_from_turn_to_turn) {
     expect_loop("t = 0.1; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break; t *= 1.02; }",
                 Kind::fixed_step, 1);
@@ -159,16 +166,21 @@ TEST(MarchingLoop, is_not_what_only_adds_up) {
 }
 
 TEST(MarchingLoop, that_remembers_more_than_its_place_is_not_faithful) {
-    const Function function = marcher(
-        "length(p) - 1.0",
-        "int seen = 0; for (int i = 0; i < 99; ++i) {\n"
-        "float d = map(ro + rd * t) + 0.1 * float(seen); if (d < 1e-3) break; t += 0.5 * d; ++seen; }");
-    const auto loops = find_marching_loops(function);
-    ASSERT_EQ(loops.size(), 1u);
-    FloatEvaluator evaluator = entered(function, loops, 0);
-    const FloatEvaluator at_entry = evaluator;
-    const March followed = follow(evaluator, function, loops[0]);
-    EXPECT_FALSE(is_faithful(slice_of(function, loops[0]), at_entry, followed));
+    for (const char* march :
+         {"int seen = 0; for (int i = 0; i < 99; ++i) {\n"
+          "float d = map(ro + rd * t) + 0.1 * float(seen); if (d < 1e-3) break; t += 0.5 * d; ++seen; }",
+          "vec3 seen = vec3(0.0); for (int i = 0; i < 99; ++i) {\n"
+          "float d = map(ro + rd * t) + seen[(i + 1) % 3]; seen[i % 3] += 0.1; if (d < 1e-3) break; t += 0.5 "
+          "* d; "
+          "}"}) {
+        const Function function = marcher("length(p) - 1.0", march);
+        const auto loops = find_marching_loops(function);
+        ASSERT_EQ(loops.size(), 1u) << march;
+        FloatEvaluator evaluator = entered(function, loops, 0);
+        const FloatEvaluator at_entry = evaluator;
+        const March followed = follow(evaluator, function, loops[0]);
+        EXPECT_FALSE(is_faithful(slice_of(function, loops[0]), at_entry, followed)) << march;
+    }
 }
 
 } // namespace
