@@ -65,8 +65,8 @@ DeviceKind kind_of_display(EGLDisplay display) {
     EGLAttrib device = 0;
     if (!query || !query(display, EGL_DEVICE_EXT, &device) || device == 0)
         return DeviceKind::unknown;
-    return kind_of(reinterpret_cast<EGLDeviceEXT>(
-        device)); // NOLINT(performance-no-int-to-ptr): EGL hands it out as a number
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): EGL hands it out as a number.
+    return kind_of(reinterpret_cast<EGLDeviceEXT>(device));
 }
 
 /// See HeadlessDevice::lasting_names.

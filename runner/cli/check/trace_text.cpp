@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <ranges>
-
 namespace tidemark::cli {
 namespace {
 
@@ -64,9 +62,9 @@ std::string way(const NanOrigin& origin) {
         text += fmt::format("  in a macro used at {}\n", place(*origin.used));
     for (const lab::TracedLoop& loop : origin.loops)
         text += fmt::format("  iteration {} of the loop at {}\n", loop.iteration, place(loop.where));
-    for (const auto& call : std::ranges::reverse_view(origin.calls))
-        if (!call.where.file.empty())
-            text += fmt::format("  in {}, called at {}\n", call.function, place(call.where));
+    for (auto call = origin.calls.rbegin(); call != origin.calls.rend(); ++call)
+        if (!call->where.file.empty())
+            text += fmt::format("  in {}, called at {}\n", call->function, place(call->where));
     return text;
 }
 

@@ -5,7 +5,6 @@
 #include "glsl/syntax/builtin_functions.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <unordered_map>
 #include <utility>
 
@@ -379,10 +378,10 @@ private:
             state_ = nowhere(state_.set.size());
             return;
         }
-        for (auto& loop : std::ranges::reverse_view(loops_)) {
-            if (word == "continue" && loop.is_switch)
+        for (auto loop = loops_.rbegin(); loop != loops_.rend(); ++loop) {
+            if (word == "continue" && loop->is_switch)
                 continue;
-            State& to = word == "break" ? loop.breaks : loop.continues;
+            State& to = word == "break" ? loop->breaks : loop->continues;
             State here = state_;
             here.set.resize(to.set.size());
             to.meet(here);

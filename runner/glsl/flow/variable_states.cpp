@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 
 namespace tidemark::glsl {
 
@@ -36,8 +35,8 @@ void VariableStates::forget() {
 }
 
 size_t VariableStates::place_of(NodeId name) const {
-    for (const auto& scope : std::ranges::reverse_view(scopes_))
-        if (const auto found = scope.find(text_.word_of(name)); found != scope.end())
+    for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
+        if (const auto found = scope->find(text_.word_of(name)); found != scope->end())
             return found->second;
     return k_untracked;
 }

@@ -112,7 +112,7 @@ bool same_place(float a, float b) {
 /// A march that goes astray, far off, is where rounding takes it: only one that meets something must do so at
 /// the same place.
 bool agrees(const CpuMarch& cpu, const float* recorded) {
-    const float turns = float(cpu.march.turns.size());
+    const auto turns = float(cpu.march.turns.size());
     if (turns == 0 || recorded[1] == 0)
         return turns == recorded[1];
     const bool hit = recorded[2] <= recorded[3];
