@@ -18,7 +18,6 @@ namespace {
 
 using Pixel = std::array<unsigned char, 4>;
 using testing::IsEmpty;
-using testing::StartsWith;
 
 /// Clears an RGBA8 target to `colour` with the current context and reads a pixel back.
 Pixel cleared_pixel(const std::array<float, 4>& colour) {
