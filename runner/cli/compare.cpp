@@ -14,7 +14,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
@@ -24,8 +23,6 @@ namespace tidemark::cli {
 namespace {
 
 using image::PictureMetrics;
-using Json = nlohmann::ordered_json;
-
 /// One number of a comparison: how it is called, and the option that limits it.
 struct Metric {
     const char* key;   ///< in JSON

@@ -1,17 +1,15 @@
 #include "cli/scene_facts.hpp"
 
+#include "cli/json_dump.hpp"
 #include "cli/version.hpp"
 #include "glsl/overrides.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace tidemark::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValue& value) {
     return {value.begin(), value.begin() + scene::info(knob.type).components};

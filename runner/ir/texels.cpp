@@ -312,12 +312,12 @@ Interval Texels::between_levels(const Interval& level, AtLevel at) const {
     if (mipmaps == Mipmaps::none)
         return at(0);
     const bool linear = mipmaps == Mipmaps::linear;
-    const double first = linear ? std::floor(level.low) : std::round(level.low);
-    const double last = linear ? std::ceil(level.high) : std::round(level.high);
+    const auto first = int(linear ? std::floor(level.low) : std::round(level.low));
+    const auto last = int(linear ? std::ceil(level.high) : std::round(level.high));
     if (linear && last == first + 1)
-        return mix(at(first), at(last), level - Interval{first, first});
+        return mix(at(first), at(last), level - Interval{double(first), double(first)});
     Interval all = at(first);
-    for (double number = first + 1; number <= last; ++number)
+    for (int number = first + 1; number <= last; ++number)
         all = hull(all, at(number));
     return all;
 }

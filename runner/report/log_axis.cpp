@@ -34,7 +34,8 @@ std::vector<double> round_numbers(const LogAxis& axis) {
     const double power = std::pow(10.0, std::floor(std::log10(wanted)));
     const double step = power * (wanted < 2 * power ? 1 : wanted < 5 * power ? 2 : 5);
     std::vector<double> found;
-    for (double n = std::ceil(axis.low / step); n * step <= axis.high; ++n)
+    const auto last = int(std::floor(axis.high / step));
+    for (auto n = int(std::ceil(axis.low / step)); n <= last; ++n)
         found.push_back(n * step);
     return found;
 }

@@ -9,12 +9,8 @@
 #include "glsl/portability.hpp"
 #include "platform/headless_context.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace tidemark::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json json_of(const Diagnostic& diagnostic) {
     return {{"file", diagnostic.where.file},

@@ -1,14 +1,14 @@
 #include "cli/check/trace_text.hpp"
 
+#include "cli/json_dump.hpp"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace tidemark::cli {
 namespace {
 
 using lab::NanOrigin;
 using lab::NanTrace;
-using Json = nlohmann::ordered_json;
 
 std::string place(const SourceLocation& where) {
     std::string text = where.file;

@@ -1,17 +1,16 @@
 #include "cli/inspect/device_list.hpp"
 
 #include "cli/forked.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/supervisor.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <optional>
 
 namespace tidemark::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using platform::HeadlessDevice;
 
 /// A driver that has not started until then hangs.

@@ -1,20 +1,19 @@
 #include "cli/inspect/driver_code.hpp"
 
+#include "cli/json_dump.hpp"
 #include "gl/compiler_messages.hpp"
 #include "platform/driver_cache.hpp"
 #include "render/link_pass.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
-#include <stdlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 namespace tidemark::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using glsl::Specialise;
 
 constexpr const char* k_cache_variable = "MESA_SHADER_CACHE_DIR";

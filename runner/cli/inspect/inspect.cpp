@@ -20,7 +20,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
@@ -29,8 +28,6 @@
 
 namespace tidemark::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct InspectOptions {
     SceneRequest scene;

@@ -11,7 +11,6 @@
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +18,6 @@
 namespace tidemark::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using lab::Omission;
 using lab::Saved;
 using lab::Saving;

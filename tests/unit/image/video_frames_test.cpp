@@ -340,7 +340,8 @@ class NoVideo : public PictureTest {};
 
 TEST_F(NoVideo, without_ffmpeg_the_package_is_named) {
     const fs::path path = put("a.mp4", "x");
-    const std::string search = std::getenv("PATH");
+    const char* const before = std::getenv("PATH");
+    const std::string search = before ? before : "";
     ::setenv("PATH", folder().c_str(), 1);
     const Result<VideoFrames> video = VideoFrames::open(path);
     ::setenv("PATH", search.c_str(), 1);

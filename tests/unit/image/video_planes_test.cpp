@@ -60,7 +60,7 @@ TEST(VideoPlanes, tell_more_than_256_levels) {
     std::vector<int> luma = codes(ramp, false);
     luma.resize(4096);
     EXPECT_TRUE(std::ranges::is_sorted(luma));
-    EXPECT_EQ(std::ranges::unique(luma).begin() - luma.begin(), 877); // 64 to 940
+    EXPECT_EQ(std::unique(luma.begin(), luma.end()) - luma.begin(), 877); // 64 to 940
 }
 
 } // namespace
