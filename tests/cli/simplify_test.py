@@ -66,6 +66,22 @@ class Simplify(ProgramTest):
         self.simplify("--max-error", "psnr=40dB", "--write")
         self.compare("--min-psnr", "40")
 
+    def test_a_smooth_buffer_is_drawn_at_half_its_size(self):
+        self.write("smooth.glsl", """void mainImage(out vec4 c, in vec2 p) {
+    float sum = 0.0;
+    for (int i = 0; i < 400; ++i) sum += sin(4.0 * p.x / iResolution.x + 0.1 * float(i) + iTime);
+    c = vec4(0.5 + 0.1 * sum);
+}
+""")
+        self.write("dear.glsl", """#iChannel0 "file://smooth.glsl"
+void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / iResolution.xy); }
+""")
+        found, said = self.simplify("--max-error", "psnr=50dB", "--size", "320x180", "--write")
+        reasons = [cut["cut"] for cut in found["cuts"]]
+        self.assertIn("smooth.glsl:1: draws the buffer at half its width and height", reasons, said)
+        self.assertIn("p *= 2.0;", (self.folder / "smooth.glsl").read_text())
+        self.assertIn("0.5 * fract(p / iResolution.xy)", (self.folder / "dear.glsl").read_text())
+
     def test_a_loop_without_an_end_is_named_and_left(self):
         self.write("dear.glsl", SCENE.replace("for (int i = 0; i < 5000; ++i) {", "int i = -1; for (;;) { ++i;"))
         found, said = self.simplify("--exact")

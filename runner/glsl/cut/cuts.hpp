@@ -18,7 +18,8 @@ namespace tidemark::glsl {
 
 struct Cut {
     Cure change;
-    double work = 0; ///< operations a pixel that it may save, estimated
+    double work = 0;            ///< operations a pixel that it may save, estimated
+    bool hangs_on_size = false; ///< what it does to a picture is less the more pixels that has
 };
 
 /// An expression of floats that a number could stand for.

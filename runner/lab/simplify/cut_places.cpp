@@ -1,6 +1,7 @@
 #include "lab/simplify/cut_places.hpp"
 
 #include "base/try.hpp"
+#include "glsl/cut/half_size.hpp"
 #include "glsl/cut/once_a_pixel.hpp"
 #include "glsl/instrument/seen_values.hpp"
 #include "glsl/rewrite.hpp"
@@ -8,6 +9,7 @@
 #include "lab/trace/stand_in.hpp"
 #include "lab/trace/watched_run.hpp"
 #include "render/frame_stepper.hpp"
+#include "scene/host_uniforms.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +17,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -48,6 +52,31 @@ struct Mean {
     }
 };
 
+/// A pass's text, as far as it can be followed.
+struct Followed {
+    std::unique_ptr<const glsl::ParsedText> text;
+    glsl::TreeFacts facts;
+    glsl::Cutter cutter;
+
+    explicit Followed(std::unique_ptr<const glsl::ParsedText> read)
+        : text(std::move(read)), facts(glsl::find_facts(*text)), cutter(*text, facts) {}
+};
+
+/// By which a pass reads another; nothing where it does so in ways that make its size felt.
+std::optional<std::vector<glsl::BufferSampler>> samplers_of(const scene::Pass& pass, size_t read) {
+    std::vector<glsl::BufferSampler> samplers;
+    for (size_t i = 0; i < pass.channels.size(); ++i) {
+        const scene::Channel& channel = pass.channels[i];
+        const size_t* const source = scene::source_pass(channel.input);
+        if (!source || *source != read)
+            continue;
+        if (channel.sampling.mipmaps != scene::Mipmaps::none || channel.sampling.wrap == scene::Wrap::mirror)
+            return std::nullopt;
+        samplers.push_back({scene::k_channel_names[i], channel.sampling.wrap == scene::Wrap::repeat});
+    }
+    return samplers;
+}
+
 class Finder {
 public:
     Finder(const scene::Scene& scene, const std::vector<View>& views, const KeepGoing& keep_going)
@@ -58,6 +87,9 @@ public:
             TRY(render::Renderer::create(scene_, {.extent = extent, .samples = image::SampleType::f32}));
         for (const render::PlannedPass& planned : renderer.plan().passes)
             add_pass(renderer, planned.pass);
+        for (const auto& [pass, followed] : followed_)
+            if (scene_.passes[pass].kind == scene::PassKind::buffer)
+                add_half_size(pass);
         std::ranges::stable_sort(found_.cuts, std::greater<>(), &glsl::Cut::work);
         return std::move(found_);
     }
@@ -65,16 +97,16 @@ public:
 private:
     void add_pass(render::Renderer& renderer, size_t pass) {
         const std::string& name = scene_.passes[pass].name;
-        const auto text = read_text(renderer, pass, true);
+        auto text = read_text(renderer, pass, true);
         if (!text) {
             found_.left.push_back(
                 fmt::format("{}: the text cannot be followed: {}", name, to_string(text.error())));
             return;
         }
-        const glsl::TreeFacts facts = glsl::find_facts(**text);
-        const glsl::Cutter cutter(**text, facts);
+        const Followed& followed = followed_.try_emplace(pass, *std::move(text)).first->second;
+        const auto& [parsed, facts, cutter] = followed;
         for (const glsl::NodeId loop : cutter.endless()) {
-            const SourceLocation where = (*text)->spelled((*text)->tree()[loop].begin);
+            const SourceLocation where = parsed->spelled(parsed->tree()[loop].begin);
             found_.left.push_back(
                 fmt::format("{}:{}: nothing in the head of this loop ends it for certain: what is "
                             "in it, and what it calls, is left alone",
@@ -84,10 +116,27 @@ private:
             add(std::move(cut));
         for (glsl::Cut& cut : cutter.levels(which_have_mipmaps(scene_.passes[pass])))
             add(std::move(cut));
-        if (auto cut = glsl::once_a_pixel(**text, facts, cutter.work()))
+        if (auto cut = glsl::once_a_pixel(*parsed, facts, cutter.work()))
             add(*std::move(cut));
         if (scene_.passes[pass].kind != scene::PassKind::cubemap)
-            add_replaced(renderer, pass, **text, cutter);
+            add_replaced(renderer, pass, *parsed, cutter);
+    }
+
+    void add_half_size(size_t buffer) {
+        std::vector<glsl::BufferReader> readers;
+        size_t own = 0;
+        for (size_t pass = 0; pass < scene_.passes.size(); ++pass) {
+            const auto samplers = samplers_of(scene_.passes[pass], buffer);
+            const auto followed = followed_.find(pass);
+            if (!samplers || (followed == followed_.end() && !samplers->empty()))
+                return;
+            if (pass == buffer)
+                own = readers.size();
+            if (followed != followed_.end())
+                readers.push_back({*followed->second.text, followed->second.facts, *samplers});
+        }
+        if (auto cut = glsl::half_size(readers, own, followed_.at(buffer).cutter.work()))
+            add(*std::move(cut));
     }
 
     /// Common stands in several passes.
@@ -147,6 +196,7 @@ private:
     const std::vector<View>& views_;
     const KeepGoing& keep_going_;
     CutPlaces found_{};
+    std::map<size_t, Followed> followed_{}; ///< by pass
     std::set<std::tuple<std::tuple<std::string, int, int>, std::tuple<std::string, int, int>, std::string>>
         known_{};
 };

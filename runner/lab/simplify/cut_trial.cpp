@@ -95,6 +95,11 @@ double CutBench::milliseconds() {
     return median(rounds);
 }
 
+double CutBench::seconds_of_trial() {
+    const double drawn = double(views_.size() * (1 + 2 * k_fewest_trials));
+    return milliseconds() * 1e-3 * drawn;
+}
+
 /// The median of what it takes, of rounds in which both are drawn in turns.
 double CutBench::relative_time(Specimen& one, Specimen& other) const {
     std::vector<Elapsed> ones, others;

@@ -32,6 +32,8 @@ public:
     Specimen& own() { return own_; }
     /// Of a view of the scene as it is, in the mean.
     double milliseconds();
+    /// Of cuts that save nothing, guessed.
+    double seconds_of_trial();
     /// Timed against `other`. Nothing where the cuts cannot be made, where the driver refuses the text, and
     /// where the error is more than the goal's, of the whole or of a part.
     std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal);

@@ -17,8 +17,10 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of the longer side of the pictures that are searched.
-constexpr int k_small = 128;
+/// Of the longer side of the pictures that are searched; of those with a cut that hangs on their size.
+constexpr int k_small = 128, k_fine = 512;
+/// These are drawn where one trial takes at most this part of the seconds there are.
+constexpr double k_fine_trial = 0.1;
 /// Until when, as parts of the seconds there are, cuts are tried alone and together; the rest is the
 /// verdict's.
 constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
@@ -54,8 +56,10 @@ public:
         std::erase_if(places.cuts,
                       [&](const glsl::Cut& cut) { return !request_.can_be_written(cut.change); });
         auto bench = TRY(CutBench::create(scene_, small, request_.views));
-        try_alone(bench, places.cuts);
-        combine(bench);
+        auto fine = fine_bench(bench, places.cuts);
+        CutBench& finer = fine ? *fine : bench;
+        try_alone(bench, finer, places.cuts);
+        combine(std::ranges::any_of(good_, &ChosenCut::hangs_on_size) ? finer : bench);
         Simplified found{{TRY(judge(bench)), {}}, {}};
         choose(found, std::move(places.left));
         return found;
@@ -68,16 +72,32 @@ private:
 
     bool keeps(double error) const { return error <= *request_.goal.most_error; }
 
-    void try_alone(CutBench& bench, const std::vector<glsl::Cut>& cuts) {
+    /// Nothing where no cut needs it, and where it is too slow.
+    std::optional<CutBench> fine_bench(CutBench& bench, const std::vector<glsl::Cut>& cuts) const {
+        const Extent fine = small_of(request_.extent, k_fine);
+        const double trial = bench.seconds_of_trial() * larger(fine);
+        if (std::ranges::none_of(cuts, &glsl::Cut::hangs_on_size) || trial > k_fine_trial * request_.seconds)
+            return std::nullopt;
+        auto made = CutBench::create(scene_, fine, request_.views);
+        return made ? std::optional(*std::move(made)) : std::nullopt;
+    }
+
+    /// How many times the pixels of the pictures that are searched.
+    double larger(Extent extent) const {
+        return double(extent.pixels()) / double(small_of(request_.extent, k_small).pixels());
+    }
+
+    void try_alone(CutBench& bench, CutBench& finer, const std::vector<glsl::Cut>& cuts) {
         watch_.begin("cuts tried", cuts.size());
         for (const glsl::Cut& cut : cuts) {
             if (!goes_on(k_alone))
                 break;
             ++tried_;
             watch_.advance();
-            const auto trial = bench.try_cuts(std::span(&cut.change, 1), bench.own(), searched_);
+            CutBench& own = cut.hangs_on_size ? finer : bench;
+            const auto trial = own.try_cuts(std::span(&cut.change, 1), own.own(), searched_);
             if (trial && trial->time <= k_pays)
-                good_.push_back({cut.change, trial->error, trial->time});
+                good_.push_back({cut.change, trial->error, trial->time, cut.hangs_on_size});
         }
         known_ = cuts.size();
         // What shows nowhere comes first, of those that save as much the one of the most words; then what
@@ -115,9 +135,8 @@ private:
 
     /// Of one round of one point at full size, guessed from a small picture.
     double seconds_a_round(CutBench& bench) const {
-        const double area =
-            double(request_.extent.pixels()) / double(small_of(request_.extent, k_small).pixels());
-        return bench.milliseconds() * 1e-3 * area * double(request_.views.size() + std::size(k_later));
+        return bench.milliseconds() * 1e-3 * larger(request_.extent) *
+               double(request_.views.size() + std::size(k_later));
     }
 
     /// The last of them, and others evenly along the way, as many as there is time for.

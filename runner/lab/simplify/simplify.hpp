@@ -22,6 +22,7 @@ struct ChosenCut {
     glsl::Cure change;
     double error = 0; ///< of it alone, in the searched pictures
     double time = 1;  ///< of a frame with it alone, as a part of that without
+    bool hangs_on_size = false;
 };
 
 struct Simplified : SearchOutcome {

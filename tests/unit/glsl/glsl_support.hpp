@@ -17,10 +17,10 @@ inline ShaderSource source_of(std::string_view text) {
     return assemble(scene, scene.image());
 }
 
-/// As if it stood in a file "a.glsl".
-inline std::unique_ptr<const ParsedText> parsed(const std::string& text) {
+/// As if it stood in that file.
+inline std::unique_ptr<const ParsedText> parsed(const std::string& text, const char* file = "a.glsl") {
     text::MappedText source;
-    source.append(text, "a.glsl", 1);
+    source.append(text, file, 1);
     return *ParsedText::read(std::move(source), {});
 }
 

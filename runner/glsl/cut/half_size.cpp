@@ -1,0 +1,157 @@
+#include "glsl/cut/half_size.hpp"
+
+#include "glsl/specialise/globals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace tidemark::glsl {
+namespace {
+
+/// Of its pixels, three of four are not drawn.
+constexpr double k_saved = 0.75;
+
+NodeId find_main(const ParsedText& text) {
+    for (const Global& global : find_globals(text))
+        if (text.tree()[global.node].kind == NodeKind::function && global.names[0] == "mainImage" &&
+            body_of_function(text, global.node) != k_no_node)
+            return global.node;
+    return k_no_node;
+}
+
+bool says(const ParsedText& text, std::string_view name) {
+    for (size_t i = 0; i < text.words().size(); ++i)
+        if (text.word(i) == name && !text.used(i).file.empty())
+            return true;
+    return false;
+}
+
+/// The files of which several passes are made.
+std::set<std::string> shared_files(std::span<const BufferReader> passes) {
+    std::map<std::string, size_t> owners;
+    std::set<std::string> shared;
+    for (size_t pass = 0; pass < passes.size(); ++pass)
+        for (size_t i = 0; i < passes[pass].text.words().size(); ++i) {
+            const std::string file = passes[pass].text.used(i).file;
+            if (!file.empty() && owners.try_emplace(file, pass).first->second != pass)
+                shared.insert(file);
+        }
+    return shared;
+}
+
+/// Wraps that make the look-ups of one sampler find the buffer in its quarter: no nearer to its edge than
+/// what a sampler that repeats would mix with the other edge's.
+class LookUps {
+public:
+    LookUps(const BufferReader& reader, const BufferSampler& sampler)
+        : text_(reader.text), tree_(text_.tree()), facts_(reader.facts), sampler_(sampler) {}
+
+    /// Nothing where one cannot be led there.
+    std::optional<std::vector<Wrap>> run() {
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            const bool named = tree_[id].kind == NodeKind::name && text_.word_of(id) == sampler_.name &&
+                               !text_.used(tree_[id].word).file.empty();
+            if (named && !lead(id))
+                return std::nullopt;
+        }
+        return std::move(wraps_);
+    }
+
+private:
+    bool lead(NodeId sampler) {
+        const NodeId call = tree_[sampler].parent;
+        if (tree_[call].kind != NodeKind::call || tree_.child_count(call) < 3 ||
+            tree_.child(call, 1) != sampler || facts_.function(called_name(text_, call)))
+            return false;
+        const auto said = written_for(text_, sampler, call);
+        const auto place = written_for(text_, tree_.child(call, 2), call);
+        // Of a macro that is given its sampler, other samplers' look-ups would be led there, too.
+        if (!said || !place || text_.tokens()[said->first].text != sampler_.name)
+            return false;
+        const std::string_view name = called_name(text_, call);
+        const size_t operands = tree_.child_count(call) - 1;
+        if ((name == "texture" && operands == 2) || (name == "textureLod" && operands == 3))
+            add(sampler_.repeats ? wrapped(text_, *place, "max(0.5 * fract(", "), 0.5 / iResolution.xy)")
+                                 : wrapped(text_, *place, "0.5 * clamp(", ", 0.0, 1.0)"));
+        else if (name == "texelFetch" && operands == 3)
+            return lead_fetch(call, *place);
+        else
+            return false;
+        return true;
+    }
+
+    /// By a whole pixel: what is there now lies between four.
+    bool lead_fetch(NodeId call, WrittenTokens place) {
+        const auto whole = written_for(text_, call, call);
+        const auto level = written_for(text_, tree_.child(call, 3), call);
+        if (!whole || !level || level->first != level->last || text_.tokens()[level->first].text != "0" ||
+            text_.tokens()[whole->first].text != "texelFetch")
+            return false;
+        add(in_place_of(text_, {whole->first, whole->first}, "textureLod"));
+        add(wrapped(text_, place, "max(0.5 * (vec2(", ") + 0.5), 0.5) / iResolution.xy"));
+        add(in_place_of(text_, *level, "0.0"));
+        return true;
+    }
+
+    /// A macro's body is written once, however often it is used.
+    void add(Wrap wrap) {
+        if (std::ranges::find(wraps_, wrap) == wraps_.end())
+            wraps_.push_back(std::move(wrap));
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    const BufferSampler& sampler_;
+    std::vector<Wrap> wraps_{};
+};
+
+/// Of both dimensions half, and one pixel more: look-ups at the edge mix it in.
+std::optional<Wrap> drawn_small(const ParsedText& text, NodeId main) {
+    std::vector<NodeId> parameters;
+    for (const NodeId part : text.tree().children(main))
+        if (text.tree()[part].kind == NodeKind::parameter)
+            parameters.push_back(part);
+    if (parameters.size() != 2 || has_qualifier(text, text.tree().child(parameters[1], 0), "const"))
+        return std::nullopt;
+    const std::string_view colour = text.word_of(parameters[0]), place = text.word_of(parameters[1]);
+    return at_word(text, text.tree()[body_of_function(text, main)].begin, "",
+                   fmt::format(" if (any(greaterThan({1}, 0.5 * iResolution.xy + 1.0))) {{ {0} = "
+                               "vec4(0.0); return; }} {1} *= 2.0;",
+                               colour, place));
+}
+
+} // namespace
+
+std::optional<Cut> half_size(std::span<const BufferReader> passes, size_t buffer, const WorkEstimate& work) {
+    const ParsedText& text = passes[buffer].text;
+    const NodeId main = find_main(text);
+    if (main == k_no_node || !passes[buffer].samplers.empty() || says(text, "gl_FragCoord") ||
+        says(text, "mainHit"))
+        return std::nullopt;
+    auto drawn = drawn_small(text, main);
+    if (!drawn)
+        return std::nullopt;
+    const SourceLocation where = text.used(text.tree()[main].begin);
+    Cut cut{{{*std::move(drawn)},
+             fmt::format("{}:{}: draws the buffer at half its width and height", where.file, where.line)},
+            work.of(body_of_function(text, main)) * k_saved,
+            true};
+    for (const BufferReader& reader : passes)
+        for (const BufferSampler& sampler : reader.samplers) {
+            auto wraps = LookUps(reader, sampler).run();
+            if (!wraps)
+                return std::nullopt;
+            std::ranges::move(*wraps, std::back_inserter(cut.change.wraps));
+        }
+    const std::set<std::string> shared = shared_files(passes);
+    const bool read = cut.change.wraps.size() > 1;
+    const bool own = std::ranges::none_of(
+        cut.change.wraps, [&](const Wrap& wrap) { return shared.contains(wrap.first.where.file); });
+    return read && own ? std::optional(std::move(cut)) : std::nullopt;
+}
+
+} // namespace tidemark::glsl
