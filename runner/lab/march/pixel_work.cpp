@@ -28,12 +28,16 @@ bool knows_all(const ir::Function& function, const ir::TextureSet& textures) {
 
 } // namespace
 
-Result<PixelWork> count_work(const render::Renderer& renderer, const render::FrameInputs& inputs) {
-    const auto function = TRY(PassFunction::create(renderer.scene(), renderer.shown_pass()));
-    const ir::TextureSet textures = textures_of(renderer, renderer.shown_index());
+Result<PixelWork> count_work(const render::Renderer& renderer, size_t pass,
+                             const render::FrameInputs& inputs) {
+    const scene::Scene& scene = renderer.scene();
+    if (scene.passes[pass].kind == scene::PassKind::cubemap)
+        return fail(ErrorCode::load, "those of a cubemap pass are not followed");
+    const auto function = TRY(PassFunction::create(scene, scene.passes[pass]));
+    const ir::TextureSet textures = textures_of(renderer, pass);
     if (takes_derivatives(function.function()) || !knows_all(function.function(), textures))
         return fail(ErrorCode::load, "it takes derivatives, or reads what is not at hand");
-    ir::FloatEvaluator start = function.frame(renderer, renderer.shown_index(), inputs);
+    ir::FloatEvaluator start = function.frame(renderer, pass, inputs);
     start.textures = ir::textures_in<ir::Point<float>>(textures);
     const Extent extent = renderer.extent();
     const Stopwatch clock;

@@ -12,8 +12,9 @@ struct PixelWork {
     size_t pixels = 0;     ///< that were counted, on a grid
 };
 
-/// Of the shown pass, in the frame that the renderer has drawn from those inputs; as many pixels as some
-/// seconds allow. Fails where the text cannot be followed.
-Result<PixelWork> count_work(const render::Renderer& renderer, const render::FrameInputs& inputs);
+/// Of a pass, in the frame that the renderer has drawn from those inputs; as many pixels as some seconds
+/// allow. Fails where the text cannot be followed.
+Result<PixelWork> count_work(const render::Renderer& renderer, size_t pass,
+                             const render::FrameInputs& inputs);
 
 } // namespace tidemark::lab

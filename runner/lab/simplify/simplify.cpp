@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tidemark::lab {
 namespace {
@@ -238,18 +239,25 @@ private:
         const auto after = scene ? work_of(*scene) : fail(ErrorCode::load, "");
         if (!before || !after)
             return "its operations are not counted: " + to_string((before ? after : before).error());
-        return fmt::format("{:.0f} operations a pixel instead of {:.0f} (of Image, counted in the text on "
+        return fmt::format("{:.0f} operations a pixel instead of {:.0f} (of {}, counted in the text on "
                            "{} and {} pixels of {})",
-                           after->operations, before->operations, after->pixels, before->pixels,
-                           request_.views.front().name);
+                           after->operations, before->operations,
+                           scene_.passes.size() == 1 ? scene_.image().name : "all passes", after->pixels,
+                           before->pixels, request_.views.front().name);
     }
 
+    /// Of all passes, one pixel of each; counted on as many as of the pass with the fewest.
     Result<PixelWork> work_of(const scene::Scene& scene) const {
         auto renderer = TRY(
             render::Renderer::create(scene, {.extent = request_.extent, .samples = image::SampleType::f32}));
         const render::FrameState state = state_of(request_.views.front(), request_.extent);
         render::FrameStepper(renderer, state).draw(state.frame);
-        return count_work(renderer, inputs_of(state));
+        PixelWork sum{0, std::numeric_limits<size_t>::max()};
+        for (const render::PlannedPass& planned : renderer.plan().passes) {
+            const PixelWork work = TRY(count_work(renderer, planned.pass, inputs_of(state)));
+            sum = {sum.operations + work.operations, std::min(sum.pixels, work.pixels)};
+        }
+        return sum;
     }
 
     const scene::Scene& scene_;
