@@ -24,8 +24,6 @@ namespace {
 
 using image::Image;
 using image::SampleType;
-using Json = nlohmann::ordered_json;
-
 std::string base64_of(std::span<const std::byte> bytes) {
     return base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

@@ -3,8 +3,7 @@
 
 #include "base/result.hpp"
 #include "scene/channel.hpp"
-
-#include <nlohmann/json_fwd.hpp>
+#include "web/json.hpp"
 
 namespace tidemark::web {
 
@@ -13,6 +12,6 @@ inline constexpr size_t k_largest_file = size_t{64} << 20;
 
 /// `kind` says what the rest is: see host/media.js. Not for a PassOutput. Fails (ErrorCode::load) on a file
 /// that cannot be read or is too large.
-Result<nlohmann::ordered_json> input_data(const scene::Channel& channel);
+Result<Json> input_data(const scene::Channel& channel);
 
 } // namespace tidemark::web

@@ -6,8 +6,6 @@
 
 namespace tidemark::web {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 Json numbers(const scene::KnobValue& value, int count) {

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "scene/knob.hpp"
-
-#include <nlohmann/json_fwd.hpp>
+#include "web/json.hpp"
 
 namespace tidemark::web {
 
-nlohmann::ordered_json knob_data(const scene::Knob& knob);
+Json knob_data(const scene::Knob& knob);
 
 } // namespace tidemark::web

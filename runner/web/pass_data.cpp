@@ -12,8 +12,6 @@
 namespace tidemark::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string_view name_of(scene::PassKind kind) {
     switch (kind) {
     case scene::PassKind::buffer: return "buffer";

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
-
-#include <nlohmann/json_fwd.hpp>
+#include "web/json.hpp"
 
 #include <vector>
 
@@ -11,7 +10,7 @@ namespace tidemark::web {
 
 /// `name`, `kind`, `source` (GLSL ES 3.00: the author's text as WebGL has it, ours around it), `lines` (of
 /// the source from which on a file has which lines) and whether it `discards`.
-nlohmann::ordered_json pass_data(const scene::Scene& scene, const scene::Pass& pass);
+Json pass_data(const scene::Scene& scene, const scene::Pass& pass);
 
 /// The channels that the text may look at, ascending.
 std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass& pass);

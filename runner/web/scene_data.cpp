@@ -16,7 +16,6 @@
 namespace tidemark::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using scene::PassKind;
 
 /// A Sound pass gets what never changes, here as on the site.

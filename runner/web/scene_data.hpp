@@ -4,12 +4,11 @@
 
 #include "base/result.hpp"
 #include "scene/scene.hpp"
-
-#include <nlohmann/json_fwd.hpp>
+#include "web/json.hpp"
 
 namespace tidemark::web {
 
 /// Passes that nobody needs are left out, and inputs that no text names. Fails like `make_page`.
-Result<nlohmann::ordered_json> scene_data(const scene::Scene& scene);
+Result<Json> scene_data(const scene::Scene& scene);
 
 } // namespace tidemark::web

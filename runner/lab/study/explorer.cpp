@@ -13,6 +13,7 @@
 namespace tidemark::lab {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using report::escaped;
 
 std::string series_title(const WorkPrecisionSet& set, size_t series) {
@@ -69,7 +70,6 @@ std::string comparison(const PageMedia& media) {
 }
 
 std::string explorer_data(const WorkPrecisionSet& set) {
-    using Json = nlohmann::ordered_json;
     const auto known = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
     Json points = Json::array();
     for (size_t i = 0; i < set.points.size(); ++i) {

@@ -1,0 +1,10 @@
+// JSON as a page's scripts read it: members in the order in which they were written.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace tidemark::web {
+
+using Json = nlohmann::ordered_json;
+
+} // namespace tidemark::web
