@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/options.hpp"
+#include "render/frame_plan.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ void add_search_options(CLI::App& command, SearchOptions& options) {
         .add_option("--views", options.views,
                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4")
         ->type_name("LIST")
-        ->capture_default_str();
+        ->default_str(options.usual_views);
     command.add_option("--size", options.size, "Resolution in pixels [320x180]")->type_name("WxH");
     command.add_option("--for", options.seconds, "Seconds for the search and the timing, compiling aside")
         ->type_name("S")
@@ -27,9 +28,10 @@ void add_search_options(CLI::App& command, SearchOptions& options) {
     command.add_flag("--json", options.json, "What was chosen and its study on standard output");
 }
 
-Result<lab::SearchRequest> search_request(const SearchOptions& options) {
+Result<lab::SearchRequest> search_request(const SearchOptions& options, const scene::Scene& scene) {
     lab::SearchRequest request;
-    request.views = TRY(lab::parse_views(options.views));
+    const std::string& unasked = render::may_have_feedback(scene) ? options.early_views : options.usual_views;
+    request.views = TRY(lab::parse_views(options.views.empty() ? unasked : options.views));
     if (!options.size.empty())
         request.extent = TRY(parse_size(options.size));
     if (!(options.seconds > 0))

@@ -40,8 +40,8 @@ Result<lab::Goal> goal_of(const SimplifyOptions& options) {
     return goal;
 }
 
-Result<lab::SimplifyRequest> request_of(const SimplifyOptions& options) {
-    lab::SimplifyRequest request{TRY(search_request(options)), {}};
+Result<lab::SimplifyRequest> request_of(const SimplifyOptions& options, const scene::Scene& scene) {
+    lab::SimplifyRequest request{TRY(search_request(options, scene)), {}};
     request.goal = TRY(goal_of(options));
     return request;
 }
@@ -114,8 +114,8 @@ Result<void> show(const SimplifyOptions& options, const lab::Simplified& found) 
 
 Result<int> simplify(const SimplifyOptions& options) {
     Interrupt interrupt;
-    lab::SimplifyRequest request = TRY(request_of(options));
     const scene::Scene scene = TRY(load(options.scene));
+    lab::SimplifyRequest request = TRY(request_of(options, scene));
     TRY(can_be_changed(scene));
     request.can_be_written = [files = CuredFiles()](const glsl::Cure& cure) mutable {
         return files.with_last(std::span(&cure, 1)).has_value();
@@ -142,7 +142,8 @@ Result<int> simplify(const SimplifyOptions& options) {
 void add_simplify(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<SimplifyOptions>();
     options->most_error = "flip=0.01";
-    options->views = "1;4.3;10;31";
+    options->usual_views = "1;4.3;10;31";
+    options->early_views = "0.2;0.5;1;2";
     CLI::App* command = app.add_subcommand(
         "simplify", "Finds what a scene can do without, within a stated error of its picture");
     add_scene_options(*command, options->scene);

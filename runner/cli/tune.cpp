@@ -80,7 +80,7 @@ Result<std::vector<lab::QualitySetting>> settings_of(const TuneOptions& options,
 }
 
 Result<lab::TuneRequest> request_of(const TuneOptions& options, const scene::Scene& scene) {
-    lab::TuneRequest request{TRY(search_request(options)), {}};
+    lab::TuneRequest request{TRY(search_request(options, scene)), {}};
     request.goal = TRY(goal_of(options));
     request.settings = TRY(settings_of(options, scene));
     request.as_it_is = options.as_it_is;
@@ -148,7 +148,8 @@ Result<int> tune(const TuneOptions& options) {
 
 void add_tune(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<TuneOptions>();
-    options->views = "1;10";
+    options->usual_views = "1;10";
+    options->early_views = "0.5;1.5";
     CLI::App* command = app.add_subcommand(
         "tune", "Finds the fastest settings that keep an error, or the most exact that keep a time");
     add_scene_options(*command, options->scene);

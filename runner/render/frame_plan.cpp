@@ -130,6 +130,15 @@ FrameRef frame_ref(size_t reader, size_t source) {
     return source < reader ? FrameRef::current : FrameRef::previous;
 }
 
+bool may_have_feedback(const scene::Scene& scene) {
+    for (size_t reader = 0; reader < scene.passes.size(); ++reader)
+        for (const scene::Channel& channel : scene.passes[reader].channels)
+            if (const size_t* const source = scene::source_pass(channel.input);
+                source && frame_ref(reader, *source) == FrameRef::previous)
+                return true;
+    return false;
+}
+
 FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
                      size_t shown, const Extras& extras, const std::vector<size_t>& discarding) {
     return Planner(scene, reflections, extras, discarding).plan(shown);

@@ -52,6 +52,9 @@ bool needs_texture(const scene::ChannelInput& input, int number, const gl::Refle
 /// it in the last frame's.
 FrameRef frame_ref(size_t reader, size_t source);
 
+/// Whether a frame may depend on the one before it, as far as the channels tell without the texts.
+bool may_have_feedback(const scene::Scene& scene);
+
 /// The passes that `shown` needs, itself included. `reflections` has one entry for each pass of the scene;
 /// those without (not linked) are not drawn. `discarding`: the passes whose texts say `discard`, which leaves
 /// what the target held: of a buffer, as on the site, the frame before the last, because its two textures

@@ -82,6 +82,15 @@ void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / iResolution.x
         self.assertIn("p *= 2.0;", (self.folder / "smooth.glsl").read_text())
         self.assertIn("0.5 * fract(p / iResolution.xy)", (self.folder / "dear.glsl").read_text())
 
+    def test_frames_that_lead_to_the_next_are_searched_near_the_first(self):
+        self.write("dear.glsl", """#iChannel0 "self"
+void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolution.xy) + 0.1 * sin(iTime + p.x); }
+""")
+        found, said = self.simplify("--for", "3")
+        views = list(found["study"]["points"][0]["views"])
+        self.assertEqual(views[:4], ["t=0.2", "t=0.5", "t=1", "t=2"], said)
+        self.assertLess(max(float(view.removeprefix("t=").split(",")[0]) for view in views), 6)
+
     def test_a_loop_without_an_end_is_named_and_left(self):
         self.write("dear.glsl", SCENE.replace("for (int i = 0; i < 5000; ++i) {", "int i = -1; for (;;) { ++i;"))
         found, said = self.simplify("--exact")

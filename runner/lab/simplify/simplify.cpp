@@ -33,8 +33,9 @@ constexpr double k_alike = 0.05;
 constexpr double k_margin = 0.8;
 /// Steps of the way that are judged at full size, each in so many rounds at least.
 constexpr size_t k_most_steps = 6, k_fewest_rounds = 9;
-/// Moments that no search has seen, seconds behind those that it saw.
-constexpr double k_later[] = {2.7, 13.1, 47.3};
+/// Moments that no search has seen, so far behind the last that it saw as parts of that one's time; but not
+/// of less than a second.
+constexpr double k_later[] = {0.087, 0.423, 1.53};
 
 std::vector<glsl::Cure> changes_of(const std::vector<ChosenCut>& cuts) {
     std::vector<glsl::Cure> changes;
@@ -164,8 +165,9 @@ private:
         study.about = "What can be left out of the scene, held against the scene as it is.";
         study.extent = request_.extent;
         study.views = request_.views;
+        const View& last = request_.views.back();
         for (const double later : k_later)
-            study.views.push_back(unseen(request_.views.back(), later));
+            study.views.push_back(unseen(last, later * std::max(last.state.seconds(), 1.0)));
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
         const Timing timing{2, 30, std::max(needed, k_timing * request_.seconds)};
         Watch watch = watch_;
