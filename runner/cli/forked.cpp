@@ -2,6 +2,7 @@
 
 #include "base/doing.hpp"
 #include "cli/memory_limit.hpp"
+#include "cli/supervisor.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -84,6 +85,16 @@ int status_of(pid_t child) {
     return status;
 }
 
+/// Drivers also call exit, when they have no other way to say that something is wrong.
+std::string crash_of(int status, const std::string& doing) {
+    if (WIFSIGNALED(status))
+        return crash_text(WTERMSIG(status), doing);
+    if (WEXITSTATUS(status) != 0)
+        return fmt::format("the driver ended the process (exit code {}){}{}", WEXITSTATUS(status),
+                           doing.empty() ? "" : " ", doing);
+    return {};
+}
+
 } // namespace
 
 Result<ForkedHelper> ForkedHelper::start(const Work& work) {
@@ -154,10 +165,10 @@ ForkedResult ForkedHelper::finish(bool ended) {
     if (!ended)
         ::kill(child_, SIGKILL);
     const int status = status_of(std::exchange(child_, -1));
-    if (ended && WIFSIGNALED(status))
-        result.signal = WTERMSIG(status);
-    if (!ended || result.signal != 0)
+    if (!ended || status != 0)
         result.doing = Doing::left_behind();
+    if (ended)
+        result.crash = crash_of(status, result.doing);
     result.output.resize(result.output.rfind('\n') + 1);
     return result;
 }

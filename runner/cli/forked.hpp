@@ -18,7 +18,7 @@ struct ForkedResult {
     bool timed_out = false;   ///< it was ended after `seconds`
     bool over_memory = false; ///< or when it had taken more memory than it may
     bool unwanted = false;    ///< or because nobody wanted it any more
-    int signal = 0;           ///< that ended it otherwise; 0: it came to its end
+    std::string crash{};      ///< or how something in it, a driver, ended it; empty: it came to its end
     std::string doing{};      ///< where it did not come to its end: what a driver was at, if one was
 };
 

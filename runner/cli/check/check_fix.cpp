@@ -11,7 +11,6 @@
 #include "cli/error_json.hpp"
 #include "cli/forked.hpp"
 #include "cli/options.hpp"
-#include "cli/supervisor.hpp"
 #include "cli/version.hpp"
 #include "gl/reset.hpp"
 #include "platform/headless_context.hpp"
@@ -144,9 +143,8 @@ private:
 
 /// Why it came to no end of its own; empty: it did.
 std::string why_cut(const ForkedResult& run, double budget) {
-    return run.timed_out     ? fmt::format("--budget of {:.3g} s is spent: there may be more", budget)
-           : run.signal != 0 ? crash_text(run.signal, run.doing)
-                             : "";
+    return run.timed_out ? fmt::format("--budget of {:.3g} s is spent: there may be more", budget)
+                         : run.crash;
 }
 
 } // namespace

@@ -11,7 +11,6 @@
 #include "cli/forked.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
-#include "cli/supervisor.hpp"
 #include "gl/reset.hpp"
 #include "glsl/overrides.hpp"
 #include "image/files/picture_file.hpp"
@@ -173,12 +172,12 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             return heard;
         if (probes.empty())
             break;
-        const bool ended_by_itself = !run->timed_out && run->signal == 0 && probes.size() < before;
+        const bool ended_by_itself = !run->timed_out && run->crash.empty() && probes.size() < before;
         if (ended_by_itself) // the driver was reset: the next probes get another context
             continue;
         ProbeResult last{probes.front(), {Verdict::cut, k_not_finished}};
-        if (run->signal != 0)
-            last.answer = {Verdict::fail, crash_text(run->signal, run->doing)};
+        if (!run->crash.empty())
+            last.answer = {Verdict::fail, run->crash};
         last.seconds = seconds_since(began) - seconds;
         if (auto taken = take(std::move(last)); !taken)
             return taken;

@@ -3,7 +3,6 @@
 #include "base/try.hpp"
 #include "cli/error_json.hpp"
 #include "cli/state_json.hpp"
-#include "cli/supervisor.hpp"
 #include "gl/capabilities.hpp"
 #include "platform/headless_context.hpp"
 
@@ -49,7 +48,7 @@ Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& s
     if (run.timed_out)
         return fail(ErrorCode::timed_out, fmt::format("one thread gave up after {:.3g} s", seconds));
     if (run.output.empty())
-        return fail(ErrorCode::load, crash_text(run.signal, run.doing));
+        return fail(ErrorCode::load, run.crash);
     const Json bits = Json::parse(run.output);
     if (auto error = error_of(bits))
         return fail(*std::move(error));

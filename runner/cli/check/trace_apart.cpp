@@ -3,7 +3,6 @@
 #include "base/try.hpp"
 #include "cli/check/trace_text.hpp"
 #include "cli/forked.hpp"
-#include "cli/supervisor.hpp"
 #include "gl/reset.hpp"
 #include "platform/headless_context.hpp"
 
@@ -74,9 +73,7 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
         return fail(*std::move(error));
     TraceFound result;
     result.found = line.contains("trace");
-    result.ended = run->timed_out     ? fmt::format("gave up after {:.3g} s", seconds)
-                   : run->signal != 0 ? crash_text(run->signal, run->doing)
-                                      : "";
+    result.ended = run->timed_out ? fmt::format("gave up after {:.3g} s", seconds) : run->crash;
     if (run->timed_out && heard.frame >= 0)
         result.ended +=
             fmt::format(" at frame {} of {}: a scene with feedback is drawn frame by frame from {}",

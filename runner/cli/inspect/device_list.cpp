@@ -2,7 +2,6 @@
 
 #include "cli/forked.hpp"
 #include "cli/json_dump.hpp"
-#include "cli/supervisor.hpp"
 
 #include <fmt/format.h>
 
@@ -54,11 +53,11 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
             });
         if (!run)
             return fail(run.error());
-        if (!run->timed_out && run->signal == 0)
+        if (!run->timed_out && run->crash.empty())
             return found;
         const std::string what =
             run->timed_out ? fmt::format("the driver does not start within {:.0f} s", k_patience_seconds)
-                           : crash_text(run->signal, run->doing);
+                           : run->crash;
         if (!in_hand)
             return fail(ErrorCode::no_context, "listing OpenGL's devices: " + what);
         in_hand->reason = what;

@@ -5,7 +5,6 @@
 #include "cli/forked.hpp"
 #include "cli/inspect/device_list.hpp"
 #include "cli/json_dump.hpp"
-#include "cli/supervisor.hpp"
 #include "cli/version.hpp"
 #include "lab/device/device_check.hpp"
 
@@ -80,12 +79,12 @@ Result<Json> verdicts_on(const HeadlessDevice& device) {
     Json verdicts = Json::array();
     const auto run = TRY(run_forked([&](const Tell& tell) { ask_all(device, tell); }, k_self_test_seconds,
                                     [&](std::string_view line) { verdicts.push_back(Json::parse(line)); }));
-    if (!run.timed_out && run.signal == 0)
+    if (!run.timed_out && run.crash.empty())
         return verdicts;
     verdicts.push_back({{"check", std::string(lab::device_checks()[verdicts.size()].name)},
                         {"verdict", "fail"},
                         {"says", run.timed_out ? fmt::format("no answer within {:.0f} s", k_self_test_seconds)
-                                               : crash_text(run.signal, run.doing)}});
+                                               : run.crash}});
     return verdicts;
 }
 

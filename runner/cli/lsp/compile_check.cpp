@@ -65,8 +65,8 @@ Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts,
 }
 
 Diagnostics left_by(const ForkedResult& result, const ForkedLimits& limits) {
-    if (result.signal != 0)
-        return {{{}, Severity::error, crash_text(result.signal, result.doing)}};
+    if (!result.crash.empty())
+        return {{{}, Severity::error, result.crash}};
     const std::string what = result.doing.empty() ? "the scene" : result.doing;
     if (result.timed_out)
         return {{{}, Severity::error, fmt::format("{} takes more than {:.3g} s", what, limits.seconds)}};

@@ -55,7 +55,7 @@ std::string tried(const Rehearsal::Play& play, uint64_t memory, int socket) {
     if (run->over_memory)
         return fmt::format("{} takes more than {} of memory (--memory)",
                            run->doing.empty() ? "the scene" : run->doing, memory_text(memory));
-    return run->signal != 0 ? crash_text(run->signal, run->doing) : std::string();
+    return run->crash;
 }
 
 [[noreturn]] void be_child(pid_t parent, int socket, const Rehearsal::Play& play, uint64_t memory) {

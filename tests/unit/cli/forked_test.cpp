@@ -25,7 +25,7 @@ TEST(Forked, WhatWasToldSurvives) {
     const auto run = run_forked([](const Tell& tell) { tell("one"), tell("two"); }, 60);
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "one\ntwo\n");
-    EXPECT_EQ(run->signal, 0);
+    EXPECT_EQ(run->crash, "");
     EXPECT_FALSE(run->timed_out);
 }
 
@@ -58,7 +58,7 @@ TEST(Forked, WhatNobodyWantsIsEnded) {
                                 {.seconds = 60, .unwanted = [&] { return ++asked == 3; }});
     ASSERT_TRUE(run);
     EXPECT_TRUE(run->unwanted);
-    EXPECT_EQ(run->signal, 0);
+    EXPECT_EQ(run->crash, "");
 }
 
 TEST(Forked, WhatTheDriverWasAtIsKnown) {
@@ -71,8 +71,15 @@ TEST(Forked, WhatTheDriverWasAtIsKnown) {
         60);
     Doing::note_on(nullptr);
     ASSERT_TRUE(run);
-    EXPECT_EQ(run->signal, SIGKILL);
+    EXPECT_EQ(run->crash, "the driver crashed (SIGKILL) compiling Image");
     EXPECT_EQ(run->doing, "compiling Image");
+}
+
+TEST(Forked, ADriverThatEndsTheProcessIsSaid) {
+    const auto run = run_forked([](const Tell&) { ::_exit(66); }, 60);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->crash, "the driver ended the process (exit code 66)");
+    EXPECT_EQ(run_forked([](const Tell&) {}, 60)->crash, "");
 }
 
 TEST(Forked, AHelperThatCrashesIsSaid) {
@@ -80,7 +87,7 @@ TEST(Forked, AHelperThatCrashesIsSaid) {
     const auto run = helper->ask("crash", 60);
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "asked: crash\nbefore\n");
-    EXPECT_EQ(run->signal, SIGKILL);
+    EXPECT_EQ(run->crash, "the driver crashed (SIGKILL)");
 }
 
 TEST(Forked, AHelperHasItsTime) {
