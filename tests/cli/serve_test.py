@@ -1,5 +1,4 @@
 """tidemark serve: what viewers get and may do, by a client over plain sockets, and who is not let in."""
-import itertools
 import os
 import signal
 import socket
@@ -98,13 +97,13 @@ class Pictures(Serve):
         self.assertEqual(shown[0]["coding"], "key")
         # RFC 6386, 9.1: a key frame, its start code and its size.
         self.assertEqual((shown[1][0] & 1, shown[1][3:10]), (0, b"\x9d\x01\x2a" + bytes([64, 0, 36, 0])))
-        coded = [shown]
-        while sum(head["coding"] == "delta" for head, _ in coded) < 10:
-            coded.append(viewer.picture())
-        for (before, _), (head, film) in itertools.pairwise(coded):
-            if head["coding"] == "delta":
-                self.assertEqual(film[0] & 1, 1)
-                self.assertNotEqual(before["coding"], "jpeg", "one that was slow gets a key first")
+        deltas = 0
+        while deltas < 10:
+            head, film = viewer.picture()
+            if head["coding"] == "jpeg":  # so slow that the film seemed to stand still
+                continue
+            self.assertEqual((head["coding"], film[0] & 1), ("delta", 1))
+            deltas += 1
         self.assertEqual(other.picture()[0]["coding"], "jpeg")
         viewer.send("pause")
         while viewer.picture()[0]["coding"] != "jpeg":
