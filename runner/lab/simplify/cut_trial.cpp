@@ -96,7 +96,7 @@ double CutBench::milliseconds() {
 }
 
 double CutBench::seconds_of_trial() {
-    const double drawn = double(views_.size() * (1 + 2 * k_fewest_trials));
+    const auto drawn = double(views_.size() * (1 + 2 * k_fewest_trials));
     return milliseconds() * 1e-3 * drawn;
 }
 
