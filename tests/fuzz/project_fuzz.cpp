@@ -11,7 +11,7 @@ using namespace tidemark;
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     for (const char* id : {"", "abCD12"}) {
-        const auto saved = scene::saved_project(text_of(data, size), id, "x.html");
+        const auto saved = scene::saved_project(std::string(text_of(data, size)), id, "x.html");
         REQUIRE(saved || !to_string(saved.error()).empty());
     }
     (void)scene::projects_in_page(text_of(data, size));

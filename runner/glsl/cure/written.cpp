@@ -92,6 +92,22 @@ NodeId body_of_function(const ParsedText& text, NodeId function) {
     return k_no_node;
 }
 
+std::vector<NodeId> parameters_of(const ParsedText& text, NodeId function) {
+    std::vector<NodeId> parameters;
+    for (const NodeId part : text.tree().children(function))
+        if (text.tree()[part].kind == NodeKind::parameter)
+            parameters.push_back(part);
+    return parameters;
+}
+
+NodeId find_main_image(const ParsedText& text) {
+    for (NodeId id = 1; id < text.tree().nodes.size(); ++id)
+        if (text.tree()[id].kind == NodeKind::function && text.word_of(id) == "mainImage" &&
+            body_of_function(text, id) != k_no_node)
+            return id;
+    return k_no_node;
+}
+
 std::optional<Wrap> at_word(const ParsedText& text, size_t word, std::string front, std::string behind) {
     const Word& at = text.words()[word];
     if (at.from_macro() || text.spelled(word).file.empty())

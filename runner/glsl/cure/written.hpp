@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tidemark::glsl {
 
@@ -30,6 +31,9 @@ std::optional<Wrap> at_word(const ParsedText& text, size_t word, std::string fro
 
 /// k_no_node of a prototype.
 NodeId body_of_function(const ParsedText& text, NodeId function);
+std::vector<NodeId> parameters_of(const ParsedText& text, NodeId function);
+/// Where it is defined; k_no_node: nowhere.
+NodeId find_main_image(const ParsedText& text);
 
 /// `wanted`, or that with a number, from `number` on: one that no word of the text has. 1 is not written.
 std::string fresh_name(const ParsedText& text, std::string_view wanted, size_t number = 1);

@@ -1,7 +1,5 @@
 #include "glsl/cut/half_size.hpp"
 
-#include "glsl/specialise/globals.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,14 +11,6 @@ namespace {
 
 /// Of its pixels, three of four are not drawn.
 constexpr double k_saved = 0.75;
-
-NodeId find_main(const ParsedText& text) {
-    for (const Global& global : find_globals(text))
-        if (text.tree()[global.node].kind == NodeKind::function && global.names[0] == "mainImage" &&
-            body_of_function(text, global.node) != k_no_node)
-            return global.node;
-    return k_no_node;
-}
 
 bool says(const ParsedText& text, std::string_view name) {
     for (size_t i = 0; i < text.words().size(); ++i)
@@ -111,10 +101,7 @@ private:
 
 /// Of both dimensions half, and one pixel more: look-ups at the edge mix it in.
 std::optional<Wrap> drawn_small(const ParsedText& text, NodeId main) {
-    std::vector<NodeId> parameters;
-    for (const NodeId part : text.tree().children(main))
-        if (text.tree()[part].kind == NodeKind::parameter)
-            parameters.push_back(part);
+    const std::vector<NodeId> parameters = parameters_of(text, main);
     if (parameters.size() != 2 || has_qualifier(text, text.tree().child(parameters[1], 0), "const"))
         return std::nullopt;
     const std::string_view colour = text.word_of(parameters[0]), place = text.word_of(parameters[1]);
@@ -128,7 +115,7 @@ std::optional<Wrap> drawn_small(const ParsedText& text, NodeId main) {
 
 std::optional<Cut> half_size(std::span<const BufferReader> passes, size_t buffer, const WorkEstimate& work) {
     const ParsedText& text = passes[buffer].text;
-    const NodeId main = find_main(text);
+    const NodeId main = find_main_image(text);
     if (main == k_no_node || !passes[buffer].samplers.empty() || says(text, "gl_FragCoord") ||
         says(text, "mainHit"))
         return std::nullopt;

@@ -37,14 +37,12 @@ private:
     std::string file_of(NodeId id) const { return text_.used(tree_[id].begin).file; }
 
     bool find_main() {
-        for (const Global& global : globals_)
-            if (tree_[global.node].kind == NodeKind::function && global.names[0] == "mainImage" &&
-                body_of_function(text_, global.node) != k_no_node)
-                main_ = global.node;
-        for (const NodeId part : tree_.children(main_))
-            if (tree_[part].kind == NodeKind::parameter)
-                parameters_.push_back(text_.word_of(part));
-        return main_ != k_no_node;
+        main_ = find_main_image(text_);
+        if (main_ == k_no_node)
+            return false;
+        for (const NodeId parameter : parameters_of(text_, main_))
+            parameters_.push_back(text_.word_of(parameter));
+        return true;
     }
 
     /// Before it, or in its place.
