@@ -17,7 +17,8 @@ T value_of(Result<T>&& result) {
 } // namespace tidemark
 
 /// The value of a Result; where it is an error, the function around returns that. A statement expression,
-/// which GCC and clang have.
+/// which GCC and clang have. What the same expression has made by then is not destroyed: it stands first in
+/// its statement, `T{TRY(a), b}`, and not behind anything that owns memory.
 #define TRY(...)                                                                                             \
     __extension__({                                                                                          \
         auto tidemark_result = (__VA_ARGS__);                                                                \

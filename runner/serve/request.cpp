@@ -97,7 +97,8 @@ Result<Request> turn_knob(const Json& message) {
 
 /// A number alone: whatever else stands there would become part of a shader's text.
 Result<Request> define(const Json& message) {
-    live::Define define{TRY(name_in(message, "name")), TRY(name_in(message, "value"))};
+    live::Define define{TRY(name_in(message, "name")), {}};
+    define.value = TRY(name_in(message, "value"));
     if (!live::definition_field(define.name, define.value, true))
         return refused("value", "a decimal number");
     return command(std::move(define));

@@ -56,7 +56,8 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
         found = renderers_.emplace(std::move(key), *std::move(made)).first;
     }
     render::Renderer& renderer = found->second;
-    renderer.turn(turned(renderer.scene().knobs, TRY(in_state(scene_, state)).knobs));
+    const scene::Scene wanted = TRY(in_state(scene_, state));
+    renderer.turn(turned(renderer.scene().knobs, wanted.knobs));
     if (renderer.extent() != state.extent)
         TRY(renderer.resize(state.extent));
     return &renderer;

@@ -78,8 +78,10 @@ private:
     Result<Findings> compare(const std::vector<std::vector<Setting>>& points, const Study& study,
                              const Timing& timing, const Watch& watch) const {
         std::vector<std::pair<std::string, scene::Scene>> scenes;
-        for (const std::vector<Setting>& settings : points)
-            scenes.emplace_back(to_string(settings), TRY(with(scene_, settings)));
+        for (const std::vector<Setting>& settings : points) {
+            scene::Scene changed = TRY(with(scene_, settings));
+            scenes.emplace_back(to_string(settings), std::move(changed));
+        }
         Findings findings = TRY(compare_scenes(scene_, scenes, study, timing, watch, facts_));
         for (size_t i = 1; i < findings.set.points.size(); ++i)
             findings.set.points[i].point.settings = points[i - 1];

@@ -76,7 +76,8 @@ Result<Command> turn(const OscMessage& message, std::span<const scene::Knob> kno
     }
     if (slash != rest.npos)
         return turn_component(*knob, rest.substr(slash + 1), message);
-    return TurnKnob{knob->name, TRY(value_of(*knob, message.arguments))};
+    const auto value = TRY(value_of(*knob, message.arguments));
+    return TurnKnob{knob->name, value};
 }
 
 Result<Command> seek(const OscMessage& message) {
