@@ -16,7 +16,7 @@ namespace tidemark::cli {
 
 struct SearchOptions {
     SceneRequest scene;
-    std::string most_error; ///< each search reads it in its own way
+    std::string most_error;  ///< each search reads it in its own way
     std::string usual_views; ///< of each search its own
     std::string early_views; ///< where each frame leads to the next, so that all before one are drawn for it
     std::string views;       ///< empty: those
