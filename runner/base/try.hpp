@@ -17,8 +17,8 @@ T value_of(Result<T>&& result) {
 } // namespace tidemark
 
 /// The value of a Result; where it is an error, the function around returns that. A statement expression,
-/// which GCC and clang have. What the same expression has made by then is not destroyed: it stands first in
-/// its statement, `T{TRY(a), b}`, and not behind anything that owns memory.
+/// which GCC and clang have. clang 14 does not destroy what the same expression has made by then: it stands
+/// first in its statement, `T{TRY(a), b}`, and not behind anything that owns memory.
 #define TRY(...)                                                                                             \
     __extension__({                                                                                          \
         auto tidemark_result = (__VA_ARGS__);                                                                \

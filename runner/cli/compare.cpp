@@ -23,6 +23,7 @@ namespace tidemark::cli {
 namespace {
 
 using image::PictureMetrics;
+
 /// One number of a comparison: how it is called, and the option that limits it.
 struct Metric {
     const char* key;   ///< in JSON

@@ -24,6 +24,7 @@ namespace {
 
 using image::Image;
 using image::SampleType;
+
 std::string base64_of(std::span<const std::byte> bytes) {
     return base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

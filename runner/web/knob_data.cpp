@@ -5,7 +5,6 @@
 #include <vector>
 
 namespace tidemark::web {
-
 namespace {
 
 Json numbers(const scene::KnobValue& value, int count) {

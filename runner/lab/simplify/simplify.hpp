@@ -20,9 +20,9 @@ struct SimplifyRequest : SearchRequest {
 /// A cut that was chosen.
 struct ChosenCut {
     glsl::Cure change;
-    double error = 0; ///< of it alone, in the searched pictures
-    double time = 1;  ///< of a frame with it alone, as a part of that without
-    bool hangs_on_size = false;
+    double error = 0;           ///< of it alone, in the searched pictures
+    double time = 1;            ///< of a frame with it alone, as a part of that without
+    bool hangs_on_size = false; ///< as glsl::Cut has it
 };
 
 struct Simplified : SearchOutcome {
