@@ -20,7 +20,7 @@
 // it is at (0,0), where it is before its first click, the view is `default_turn`.
 //
 // Knobs that are compiled in:
-#define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's; its slope bound is proved here
+#define SOLVER MARCH_BRACKET // one of lib/march.glsl's, but for MARCH_SEGMENT; its slope bound is proved here
 #define MAX_STEPS 512         // field samples along a ray
 #define HIT_DISTANCE 0.001 // MARCH_SPHERE: value of the field that counts as touching
 #define FIXED_STEP 0.25    // MARCH_FIXED: distance of its samples; wants MAX_STEPS to reach far_distance

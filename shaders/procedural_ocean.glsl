@@ -20,7 +20,7 @@
 // while it is at (0,0), where it is before its first click, the view is `default_turn`.
 //
 // Knobs that are compiled in:
-#define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's
+#define SOLVER MARCH_BRACKET // how a ray finds the water: one of lib/march.glsl's, but for MARCH_SEGMENT
 #define INTEGER_HASH 1       // 1: the same sea on every GPU; 0: fract(sin(n) * 43785.5), which is not
 #define MAX_STEPS 512        // field samples along a ray
 #define HIT_DISTANCE 0.001   // MARCH_SPHERE: value of the field that counts as touching

@@ -42,6 +42,7 @@
 #endif
 #define OCTAVES 7           // 1..12; the document's iterationCount. Each is 1.75 x finer and 0.51 x lower
 #define HIT_DISTANCE 0.0001 // MARCH_SPHERE: value of the field that counts as touching
+#define BEND_SCALE 1.0      // MARCH_CERTIFIED: part of the proved bend that its steps reckon with; below 1 they dare
 #define FIXED_STEP 0.1      // MARCH_FIXED: distance of its samples; wants MAX_STEPS to reach far_distance
 #define SLOPE_DISTANCE 0.01 // half of the distance that differences are taken over
 //
@@ -206,26 +207,89 @@ float march_field(float t) {
 }
 
 #if SOLVER == MARCH_CERTIFIED
-// No octave is negative, so every sum of the coarsest ones is a lower bound, and with its own, smaller slope
-// (3/2 a cell and octave, lib/noise.glsl) it may prove more than the whole. The best of all of them.
+// How far v + s x - b x^2 / 2 stays above zero, from x = 0 on.
+float free_ahead(float v, float s, float b) {
+    if (v <= 0.0) {
+        return 0.0;
+    }
+    float root = sqrt(s * s + 2.0 * b * v);
+    return s < 0.0 ? 2.0 * v / (root - s) : (s + root) / max(b, 1e-9);
+}
+
+// No octave is negative, so every sum of the coarsest ones is a lower bound, and as it bends less it may prove
+// more than the whole: the best of all of them. Where an octave folds, the branch that it is on goes on smoothly
+// below the fold, |sin(n - 1/2)| >= +-sin(n - 1/2), so that no kink has to be reckoned with. The second
+// derivative of that, along a unit of the lattice, is at most 6 + sin(1/2) (3/2)^2 < 7.1 (lib/noise.glsl).
 vec2 march_clearance(float t) {
     vec3 position = ray_origin + t * ray_direction;
+    float bob_rise = bob_height * bob_frequency * ray_direction.x;
     float sum = position.y + bob(position.x);
-    float slope = abs(ray_direction.y) + bob_height * bob_frequency * abs(ray_direction.x);
-    float clearance = sum / slope;
+    float slope = ray_direction.y + bob_rise * cos(sea_bob_phase + bob_frequency * position.x);
+    float bend = abs(bob_rise * bob_frequency * ray_direction.x);
+    float clearance = free_ahead(sum, slope, bend);
     vec3 point = wave_scale * position;
+    vec3 along = wave_scale * ray_direction;
     float stretch = wave_scale;
     float height = 3.14 * wave_height;
     for (int octave = 0; octave < OCTAVES; ++octave) {
         height *= wave_gain;
-        float noise = value_noise(drifted(point, octave), ivec3(0, 0, -sea_cells[octave]));
-        sum += height * short_sine(abs(noise - 0.5));
-        slope += 1.5 * height * stretch;
-        clearance = max(clearance, sum / slope);
+        vec2 noise = value_noise_along(drifted(point, octave), along, ivec3(0, 0, -sea_cells[octave]));
+        float sine = short_sine(abs(noise.x - 0.5));
+        float cosine = sqrt(1.0 - sine * sine);
+        sum += height * sine;
+        slope += height * (noise.x < 0.5 ? -cosine : cosine) * noise.y;
+        bend += BEND_SCALE * 7.1 * height * stretch * stretch;
+        clearance = max(clearance, free_ahead(sum, slope, bend));
         point = finer(point);
+        along = finer(along);
         stretch *= wave_lacunarity;
     }
     return vec2(sea_step * sum, clearance);
+}
+#elif SOLVER == MARCH_SEGMENT
+// Largest slope of the fade 3 s^2 - 2 s^3 between a and b, which lie in 0..1.
+vec3 steepest_fade(vec3 a, vec3 b) {
+    vec3 nearest = clamp(vec3(0.5), min(a, b), max(a, b));
+    return 6.0 * nearest * (1.0 - nearest);
+}
+
+// Bound of the noise's slope from `point` to `point + along`: of the corners' differences while that stays in
+// one cell, else 3/2 a unit.
+float steepest_noise(vec3 point, vec3 along, ivec3 beyond) {
+    vec3 cell = floor(point);
+    float anywhere = 1.5 * length(along);
+    if (any(notEqual(floor(point + along), cell))) {
+        return anywhere;
+    }
+    vec4 left, right;
+    lattice_cube(cell, beyond, left, right);
+    vec4 x = abs(right - left);
+    vec4 y = abs(vec4(left.yw - left.xz, right.yw - right.xz));
+    vec4 z = abs(vec4(left.zw - left.xy, right.zw - right.xy));
+    vec3 steps = vec3(max(max(x.x, x.y), max(x.z, x.w)), max(max(y.x, y.y), max(y.z, y.w)),
+                      max(max(z.x, z.y), max(z.z, z.w)));
+    vec3 fade = steepest_fade(point - cell, point + along - cell);
+    return min(anywhere, k_hash_unit * dot(steps * fade, abs(along)));
+}
+
+// The field, and how fast it can fall anywhere from t to t + reach.
+vec2 march_fall(float t, float reach) {
+    vec3 position = ray_origin + t * ray_direction;
+    float sum = position.y + bob(position.x);
+    float fall = bob_height * bob_frequency * abs(ray_direction.x) - ray_direction.y;
+    vec3 point = wave_scale * position;
+    vec3 along = wave_scale * reach * ray_direction;
+    float height = 3.14 * wave_height;
+    for (int octave = 0; octave < OCTAVES; ++octave) {
+        height *= wave_gain;
+        ivec3 beyond = ivec3(0, 0, -sea_cells[octave]);
+        vec3 at = drifted(point, octave);
+        sum += height * short_sine(abs(value_noise(at, beyond) - 0.5));
+        fall += height * steepest_noise(at, along, beyond) / reach;
+        point = finer(point);
+        along = finer(along);
+    }
+    return sea_step * vec2(sum, fall);
 }
 #endif
 

@@ -7,6 +7,8 @@
 //         for rather than proved stands at each solver.
 //     vec2 march_clearance(float t);        (MARCH_CERTIFIED alone)
 //         the field, and how far ahead it is proved to have no zero.
+//     vec2 march_fall(float t, float reach);        (MARCH_SEGMENT alone)
+//         the field, and a proved bound of how fast it falls anywhere from t to t + reach.
 //
 // and calls march(). The ray is the scene's own affair; it keeps it in global variables.
 //
@@ -17,6 +19,7 @@
 //     MARCH_CERTIFIED   always: the field brings its own proof         1 clearance
 //     MARCH_BRACKET     the slope bound holds; but for what is         1, and 1 for each step taken back
 //                       thinner than k_gap of a pixel
+//     MARCH_SEGMENT     always: the field brings a bound for a stretch  1 field and bound
 //     MARCH_FIXED       no two zeros are nearer than FIXED_STEP        1
 //
 // All take at most MAX_STEPS samples on the way (those of the last interpolation not counted) and do not look
@@ -32,6 +35,7 @@
 #define MARCH_CERTIFIED 4
 #define MARCH_BRACKET 5
 #define MARCH_FIXED 6
+#define MARCH_SEGMENT 7
 
 struct MarchRange {
     float near;  // where the field may first be looked at, world units
@@ -110,6 +114,8 @@ float march_exhausted(MarchRange range, float t, float value) {
 #include "march/certified.glsl"
 #elif SOLVER == MARCH_BRACKET
 #include "march/bracket.glsl"
+#elif SOLVER == MARCH_SEGMENT
+#include "march/segment.glsl"
 #elif SOLVER == MARCH_FIXED
 #include "march/fixed_step.glsl"
 #else

@@ -88,6 +88,52 @@ TEST_F(ShaderLibrary, NoiseGradientIsThatOfDifferencesAndWithinItsBound) {
         }
 }
 
+TEST_F(ShaderLibrary, NoiseAlongADirectionIsItsGradientThere) {
+    const image::Image image =
+        drawn("noise.glsl",
+              std::string(k_position) + "vec3 along = vec3(0.6, -0.3, 1.7);\n"
+                                        "vec4 noise = value_noise_gradient(at, ivec3(5, -6, 7));\n"
+                                        "vec2 found = value_noise_along(at, along, ivec3(5, -6, 7));\n"
+                                        "c.rgb = vec3(found.x - noise.x, found.y, dot(noise.yzw, along));",
+              k_points);
+    for (int y = 0; y < k_points.height; ++y)
+        for (int x = 0; x < k_points.width; ++x) {
+            const auto [off, found, expected, alpha] = floats_at(image, x, y);
+            EXPECT_EQ(off, 0) << x << ' ' << y;
+            EXPECT_NEAR(found, expected, 2e-6) << x << ' ' << y;
+        }
+}
+
+/// Any noise of corners from 0 to 1 bends by no more than one of these 127 does (lib/noise.glsl).
+TEST_F(ShaderLibrary, NoiseBendsWithinItsBound) {
+    constexpr double e = 1e-4;
+    constexpr int k_places = 8;
+    double most = 0;
+    for (unsigned corners = 1; corners < 128; ++corners) {
+        const auto lattice = [&](auto x, auto y, auto z) {
+            return double(corners >> (unsigned(x & 1) + 2 * unsigned(y & 1) + 4 * unsigned(z & 1)) & 1U);
+        };
+        for (int i = 0; i < k_places * k_places * k_places; ++i) {
+            const glm::dvec3 at =
+                (glm::dvec3(i % k_places, i / k_places % k_places, i / k_places / k_places) + 0.01) /
+                double(k_places);
+            for (int direction = 1; direction < 27; ++direction) {
+                const glm::dvec3 along(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+                if (along == glm::dvec3(0))
+                    continue;
+                const glm::dvec3 step = e * glm::normalize(along);
+                const double bend =
+                    (fields::value_noise(lattice, at + step) - 2 * fields::value_noise(lattice, at) +
+                     fields::value_noise(lattice, at - step)) /
+                    (e * e);
+                most = std::max(most, std::abs(bend));
+            }
+        }
+    }
+    EXPECT_LE(most, 6.0);
+    EXPECT_GT(most, 5.9);
+}
+
 TEST_F(ShaderLibrary, IntegerHashIsTheReferencesBitForBit) {
     const image::Image image =
         drawn("hash.glsl",

@@ -204,11 +204,10 @@ TEST_F(ShippedScenes, WhatIsOffIsGone) {
 }
 
 TEST_F(ShippedScenes, ASceneCarriesItsOwnSolverAlone) {
-    const std::pair<const char*, const char*> marks[] = {{"MARCH_SPHERE", "HIT_DISTANCE"},
-                                                         {"MARCH_ENHANCED", "k_relaxation"},
-                                                         {"MARCH_CERTIFIED", "march_clearance"},
-                                                         {"MARCH_BRACKET", "k_overshoot"},
-                                                         {"MARCH_FIXED", "FIXED_STEP"}};
+    const std::pair<const char*, const char*> marks[] = {
+        {"MARCH_SPHERE", "HIT_DISTANCE"},       {"MARCH_ENHANCED", "k_relaxation"},
+        {"MARCH_CERTIFIED", "march_clearance"}, {"MARCH_BRACKET", "k_overshoot"},
+        {"MARCH_SEGMENT", "march_fall"},        {"MARCH_FIXED", "FIXED_STEP"}};
     for (const auto& [solver, own] : marks) {
         auto scene = scene::load_scene(k_shaders / "water_surface.glsl");
         ASSERT_TRUE(scene);

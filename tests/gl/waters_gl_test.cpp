@@ -190,7 +190,8 @@ TEST_F(Waters, EverySolverFindsTheSameWater) {
     // Safe ones and ones that are not: what they may get wrong, and how near they come.
     const std::tuple<const char*, double, double> solvers[] = {
         {"MARCH_SPHERE", 0.01, 1e-3},     {"MARCH_ENHANCED", 0.01, 2e-3}, {"MARCH_AUTO", 0.01, 2e-3},
-        {"MARCH_CERTIFIED", 0.004, 2e-3}, {"MARCH_BRACKET", 0.004, 3e-5}, {"MARCH_FIXED", 0.02, 3e-5}};
+        {"MARCH_CERTIFIED", 0.001, 3e-5}, {"MARCH_BRACKET", 0.004, 3e-5}, {"MARCH_FIXED", 0.02, 3e-5},
+        {"MARCH_SEGMENT", 0.004, 2e-3}};
     for (const auto& [solver, wrong, median] : solvers) {
         scene::Scene scene = asked(water.scene, "mainHit(c, p);");
         define(scene, std::string("SOLVER=") + solver);
@@ -214,6 +215,50 @@ TEST_F(Waters, CertifiedStepsNeverEndBelowTheSurface) {
             for (int x = 0; x < k_small.width; ++x)
                 ASSERT_GE(floats_at(image, x, y)[1], -2e-5) << water.scene << ' ' << x << ' ' << y;
     }
+}
+
+/// Over all pixels and 24 places of each ray: the least that the field has above what a solver's own proof
+/// says, which sets `reach`, how far it goes, and gives the line above which the field is to be.
+constexpr const char* k_proof = R"(
+    look(p);
+    float least = 1.0, longest = 0.0;
+    for (int i = 0; i < 24; i++) {{
+        float t = 0.5 + 1.7 * float(i), reach = 0.37 * float(1 + i % 7);
+        {}
+        for (int k = 1; k <= 16; k++) {{
+            float ahead = min(reach, 20.0) * float(k) / 16.0;
+            least = min(least, march_field(t + ahead) - ({}));
+        }}
+        longest = max(longest, reach);
+    }}
+    c = vec4(least, longest, 0.0, 1.0);
+)";
+
+TEST_F(Waters, SolversWithAProofKeepIt) {
+    const auto proved = [&](const char* solver, const char* bend, const char* asks, const char* line) {
+        scene::Scene scene = asked("water_surface", fmt::format(k_proof, asks, line));
+        define(scene, std::string("SOLVER=") + solver);
+        define(scene, std::string("BEND_SCALE=") + bend);
+        Renderer drawing = renderer(scene, k_small);
+        float least = 1.0F, longest = 0.0F;
+        for (const FrameInputs& inputs : {at(10, 48, 14), at(1, 32, 19)}) {
+            const image::Image image = frame(drawing, inputs);
+            for (int y = 0; y < k_small.height; ++y)
+                for (int x = 0; x < k_small.width; ++x) {
+                    least = std::min(least, floats_at(image, x, y)[0]);
+                    longest = std::max(longest, floats_at(image, x, y)[1]);
+                }
+        }
+        EXPECT_GT(longest, 1.0F) << solver;
+        return least;
+    };
+    const char* const clearance = "reach = march_clearance(t).y;";
+    const char* const surface = "min(march_field(t), 0.0)"; // below it nothing is proved
+    EXPECT_GE(proved("MARCH_CERTIFIED", "1.0", clearance, surface), -2e-5F);
+    EXPECT_LT(proved("MARCH_CERTIFIED", "0.05", clearance, surface), -0.1F); // a proof can fail
+    const char* const fall = "vec2 fall = march_fall(t, reach);";
+    EXPECT_GE(proved("MARCH_SEGMENT", "1.0", fall, "fall.x - fall.y * ahead"), -2e-5F);
+    EXPECT_LT(proved("MARCH_SEGMENT", "1.0", fall, "fall.x - 0.3 * fall.y * ahead"), -0.1F);
 }
 
 /// A ray that leaves is sampled once more before the document's loop sees that it is too far.

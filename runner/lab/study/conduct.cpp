@@ -115,6 +115,10 @@ private:
 
     /// What rays really meet, as far as the text proves it.
     Result<void> prove_hits() {
+        if (!study().rays) {
+            hit_source_ = HitSource::none;
+            return {};
+        }
         if (!(study().proof_seconds > 0)) {
             why_no_proof_ = "none was asked for";
             return {};

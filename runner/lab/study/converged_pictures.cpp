@@ -87,7 +87,8 @@ private:
 
     Result<std::optional<Shown>> show(std::vector<Setting> settings) {
         const Stopwatch watch;
-        auto specimen = TRY(Specimen::create(scene_, {settings, precision_}, study_.extent));
+        auto specimen = TRY(Specimen::create(scene_, {settings, precision_}, study_.extent,
+                                             study_.rays ? HitSource::main_hit : HitSource::none));
         Shown shown{std::move(settings), {}, {}, specimen.kept_hashes()};
         for (const View& view : study_.views) {
             if (!keep_going_())

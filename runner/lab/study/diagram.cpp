@@ -10,9 +10,9 @@
 namespace tidemark::lab {
 namespace {
 
-/// M. Okabe and K. Ito's colours, which the colour-blind tell apart.
+/// M. Okabe and K. Ito's colours, which the colour-blind tell apart, and P. Tol's wine.
 constexpr const char* k_colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                     "#e69f00", "#56b4e9", "#7f7f00"};
+                                     "#e69f00", "#56b4e9", "#7f7f00", "#882255"};
 constexpr const char* k_grey = "#555555";
 
 /// A string of gnuplot's that means nothing but itself: between apostrophes it runs no command in backquotes.

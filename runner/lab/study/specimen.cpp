@@ -26,7 +26,8 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
     Specimen specimen;
     specimen.extent_ = extent;
     specimen.precision_ = recipe.precision;
-    specimen.hit_scene_ = glsl::hit_scene(set);
+    if (hits != HitSource::none)
+        specimen.hit_scene_ = glsl::hit_scene(set);
     if (!specimen.has_hits() && hits == HitSource::main_hit_or_march)
         TRY(specimen.record(set));
     const Stopwatch watch;

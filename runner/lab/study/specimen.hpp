@@ -22,6 +22,7 @@ struct Recipe {
 
 /// Where a scene's hits come from.
 enum class HitSource {
+    none,             ///< nobody asks for them: nothing is compiled
     main_hit,         ///< its mainHit, if it has one
     main_hit_or_march ///< else the march of its mainImage, recorded while it runs
 };

@@ -55,7 +55,8 @@ struct Study {
     std::vector<Setting> model; ///< what the scene would be without its approximations of what it shows
     std::vector<std::string> omissions; ///< what was left out, and why
     Promise promise;
-    double proof_seconds = 20; ///< of each core, for where rays really end; 0: that is not asked
+    bool rays = true;          ///< where they end is a question, too, as far as the scene tells it
+    double proof_seconds = 20; ///< of each core, for where they really end
 };
 
 /// One point of a diagram: a solver and its settings.

@@ -1,5 +1,7 @@
 #include "lab/tune/quality_settings.hpp"
 
+#include "glsl/assemble.hpp"
+#include "glsl/syntax/parsed_text.hpp"
 #include "lab/defined_numbers.hpp"
 #include "lab/own_numbers.hpp"
 #include "lab/placed_number.hpp"
@@ -243,6 +245,30 @@ std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal
     return setting;
 }
 
+/// What the preprocessor leaves of all passes, blanks and comments aside; nothing where that cannot be told
+/// without the driver.
+std::optional<std::string> compiled_words(const scene::Scene& scene) {
+    std::string words;
+    for (const scene::Pass& pass : scene.passes) {
+        const auto text = glsl::ParsedText::read(glsl::assemble(scene, pass), {}, false);
+        if (!text)
+            return std::nullopt;
+        for (const glsl::Word& word : (*text)->words())
+            words.append(word.text).push_back(' ');
+    }
+    return words;
+}
+
+/// No value of it changes what is compiled: it stands in a branch of #if that is not taken, as the threshold
+/// of a solver that is not chosen. (The value of a knob is in no text.)
+bool is_idle(const QualitySetting& setting, const scene::Scene& scene, const std::string& words) {
+    const Axis& axis = setting.axis;
+    if (std::ranges::find(scene.knobs, axis.name, &scene::Knob::name) != scene.knobs.end())
+        return false;
+    const auto other = with(scene, {{axis.name, axis.values[setting.own == 0 ? 1 : 0]}});
+    return other && compiled_words(*other) == words;
+}
+
 } // namespace
 
 QualitySettings quality_settings(const scene::Scene& scene, const std::optional<MarchPlaces>& march) {
@@ -262,6 +288,9 @@ QualitySettings quality_settings(const scene::Scene& scene, const std::optional<
     for (const Role role : {Role::bound, Role::threshold, Role::step})
         if (auto setting = setting_of_the_only(role, literals, scene, march))
             settings.found.push_back(*std::move(setting));
+    if (const auto words = compiled_words(scene))
+        std::erase_if(settings.found,
+                      [&](const QualitySetting& each) { return is_idle(each, scene, *words); });
     return settings;
 }
 

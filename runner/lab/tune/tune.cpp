@@ -20,10 +20,16 @@ namespace {
 constexpr int k_small = 96, k_small_as_it_is = 240;
 /// Behind the last of the moments that are searched, seconds.
 constexpr double k_later = 2.7;
-/// Parts of the seconds there are.
-constexpr double k_explore_timing = 0.25, k_last_timing = 0.3, k_proof = 0.05;
-/// When the search, and all of it, is given up: compiling and the truth included.
-constexpr double k_search_ends = 1, k_all_ends = 1.5;
+/// Of the seconds there are, for a proof of where rays end.
+constexpr double k_proof = 0.05;
+
+struct Stage {
+    double timing; ///< part of the seconds there are
+    double end;    ///< when all is given up, in the same parts: compiling and the truth included
+    size_t rounds;
+    bool rays; ///< looked at for their work, too, which compiles every point a second time
+};
+constexpr Stage k_search{0.25, 1, 9, false}, k_judgement{0.3, 1.5, 30, true};
 
 std::string cost_and_error(Measure measure, const WorkPrecision& point) {
     const std::string work =
@@ -42,28 +48,29 @@ public:
         const auto found = candidates(explored, request_.settings, request_.goal, milliseconds(explored));
         std::vector<View> views = request_.views;
         views.push_back(unseen(views.back(), k_later));
-        Tuned tuned{
-            {TRY(measure(found, request_.extent, std::move(views), k_last_timing, k_all_ends, 30)), {}}, {}};
+        Tuned tuned{{TRY(measure(found, request_.extent, std::move(views), k_judgement)), {}}, {}};
         TRY(judge(tuned));
         return tuned;
     }
 
 private:
-    /// One study of these settings, in so much of the time; what it found when that was over says nothing.
+    /// One study of these settings; what it found when its time was over says nothing.
     Result<Findings> measure(const std::vector<std::vector<Setting>>& points, Extent extent,
-                             std::vector<View> views, double part, double ends, size_t rounds) {
+                             std::vector<View> views, const Stage& stage) {
         Study study = study_of(points, request_.settings);
         study.extent = extent;
         study.views = std::move(views);
-        study.proof_seconds = request_.goal.measure == Measure::wrong ? k_proof * request_.seconds : 0;
+        const bool wrong = request_.goal.measure == Measure::wrong;
+        study.rays = stage.rays || wrong;
+        study.proof_seconds = wrong ? k_proof * request_.seconds : 0;
         study.enough = sharpness(request_.goal);
         bool late = false;
         Watch limited = watch_;
         limited.keep_going = [&] {
-            late = late || clock_.elapsed().wall * 1e-3 > ends * request_.seconds;
+            late = late || clock_.elapsed().wall * 1e-3 > stage.end * request_.seconds;
             return !late && watch_.keep_going();
         };
-        const Timing timing{2, rounds, part * request_.seconds};
+        const Timing timing{2, stage.rounds, stage.timing * request_.seconds};
         auto findings = request_.as_it_is ? compare(points, study, timing, limited)
                                           : conduct(scene_, study, timing, limited, facts_);
         if (late)
@@ -94,7 +101,7 @@ private:
             WorkPrecisionSet set =
                 TRY(measure(single_values(request_.settings),
                             small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small),
-                            request_.views, k_explore_timing, k_search_ends, 9))
+                            request_.views, k_search))
                     .set;
             const double own = error_by(request_.goal.measure, set.points.front().all);
             const std::string blur =

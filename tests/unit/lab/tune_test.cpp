@@ -60,6 +60,22 @@ TEST(QualitySettings, of_a_march_are_known_by_their_use) {
     EXPECT_EQ(settings.found[1].axis.values[settings.found[1].own], "0.001");
 }
 
+TEST(QualitySettings, that_change_nothing_of_what_is_compiled_are_left) {
+    const std::string text = "#define SOLVER 1\n#define STEPS 64\n#define EPSILON 0.001\n"
+                             "void mainImage(out vec4 c, in vec2 p) {\n"
+                             "    float t = 0.0;\n"
+                             "    for (int i = 0; i < STEPS; i++) {\n"
+                             "#if SOLVER == 2\n"
+                             "        if (t < EPSILON) break;\n"
+                             "#endif\n"
+                             "        t += p.x;\n"
+                             "    }\n"
+                             "    c = vec4(t);\n"
+                             "}\n";
+    EXPECT_THAT(names(found_in(text)), ElementsAre("STEPS"));
+    EXPECT_THAT(names(found_in(text.substr(0, 15) + "2" + text.substr(16))), ElementsAre("STEPS", "EPSILON"));
+}
+
 /// A march of numbers without a name: `head` of its loop, `test` and `step` are its lines 3 to 5.
 QualitySettings found_in_march(const std::string& head, const std::string& test, const std::string& step) {
     return found_in("float f() {\n"
