@@ -14,7 +14,7 @@
 namespace tidemark::report {
 namespace {
 
-constexpr size_t k_colours = 8;
+constexpr size_t k_colours = 7;
 /// Outlines around the origin, of about the same area. The first seven series differ in both; 56 in one of
 /// both.
 constexpr std::array<std::string_view, 8> k_shapes{"M-5 0a5 5 0 1 0 10 0a5 5 0 1 0-10 0Z",
