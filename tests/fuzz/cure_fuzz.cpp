@@ -3,6 +3,7 @@
 #include "fuzz.hpp"
 #include "glsl/analysis/domain_sites.hpp"
 #include "glsl/analysis/unassigned.hpp"
+#include "glsl/cure/chosen_level.hpp"
 #include "glsl/cure/domain_guards.hpp"
 #include "glsl/cure/hoisted_derivative.hpp"
 #include "glsl/cure/initial_values.hpp"
@@ -41,8 +42,9 @@ std::vector<glsl::Cure> proposed(const glsl::ParsedText& text) {
             cures.push_back(*std::move(cure));
     for (const glsl::Divergent& each :
          glsl::find_divergent(text, facts, [](std::string_view) { return true; }))
-        if (auto cure = glsl::hoisted_derivative(text, facts, each))
-            cures.push_back(*std::move(cure));
+        for (const auto propose : {glsl::hoisted_derivative, glsl::base_level})
+            if (auto cure = propose(text, facts, each))
+                cures.push_back(*std::move(cure));
     for (const glsl::DomainSite& each : glsl::find_domain_sites(text, facts, glsl::DomainScope::floats))
         std::ranges::move(glsl::domain_guards(text, facts, each.node), std::back_inserter(cures));
     const glsl::Cutter cutter(text, facts);

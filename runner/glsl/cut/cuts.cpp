@@ -1,5 +1,6 @@
 #include "glsl/cut/cuts.hpp"
 
+#include "glsl/cure/chosen_level.hpp"
 #include "glsl/cure/loop_turns.hpp"
 #include "glsl/syntax/number.hpp"
 
@@ -205,24 +206,13 @@ double Cutter::work_of_call(NodeId id) const {
     return work_.of(id) * once / work_.once(id);
 }
 
-/// Nothing where the words are not the author's own.
-std::optional<WrittenTokens> Cutter::look_up_by_neighbours(NodeId id) const {
-    if (tree_[id].kind != NodeKind::call || called_name(text_, id) != "texture" ||
-        tree_.child_count(id) != 3 || tree_[tree_.child(id, 1)].kind != NodeKind::name ||
-        facts_.function("texture"))
-        return std::nullopt;
-    const auto written = written_for(text_, id, id);
-    const bool whole =
-        written && text_.tokens()[written->first].is("texture") && text_.tokens()[written->last].is(")");
-    return whole ? written : std::nullopt;
-}
-
 /// Left to the neighbours, the level is computed, and the two around it are mixed: about half of the work. A
 /// bias adds to that, so it is no cut.
 std::vector<Cut> Cutter::levels(const std::function<bool(std::string_view)>& has_mipmaps) const {
     std::vector<Cut> cuts;
     for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
-        const auto call = look_up_by_neighbours(id);
+        const auto call =
+            tree_.child_count(id) == 3 ? look_up_by_neighbours(text_, facts_, id) : std::nullopt;
         if (!call || is_kept(id) || work_.of(id) == 0 || !has_mipmaps(text_.word_of(tree_.child(id, 1))))
             continue;
         for (int level = 0; level <= k_coarsest_level; ++level)

@@ -56,7 +56,6 @@ private:
     void add_turns(NodeId loop, std::vector<Cut>& cuts) const;
     void add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
              std::vector<Cut>& cuts) const;
-    std::optional<WrittenTokens> look_up_by_neighbours(NodeId id) const;
     double work_of_call(NodeId id) const;
     std::optional<ValueType> type_of(NodeId id) const;
     std::string place_of(NodeId id) const;

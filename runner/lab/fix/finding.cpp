@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "glsl/analysis/unassigned.hpp"
+#include "glsl/cure/chosen_level.hpp"
 #include "glsl/cure/domain_guards.hpp"
 #include "glsl/cure/hoisted_derivative.hpp"
 #include "glsl/cure/initial_values.hpp"
@@ -35,6 +36,16 @@ constexpr Result<Answer> (*k_finite_probes[])(ProbeBench&) = {ask_times,  ask_fr
 void add_once(CurableFindings& found, Finding finding) {
     if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
         found.all.push_back(std::move(finding));
+}
+
+glsl::Cure all_of(const std::vector<glsl::Cure>& cures) {
+    glsl::Cure all;
+    for (const glsl::Cure& cure : cures) {
+        all.wraps.insert(all.wraps.end(), cure.wraps.begin(), cure.wraps.end());
+        if (all.reason.find(cure.reason) == all.reason.npos)
+            all.reason += (all.reason.empty() ? "" : "; ") + cure.reason;
+    }
+    return all;
 }
 
 class Finder {
@@ -80,10 +91,19 @@ private:
         const auto trace = trace_nan(renderer, request);
         if (!trace || !*trace)
             return {};
+        const size_t before = found_.all.size();
         for (const auto* origin : {&(*trace)->fix, &(*trace)->first})
             if (*origin)
                 add_origin(**origin, (*trace)->pass, where);
+        if (found_.all.size() == before + 2)
+            cure_both(found_.all[before], found_.all[before + 1]);
         return {};
+    }
+
+    /// One may hide behind the other: a pixel that is not finite for two reasons.
+    static void cure_both(Finding& one, const Finding& other) {
+        if (!one.cures.empty() && !other.cures.empty())
+            one.cures.push_back(all_of({one.cures.front(), other.cures.front()}));
     }
 
     void add_origin(const NanOrigin& origin, const std::string& pass_name, const FrameState& where) {
@@ -144,10 +164,13 @@ void add_miscounting(CurableFindings& found, const PassText& pass) {
 void add_divergent(CurableFindings& found, const PassText& pass, const scene::Pass& of) {
     for (const glsl::Divergent& each : glsl::find_divergent(*pass.text, pass.facts, which_have_mipmaps(of)))
         if (const std::string place = place_of(*pass.text, pass.text->tree()[each.call].begin);
-            !place.empty())
-            add_once(found,
-                     found_in_text(Finding::Kind::divergence, place + ": " + words_for(*pass.text, each),
-                                   glsl::hoisted_derivative(*pass.text, pass.facts, each)));
+            !place.empty()) {
+            Finding finding{Finding::Kind::divergence, place + ": " + words_for(*pass.text, each), {}, {}};
+            for (const auto propose : {glsl::hoisted_derivative, glsl::base_level})
+                if (auto cure = propose(*pass.text, pass.facts, each))
+                    finding.cures.push_back(*std::move(cure));
+            add_once(found, std::move(finding));
+        }
 }
 
 /// What is wrong with the rays of a scene that marches: by proof where they end, and whether they run out of
@@ -238,16 +261,6 @@ std::vector<glsl::Cure> equal_texts(const std::vector<PassText>& texts) {
                 if (std::ranges::find(cures, cure) == cures.end())
                     cures.push_back(std::move(cure));
     return cures;
-}
-
-glsl::Cure all_of(const std::vector<glsl::Cure>& cures) {
-    glsl::Cure all;
-    for (const glsl::Cure& cure : cures) {
-        all.wraps.insert(all.wraps.end(), cure.wraps.begin(), cure.wraps.end());
-        if (all.reason.find(cure.reason) == all.reason.npos)
-            all.reason += (all.reason.empty() ? "" : "; ") + cure.reason;
-    }
-    return all;
 }
 
 /// What differs visibly from the picture in double at the first moment that does, as far as the scene

@@ -28,7 +28,7 @@ constexpr double k_most_flip = 0.02;
 constexpr double k_rounding = 0.01;
 /// Nobody knows what the picture should be where it is undefined: of more than this a person has to judge.
 constexpr double k_most_undefined = 0.1;
-/// Of 1, in the mean of the samples that were not finite and are so in double.
+/// Of 1, in the mean of the samples that were not finite: doubles may know some of them.
 constexpr double k_most_gap = 0.1;
 /// Of what rounding shows: other roundings alone show a little less or more.
 constexpr double k_most_left = 0.5;
@@ -170,11 +170,11 @@ bool is_as_in_double(const InBoth& before, const image::Image& cured) {
     double gap = 0;
     size_t samples = 0;
     for (size_t i = 0; i < cured.samples(); ++i) {
-        const double truth = before.doubles.f32()[i];
-        if (std::isfinite(before.floats.f32()[i]) || !std::isfinite(truth))
+        if (std::isfinite(before.floats.f32()[i]))
             continue;
         ++samples;
-        gap += std::abs(std::clamp(truth, 0.0, 1.0) - std::clamp(double(cured.f32()[i]), 0.0, 1.0));
+        if (const double truth = before.doubles.f32()[i]; std::isfinite(truth))
+            gap += std::abs(std::clamp(truth, 0.0, 1.0) - std::clamp(double(cured.f32()[i]), 0.0, 1.0));
     }
     return gap <= k_most_gap * double(samples);
 }

@@ -56,7 +56,7 @@ struct Study {
     std::vector<std::string> omissions; ///< what was left out, and why
     Promise promise;
     bool rays = true;          ///< where they end is a question, too, as far as the scene tells it
-    double proof_seconds = 20; ///< of each core, for where they really end
+    double proof_seconds = 20; ///< of each core, for where they really end; 0: nothing is proved
 };
 
 /// One point of a diagram: a solver and its settings.

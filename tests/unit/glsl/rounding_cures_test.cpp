@@ -1,5 +1,6 @@
 // Cures of what rounding, counting in floats and divergent neighbours do: which texts get one, and which
 // none.
+#include "glsl/cure/chosen_level.hpp"
 #include "glsl/cure/hoisted_derivative.hpp"
 #include "glsl/cure/reduced_time.hpp"
 #include "glsl/cure/rewrites.hpp"
@@ -217,7 +218,9 @@ TEST(FloatCounter, HasItsFloatFromAWholeNumber) {
 }
 
 /// Of the first derivative, with `gl_FragCoord` what parts neighbours.
-std::string hoisted(const std::string& body) {
+using Proposal = std::optional<Cure> (*)(const ParsedText&, const TreeFacts&, const Divergent&);
+
+std::string divergent_cured(const std::string& body, Proposal propose) {
     const std::string front =
         "uniform sampler2D iChannel0;\nout vec4 c;\nvoid main() { vec2 p = gl_FragCoord.xy; ";
     const std::string text = front + body + " }\n";
@@ -225,10 +228,14 @@ std::string hoisted(const std::string& body) {
     const TreeFacts facts = find_facts(*read);
     std::vector<Cure> cures;
     for (const Divergent& each : find_divergent(*read, facts, [](std::string_view) { return true; }))
-        if (auto cure = hoisted_derivative(*read, facts, each))
+        if (auto cure = propose(*read, facts, each))
             cures.push_back(*std::move(cure));
     const std::string result = with(text, cures);
     return result.starts_with(front) ? result.substr(front.size(), result.size() - front.size() - 3) : result;
+}
+
+std::string hoisted(const std::string& body) {
+    return divergent_cured(body, hoisted_derivative);
 }
 
 TEST(HoistedDerivative, StandsBeforeTheBranch) {
@@ -247,6 +254,15 @@ TEST(HoistedDerivative, StaysWhereItsArgumentsAreMadeInBetween) {
                                    "if (p.x > 9.0) return; p += 1.0; c = texture(iChannel0, p);",
                                    "if (p.x > 9.0) c = texture(iChannel0, p++);"})
         EXPECT_EQ(hoisted(body), body);
+}
+
+TEST(BaseLevel, TakesThePlaceOfTheNeighbours) {
+    EXPECT_EQ(divergent_cured("if (p.x > 9.0) { vec2 q = p; c = texture(iChannel0, q * 0.1); }", base_level),
+              "if (p.x > 9.0) { vec2 q = p; c = textureLod(iChannel0, q * 0.1, 0.0); }");
+    EXPECT_EQ(divergent_cured("if (p.x > 9.0) c = texture( iChannel0, p, -100.0 ).yxyx;", base_level),
+              "if (p.x > 9.0) c = textureLod( iChannel0, p, 0.0 ).yxyx;");
+    const std::string derivative = "if (p.x > 9.0) c.x = dFdx(p.x);";
+    EXPECT_EQ(divergent_cured(derivative, base_level), derivative);
 }
 
 } // namespace
