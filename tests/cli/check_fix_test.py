@@ -163,6 +163,20 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
             "c = vec4(sqrt(max(uv.x - 0.5, 0.0)), "
             "log(max(uv.x / (d.y + (1.0 - abs(sign(d.y))) * 1e-18), 1e-30)), 0.0, 1.0);"))
 
+    def test_two_faults_of_one_pixel_are_mended_at_once(self):
+        """Either cure alone leaves the pixels as they are: not finite for the other reason."""
+        text = """void mainImage(out vec4 c, in vec2 p) {
+    float far = floor(abs(p.x - 8.5) / 4.0);
+    float a = floor(p.x) / far;
+    float b = 0.1 / far;
+    c = vec4(fract(0.01 * a), fract(b), 0.5, 1.0);
+}
+"""
+        scene = self.write("both.glsl", text)
+        self.assertEqual(len(self.fix("both.glsl", "--write")["cures"]), 1)
+        self.assertEqual(scene.read_text().count("1e-18"), 2)
+        self.succeed("check", "both.glsl", *BUDGET, "--probe", "times", "--probe", "sizes")
+
     def test_what_doubles_know_better_is_not_mended(self):
         """Where floats overflow a guard would show another picture."""
         self.write("a.glsl", BODY % "c = vec4(exp(200.0 * uv.x) / exp(200.0 * uv.x));")
