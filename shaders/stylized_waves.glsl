@@ -33,7 +33,7 @@
 #define REFRACTION 1
 #define SHADOWS 1
 #define CLOUDS 1
-#define SOLVER MARCH_BRACKET // how a ray finds water and land: one of lib/march.glsl's 1 to 3, 5, 6
+#define SOLVER MARCH_BRACKET // one of lib/march.glsl's, but for MARCH_CERTIFIED and MARCH_SEGMENT
 #define MAX_STEPS 512        // field samples along a ray
 #define HIT_DISTANCE 0.001   // MARCH_SPHERE: value of the field that counts as touching
 #define FIXED_STEP 0.5       // MARCH_FIXED: distance of its samples; wants MAX_STEPS to cover what is looked at

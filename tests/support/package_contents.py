@@ -75,12 +75,12 @@ def undeclared(depends: str, programs: list[pathlib.Path]) -> list[str]:
 
 def taken_in(build: pathlib.Path) -> set[str]:
     """Packages whose headers were compiled, or whose archives were linked, and that have no shared library."""
-    headers, ours = set(), False  # as a compiler cache may have them: relative to the build folder
+    headers, ours = set(), False
     for line in output_of("ninja", "-C", build, "-t", "deps").splitlines():
         if line and not line.startswith(" "):
             ours = line.startswith("CMakeFiles/") or line.startswith("runner/")
-        elif ours and os.path.normpath(build / line.strip()).startswith("/usr/include/"):
-            headers.add(os.path.realpath(build / line.strip()))
+        elif ours and (header := os.path.normpath(build / line.strip())).startswith("/usr/include/"):
+            headers.add(os.path.realpath(header))  # a compiler cache may name it relative to the build folder
     packages = set(packages_of(headers).values())
     shared = {each for each in packages if re.search(r"\.so$", output_of("dpkg-query", "-L", each), re.MULTILINE)}
     return packages - shared - NOT_TAKEN_IN

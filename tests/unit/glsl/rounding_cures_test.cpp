@@ -217,9 +217,9 @@ TEST(FloatCounter, HasItsFloatFromAWholeNumber) {
         "float(x_turn); { s += x; } } return s; }\n");
 }
 
-/// Of the first derivative, with `gl_FragCoord` what parts neighbours.
 using Proposal = std::optional<Cure> (*)(const ParsedText&, const TreeFacts&, const Divergent&);
 
+/// Of the first derivative, with `gl_FragCoord` what parts neighbours.
 std::string divergent_cured(const std::string& body, Proposal propose) {
     const std::string front =
         "uniform sampler2D iChannel0;\nout vec4 c;\nvoid main() { vec2 p = gl_FragCoord.xy; ";
