@@ -25,6 +25,7 @@ struct Definition {
     size_t begin;
     size_t end;
     bool separate; ///< nothing stands between the name and an empty value: a blank must go first
+    std::optional<size_t> keyword{}; ///< the token `const`
 };
 
 /// The `#define` that the token `#` at `hash` begins; nothing for a macro with parameters.
@@ -66,7 +67,7 @@ size_t read_constants(const std::vector<Token>& tokens, size_t keyword, std::vec
                 break;
         }
         if (name.kind == TokenKind::identifier && end > i + 1)
-            found.push_back({i - 1, name.text, tokens[i + 1].begin, tokens[end - 1].end(), false});
+            found.push_back({i - 1, name.text, tokens[i + 1].begin, tokens[end - 1].end(), false, keyword});
         i = end;
     }
     return i;
@@ -190,6 +191,26 @@ Result<void> override_definition(scene::Scene& scene, std::string_view setting) 
     if (!replaced)
         return fail(no_such_definition(name, names));
     return {};
+}
+
+void define_by_variables(scene::Scene& scene, std::span<const scene::Setting> variables) {
+    for (text::MappedText* mapped : texts_of(scene)) {
+        const auto tokens = text::tokenize(mapped->text());
+        std::vector<text::Edit> edits;
+        std::optional<size_t> plain; // the last `const` that went: several names may share one
+        for (const Definition& definition : find_definitions(tokens)) {
+            const auto variable = std::ranges::find(variables, definition.name, &scene::Setting::name);
+            if (variable == variables.end())
+                continue;
+            if (definition.keyword && definition.keyword != plain) {
+                plain = definition.keyword;
+                edits.push_back({tokens[*plain].begin, tokens[*plain].end(), ""});
+            }
+            edits.push_back(
+                {definition.begin, definition.end, (definition.separate ? " " : "") + variable->value});
+        }
+        mapped->apply(edits);
+    }
 }
 
 void override_definition(std::string& text, const scene::Setting& setting) {

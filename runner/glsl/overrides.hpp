@@ -5,6 +5,7 @@
 #include "scene/setting.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,11 @@ std::optional<std::string> definition_of(const scene::Scene& scene, std::string_
 /// definition there is. Macros with parameters and values over several lines are left alone.
 Result<void> override_definition(scene::Scene& scene, std::string_view setting);
 
-/// The same in the text of one file, if it defines NAME.
+/// Has each NAME stand for a variable instead, wherever it is defined: a `const` becomes a plain global, for
+/// what it stands for is no constant. Names that the scene does not define are left.
+void define_by_variables(scene::Scene& scene, std::span<const scene::Setting> variables);
+
+/// As override_definition, in the text of one file, if it defines NAME.
 void override_definition(std::string& text, const scene::Setting& setting);
 
 } // namespace tidemark::glsl

@@ -3,12 +3,14 @@
 #include "lab/study/convergence.hpp"
 #include "lab/study/stricter.hpp"
 #include "lab/study/truth.hpp"
+#include "lab/study/turned_specimen.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tidemark::lab {
 namespace {
@@ -18,9 +20,9 @@ constexpr int k_most_steps = 6;
 constexpr size_t k_wanted_changes = 3;
 /// A reference is good enough when its own error is this part of what the strictest point's is.
 constexpr double k_settled = 0.1;
-/// A step that takes longer, seconds, is the last: the next one would take twice as long, doubles several
-/// times. Longer while there are no two changes to tell anything from.
-constexpr double k_longest_step = 10, k_longest_first_step = 30;
+/// How much longer than the study's longest a step may take while there are no two changes to tell anything
+/// from.
+constexpr double k_first_steps = 3;
 /// What arithmetic in floats leaves at the end of a long sum, and what rounding a double to a float does, in
 /// halves of a unit in the last place.
 constexpr double k_float_noise = 64, k_double_noise = 2;
@@ -70,7 +72,8 @@ double noise_of(const std::vector<Hits>& hits) {
 class Ladder {
 public:
     Ladder(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going)
-        : scene_(scene), study_(study), keep_going_(keep_going), precision_(study.precision) {}
+        : study_(study), keep_going_(keep_going), precision_(study.precision),
+          specimen_(scene, study.extent, study.rays ? HitSource::main_hit : HitSource::none) {}
 
     Result<PictureTruth> climb() {
         TRY(begin());
@@ -82,21 +85,21 @@ public:
 private:
     enum class What { pictures, hits };
 
+    double longest_first_step() const { return k_first_steps * study_.longest_step; }
     bool named() const { return !study_.reference.empty(); }
     bool has_hits() const { return !first_.hits.empty(); }
 
     Result<std::optional<Shown>> show(std::vector<Setting> settings) {
         const Stopwatch watch;
-        auto specimen = TRY(Specimen::create(scene_, {settings, precision_}, study_.extent,
-                                             study_.rays ? HitSource::main_hit : HitSource::none));
-        Shown shown{std::move(settings), {}, {}, specimen.kept_hashes()};
+        Specimen* const specimen = TRY(specimen_.at(settings, precision_));
+        Shown shown{std::move(settings), {}, {}, specimen->kept_hashes()};
         for (const View& view : study_.views) {
             if (!keep_going_())
                 return std::optional<Shown>{};
-            shown.pictures.push_back(specimen.picture(view));
-            if (!specimen.has_hits())
+            shown.pictures.push_back(specimen->picture(view));
+            if (!specimen->has_hits())
                 continue;
-            auto hits = TRY(specimen.hits(view));
+            auto hits = TRY(specimen->hits(view));
             shown.hits.push_back(std::move(hits));
         }
         shown.seconds = watch.elapsed().wall * 1e-3;
@@ -109,7 +112,7 @@ private:
         if (to_promote) {
             precision_ = glsl::Precision::promoted;
             auto promoted = show(strictest(study_, 0));
-            if (promoted && *promoted && (*promoted)->seconds <= k_longest_first_step) {
+            if (promoted && *promoted && (*promoted)->seconds <= longest_first_step()) {
                 take_first(**std::move(promoted));
                 return {};
             }
@@ -162,7 +165,7 @@ private:
 
     /// Draws the next rung; false: the last one it is.
     bool step_up() {
-        const double longest = changes_.size() < 2 ? k_longest_first_step : k_longest_step;
+        const double longest = changes_.size() < 2 ? longest_first_step() : study_.longest_step;
         if (step_ == k_most_steps)
             return false;
         if (last_.seconds > longest) {
@@ -187,6 +190,16 @@ private:
         return !(is_settled(What::pictures) && (!has_hits() || is_settled(What::hits)));
     }
 
+    /// What settings off the ladder show, asked for once for the pictures and once for the hits; none where
+    /// it cannot be had.
+    const Shown* shown_beside(const std::vector<Setting>& settings) {
+        const auto [place, is_new] = beside_.try_emplace(to_string(settings));
+        if (is_new)
+            if (auto shown = show(settings))
+                place->second = *std::move(shown);
+        return place->second ? &*place->second : nullptr;
+    }
+
     /// Where nothing moves any more, settings off the ladder must not move it either, and how it came to rest
     /// tells how much a stop in the scene itself may hide.
     Remainder look_around(What what, Remainder still) {
@@ -194,10 +207,10 @@ private:
             const std::vector<Setting> settings = beside(study_, step_, second);
             if (settings == last_.settings)
                 continue;
-            const auto other = show(settings);
-            if (!other || !*other)
+            const Shown* const other = shown_beside(settings);
+            if (!other)
                 return {{}, fmt::format("it could not be looked at with {}", to_string(settings)), false};
-            const double change = apart(what, last_, **other);
+            const double change = apart(what, last_, *other);
             if (!(change <= rounding(what)))
                 return {{},
                         fmt::format("it does not settle: {} and {} show the same, but {} is {:.2g} from it",
@@ -215,17 +228,17 @@ private:
         for (size_t i = changes(what).size(); i-- > 0 && moves.size() < 2;)
             if (changes(what)[i] > rounding(what))
                 moves.push_back(changes(what)[i]);
-        Shown stricter = first_;
+        const Shown* stricter = &first_;
         for (int back = 1; back <= k_most_steps && moves.size() < 2; ++back) {
             const std::vector<Setting> settings = strictest(study_, -back);
-            if (settings == stricter.settings)
+            if (settings == stricter->settings)
                 break;
-            auto coarser = show(settings);
-            if (!coarser || !*coarser)
+            const Shown* const coarser = shown_beside(settings);
+            if (!coarser)
                 break;
-            if (const double change = apart(what, stricter, **coarser); !(change <= rounding(what)))
+            if (const double change = apart(what, *stricter, *coarser); !(change <= rounding(what)))
                 moves.push_back(change);
-            stricter = **std::move(coarser);
+            stricter = coarser;
         }
         return moves;
     }
@@ -298,15 +311,16 @@ private:
         return truth;
     }
 
-    const scene::Scene& scene_;
     const Study& study_;
     const KeepGoing& keep_going_;
     glsl::Precision precision_;
+    TurnedSpecimen specimen_;
     std::string not_promoted_;
     std::string stopped_; ///< why the ladder ends where it could go on
     Shown first_;         ///< the settings that were asked for, or the study's strictest
     Shown last_;
     int step_ = 0; ///< of `last_`
+    std::map<std::string, std::optional<Shown>> beside_;
     std::vector<double> changes_;
     std::vector<double> hit_changes_;
     std::vector<PixelMask> blind_; ///< by view

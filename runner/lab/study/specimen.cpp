@@ -44,6 +44,14 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
     return specimen;
 }
 
+void Specimen::turn(const std::vector<scene::Knob>& knobs) {
+    renderer_->turn(knobs);
+    if (hit_scene_)
+        hit_scene_->knobs = knobs;
+    if (hit_renderer_)
+        hit_renderer_->turn(knobs);
+}
+
 image::Image Specimen::picture(const View& view) {
     const Stopwatch watch;
     draw(*renderer_, view);

@@ -36,6 +36,9 @@ public:
 
     /// RGB, floats. Where a frame depends on the one before it, all frames from 0 are drawn.
     image::Image picture(const View& view);
+    /// The scene's knobs, in their order, from the next picture on.
+    void turn(const std::vector<scene::Knob>& knobs);
+
     bool has_hits() const { return hit_scene_.has_value(); }
     /// The error says why what was recorded is not to be used.
     Result<Hits> hits(const View& view);

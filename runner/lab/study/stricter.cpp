@@ -15,12 +15,11 @@ std::optional<double> number_of(const std::string& text) {
     return whole_text && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
-namespace {
-
-/// GLSL takes `64` for an int and `64.0` for a float: the kind stays.
-bool is_int(const std::string& text) {
-    return text.find_first_of(".eE") == std::string::npos;
+bool is_int(const std::string& number) {
+    return number.find_first_of(".eE") == std::string::npos;
 }
+
+namespace {
 
 std::string float_text(double number) {
     std::string text = fmt::format("{:.9g}", number);

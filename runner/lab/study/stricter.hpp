@@ -12,6 +12,9 @@ namespace tidemark::lab {
 /// A value that is a plain, finite number.
 std::optional<double> number_of(const std::string& text);
 
+/// GLSL takes `64` for an int and `64.0` for a float.
+bool is_int(const std::string& number);
+
 /// A number times a factor, of the kind it is; nothing where a whole number would leave 1 to 2^30.
 std::optional<std::string> scaled(const std::string& text, double factor);
 

@@ -55,7 +55,10 @@ struct Study {
     std::vector<Setting> model; ///< what the scene would be without its approximations of what it shows
     std::vector<std::string> omissions; ///< what was left out, and why
     Promise promise;
-    bool rays = true;          ///< where they end is a question, too, as far as the scene tells it
+    bool rays = true; ///< where they end is a question, too, as far as the scene tells it
+    /// A step of the reference pictures' ladder that takes more seconds is its last: the next one would take
+    /// twice as long, in doubles several times.
+    double longest_step = 10;
     double proof_seconds = 20; ///< of each core, for where they really end; 0: nothing is proved
 };
 

@@ -146,6 +146,8 @@ bool takes_part(size_t round, size_t affordable, size_t total) {
 }
 
 bool time_points(const Timing& timing, const Watch& watch, const Run& run, WorkPrecisionSet& set) {
+    if (!timing.wanted(set))
+        return true;
     Circumstances& facts = set.circumstances;
     facts.load_before = load_average();
     Timer timer(watch, run, set);

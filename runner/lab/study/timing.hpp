@@ -19,6 +19,8 @@ struct Timing {
     size_t warm_up_rounds = 10;
     size_t rounds = 30;
     double budget = 120; ///< seconds for all rounds together; fewer are made when they would take longer
+    /// Asked with all errors known; false: no time is of interest, and none is taken.
+    std::function<bool(const WorkPrecisionSet&)> wanted = [](const WorkPrecisionSet&) { return true; };
 };
 
 /// What one run took.

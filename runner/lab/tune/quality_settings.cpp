@@ -1,7 +1,6 @@
 #include "lab/tune/quality_settings.hpp"
 
-#include "glsl/assemble.hpp"
-#include "glsl/syntax/parsed_text.hpp"
+#include "lab/compiled_words.hpp"
 #include "lab/defined_numbers.hpp"
 #include "lab/own_numbers.hpp"
 #include "lab/placed_number.hpp"
@@ -245,23 +244,10 @@ std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal
     return setting;
 }
 
-/// What the preprocessor leaves of all passes, blanks and comments aside; nothing where that cannot be told
-/// without the driver.
-std::optional<std::string> compiled_words(const scene::Scene& scene) {
-    std::string words;
-    for (const scene::Pass& pass : scene.passes) {
-        const auto text = glsl::ParsedText::read(glsl::assemble(scene, pass), {}, false);
-        if (!text)
-            return std::nullopt;
-        for (const glsl::Word& word : (*text)->words())
-            words.append(word.text).push_back(' ');
-    }
-    return words;
-}
-
 /// No value of it changes what is compiled: it stands in a branch of #if that is not taken, as the threshold
 /// of a solver that is not chosen. (The value of a knob is in no text.)
-bool is_idle(const QualitySetting& setting, const scene::Scene& scene, const std::string& words) {
+bool is_idle(const QualitySetting& setting, const scene::Scene& scene,
+             const std::vector<std::string>& words) {
     const Axis& axis = setting.axis;
     if (std::ranges::find(scene.knobs, axis.name, &scene::Knob::name) != scene.knobs.end())
         return false;

@@ -4,6 +4,7 @@
 #include "lab/march/pass_function.hpp"
 #include "lab/stopwatch.hpp"
 #include "lab/study/scene_comparison.hpp"
+#include "lab/study/specimen.hpp"
 #include "lab/study/verdict.hpp"
 #include "lab/tune/candidates.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 namespace tidemark::lab {
 namespace {
@@ -25,18 +27,11 @@ constexpr double k_proof = 0.05;
 
 struct Stage {
     double timing; ///< part of the seconds there are
-    double end;    ///< when all is given up, in the same parts: compiling and the truth included
+    double step;   ///< longest of the truth, the same
+    double end;    ///< when all is given up, the same: compiling and the truth included
     size_t rounds;
-    bool rays; ///< looked at for their work, too, which compiles every point a second time
 };
-constexpr Stage k_search{0.25, 1, 9, false}, k_judgement{0.3, 1.5, 30, true};
-
-std::string cost_and_error(Measure measure, const WorkPrecision& point) {
-    const std::string work =
-        point.all.hits ? fmt::format(", {:.1f} field evaluations a pixel", point.all.hits->evaluations) : "";
-    return fmt::format("{}, {} {}{}", cost_of(point), to_string(Goal{measure}),
-                       figure(error_by(measure, point.all)), work);
-}
+constexpr Stage k_search{0.25, 0.05, 1, 9}, k_judgement{0.3, 0.15, 1.5, 30};
 
 class Tuner {
 public:
@@ -61,7 +56,8 @@ private:
         study.extent = extent;
         study.views = std::move(views);
         const bool wrong = request_.goal.measure == Measure::wrong;
-        study.rays = stage.rays || wrong;
+        study.rays = wrong; // what tells where they end is a second program of every point
+        study.longest_step = stage.step * request_.seconds;
         study.proof_seconds = wrong ? k_proof * request_.seconds : 0;
         study.enough = sharpness(request_.goal);
         bool late = false;
@@ -70,7 +66,8 @@ private:
             late = late || clock_.elapsed().wall * 1e-3 > stage.end * request_.seconds;
             return !late && watch_.keep_going();
         };
-        const Timing timing{2, stage.rounds, stage.timing * request_.seconds};
+        const Timing timing{2, stage.rounds, stage.timing * request_.seconds,
+                            [this](const WorkPrecisionSet& set) { return blur(set).empty(); }};
         auto findings = request_.as_it_is ? compare(points, study, timing, limited)
                                           : conduct(scene_, study, timing, limited, facts_);
         if (late)
@@ -103,19 +100,27 @@ private:
                             small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small),
                             request_.views, k_search))
                     .set;
-            const double own = error_by(request_.goal.measure, set.points.front().all);
-            const std::string blur =
-                blur_of(set, request_.goal.measure, request_.goal.most_error.value_or(own));
-            if (blur.empty())
+            const std::string why = blur(set);
+            if (why.empty())
                 return set;
             const size_t before = request_.settings.size();
             std::erase_if(request_.settings, [](const QualitySetting& each) { return !each.march; });
             if (request_.settings.empty() || request_.settings.size() == before || !watch_.keep_going())
-                return fail(ErrorCode::check_failed, "cannot say: " + blur + without_truth());
+                return fail(ErrorCode::check_failed, "cannot say: " + why + without_truth());
             sentences_.push_back(
-                "only the march's own settings were turned: with the others there is no truth (" + blur +
-                ")");
+                "only the march's own settings were turned: with the others there is no truth (" + why + ")");
         }
+    }
+
+    /// The error that is allowed: as much as now, if nothing was said.
+    double most_error(const WorkPrecisionSet& set) const {
+        const Goal& goal = request_.goal;
+        return goal.most_error.value_or(error_by(goal.measure, set.points.front().all));
+    }
+
+    /// Why the truth is not good enough for that; empty: it is.
+    std::string blur(const WorkPrecisionSet& set) const {
+        return blur_of(set, request_.goal.measure, most_error(set));
     }
 
     std::string without_truth() const {
@@ -134,10 +139,10 @@ private:
         const WorkPrecisionSet& set = tuned.findings.set;
         const WorkPrecision& own = set.points.front();
         Goal goal = request_.goal;
-        const double most = goal.most_error.value_or(error_by(goal.measure, own.all));
-        if (const std::string blur = blur_of(set, goal.measure, most); !blur.empty())
-            return fail(ErrorCode::check_failed, "cannot say: " + blur + without_truth());
-        sentences_.push_back("as it is: " + cost_and_error(goal.measure, own));
+        const double most = most_error(set);
+        if (const std::string why = blur(set); !why.empty())
+            return fail(ErrorCode::check_failed, "cannot say: " + why + without_truth());
+        sentences_.push_back("as it is: " + facts_of(set, own));
         const WorkPrecision* best = best_by(set, goal);
         if (!goal.most_milliseconds)
             goal.most_error = most;
@@ -148,13 +153,35 @@ private:
                                  to_string(goal));
         else {
             tuned.chosen = best->point.settings;
-            sentences_.push_back("chosen: " + best->point.label + ": " + cost_and_error(goal.measure, *best));
+            sentences_.push_back("chosen: " + best->point.label + ": " + facts_of(set, *best));
             if (const auto gain = speedup(own, *best))
                 sentences_.push_back(fmt::format("{:.2f} x [{:.2f}, {:.2f}] as fast as it is", gain->ratio,
                                                  gain->confidence.low, gain->confidence.high));
         }
         tuned.sentences = std::move(sentences_);
         return {};
+    }
+
+    std::string facts_of(const WorkPrecisionSet& set, const WorkPrecision& point) const {
+        const Measure measure = request_.goal.measure;
+        return fmt::format("{}, {} {}{}", cost_of(point), to_string(Goal{measure}),
+                           figure(error_by(measure, point.all)), work_of(set.study, point.point.settings));
+    }
+
+    /// As far as the scene tells it.
+    std::string work_of(const Study& study, const std::vector<Setting>& settings) const {
+        auto specimen = Specimen::create(scene_, {settings}, study.extent);
+        if (!specimen || !specimen->has_hits())
+            return "";
+        Hits all;
+        for (const View& view : study.views) {
+            const auto hits = specimen->hits(view);
+            if (!hits)
+                return "";
+            all.append(*hits);
+        }
+        const double sum = std::accumulate(all.evaluations.begin(), all.evaluations.end(), 0.0);
+        return fmt::format(", {:.1f} field evaluations a pixel", sum / double(all.size()));
     }
 
     /// Faster, where the scene as it is keeps the error, too; more exact, where it keeps the time.

@@ -162,5 +162,12 @@ TEST(DefinitionOf, follows_names_and_skips_what_an_if_takes_out) {
               (std::vector<std::string>{"FAST", "STEPS", "MANY", "EPS", "B", "ROUND", "round"}));
 }
 
+TEST(DefineByVariables, a_const_of_them_is_none_any_more) {
+    scene::Scene scene = scene_of("const int A = 1, B = 2; // why\n#define C\nconst int D = 3;\n");
+    const scene::Setting variables[] = {{"B", "b"}, {"C", "c"}, {"A", "a"}, {"E", "e"}};
+    define_by_variables(scene, variables);
+    EXPECT_EQ(scene.image().text.text(), " int A = a, B = b; // why\n#define C c\nconst int D = 3;\n");
+}
+
 } // namespace
 } // namespace tidemark::glsl

@@ -1,0 +1,82 @@
+// Numbers of a text as uniforms: which settings one program shows.
+#include "lab/study/turnable_scene.hpp"
+#include "support/scene_of.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tidemark::lab {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string text_of(const TurnableScene& turnable) {
+    return turnable.scene().image().text.text();
+}
+
+/// The knobs' values at these settings, as GLSL writes them; empty where they are another program.
+std::string turned_to(const TurnableScene& turnable, const std::vector<Setting>& settings) {
+    std::string values;
+    for (const scene::Knob& knob : turnable.knobs_at(settings).value_or(std::vector<scene::Knob>{}))
+        values += to_string(knob) + ";";
+    return values;
+}
+
+TEST(TurnableScene, numbers_of_a_text_become_uniforms_of_their_kind) {
+    const std::vector<Setting> settings{{"N", "64"}, {"NEAR", "0.001"}, {"FAR", "50.0"}};
+    const auto turnable = TurnableScene::create(scene_of("#define N 32\n"
+                                                         "const float NEAR = 0.01, FAR = 50.0;\n"
+                                                         "float f() { return FAR * NEAR * float(N); }\n"),
+                                                settings);
+    ASSERT_TRUE(turnable);
+    EXPECT_THAT(text_of(*turnable), HasSubstr("#define N tidemark_setting_0\n"));
+    EXPECT_THAT(text_of(*turnable), HasSubstr(" float NEAR = tidemark_setting_1, FAR = tidemark_setting_2;"));
+    EXPECT_THAT(text_of(*turnable), Not(HasSubstr("const")));
+    EXPECT_EQ(turnable->scene().knobs[0].type, scene::KnobType::int1);
+    EXPECT_EQ(turnable->scene().knobs[1].type, scene::KnobType::float1);
+    EXPECT_EQ(turned_to(*turnable, settings), "64;0.001;50;");
+    EXPECT_EQ(turned_to(*turnable, {{"N", "128"}, {"NEAR", "5e-4"}, {"FAR", "50.0"}}), "128;0.0005;50;");
+}
+
+TEST(TurnableScene, a_number_without_a_name_and_a_knob_are_turned_too) {
+    const auto scene = scene_of("#iUniform float pace = 1.0 in { 0.0, 2.0 }\n"
+                                "float f() { for (int i = 0; i < 80; i++) g(pace); }\n");
+    const std::string place = scene.image().text.lines().locate(2).file + ":2:33";
+    const auto turnable = TurnableScene::create(scene, {{place, "80"}, {"pace", "1.0"}});
+    ASSERT_TRUE(turnable);
+    EXPECT_THAT(text_of(*turnable), HasSubstr("i < tidemark_setting_0;"));
+    EXPECT_EQ(turned_to(*turnable, {{place, "160"}, {"pace", "0.5"}}), "0.5;160;");
+}
+
+TEST(TurnableScene, what_a_branch_of_the_preprocessor_depends_on_is_another_program) {
+    const std::string text = "#define N 3\n"
+                             "#if N > 4\n"
+                             "float f() { return 1.0; }\n"
+                             "#else\n"
+                             "float f() { return float(N); }\n"
+                             "#endif\n";
+    const auto turnable = TurnableScene::create(scene_of(text), {{"N", "3"}});
+    ASSERT_TRUE(turnable);
+    EXPECT_EQ(turned_to(*turnable, {{"N", "4"}}), "4;");
+    EXPECT_EQ(turned_to(*turnable, {{"N", "5"}}), "");
+}
+
+TEST(TurnableScene, another_solver_or_another_kind_of_number_is_another_program) {
+    const auto turnable = TurnableScene::create(scene_of("#define SOLVER a\n"
+                                                         "#define N 3\n"
+                                                         "float f() { return SOLVER(N); }\n"),
+                                                {{"SOLVER", "b"}, {"N", "3"}});
+    ASSERT_TRUE(turnable);
+    EXPECT_EQ(turned_to(*turnable, {{"SOLVER", "b"}, {"N", "4"}}), "4;");
+    EXPECT_EQ(turned_to(*turnable, {{"SOLVER", "a"}, {"N", "4"}}), "");
+    EXPECT_EQ(turned_to(*turnable, {{"SOLVER", "b"}, {"N", "4.0"}}), "");
+    EXPECT_EQ(turned_to(*turnable, {{"SOLVER", "b"}, {"N", "-4"}}), "");
+    EXPECT_EQ(turned_to(*turnable, {{"SOLVER", "b"}}), "") << "the scene's own number is no uniform";
+}
+
+TEST(TurnableScene, a_name_that_is_not_there_is_an_error) {
+    EXPECT_FALSE(TurnableScene::create(scene_of("float f() { return 1.0; }\n"), {{"N", "3"}}));
+}
+
+} // namespace
+} // namespace tidemark::lab
