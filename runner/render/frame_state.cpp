@@ -2,6 +2,8 @@
 
 #include <glm/matrix.hpp>
 
+#include <cmath>
+
 namespace tidemark::render {
 
 FrameState FrameState::at_frame(int number) const {
@@ -10,6 +12,13 @@ FrameState FrameState::at_frame(int number) const {
     if (time)
         other.time = *time - (frame - number) / fps;
     return other;
+}
+
+bool FrameState::is_in_run_of(const FrameState& other) const {
+    FrameState here = other.at_frame(frame);
+    const double gap = std::abs(here.seconds() - seconds());
+    here.time = time;
+    return here == *this && gap < 1e-6 / fps;
 }
 
 FrameState at_time(double seconds, FrameState state) {

@@ -43,6 +43,8 @@ struct FrameState {
     bool moves_camera() const { return camera != OrbitCamera{} || (initial_camera && mouse != Mouse{}); }
     /// Another frame of the same run: its time is as far from this one's as the frames are apart.
     FrameState at_frame(int number) const;
+    /// Whether the other is a frame of this run, but for roundings of its time.
+    bool is_in_run_of(const FrameState& other) const;
 };
 
 /// The state at a time, in the frame that the time falls in; before the start that is frame 0.

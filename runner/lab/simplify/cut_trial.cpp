@@ -62,7 +62,7 @@ bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& 
 Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views) {
     auto own = TRY(Specimen::create(scene, {}, extent));
     CutBench bench(scene, extent, std::move(views), std::move(own));
-    bench.truth_ = TRY(truth_of(pictures_of(bench.own_, bench.views_)));
+    bench.truth_ = TRY(truth_of(bench.own_.pictures(bench.views_)));
     return bench;
 }
 
@@ -73,7 +73,7 @@ std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Spe
     if (!specimen)
         return std::nullopt;
     CutTrial trial{*std::move(specimen)};
-    const Sight sight{pictures_of(trial.specimen, views_), {}};
+    const Sight sight{trial.specimen.pictures(views_), {}};
     for (size_t view = 0; view < views_.size(); ++view) {
         const double error = error_of(goal.measure, outcome_of(sight, truth_, view));
         if (!(error <= *goal.most_error) || !keeps_parts(goal, truth_.pictures[view], sight.pictures[view]))

@@ -103,13 +103,12 @@ private:
 
     Result<Sight> sight_of(Specimen& specimen) {
         Sight sight;
-        for (const View& view : study().views) {
-            sight.pictures.push_back(specimen.picture(view));
-            if (!specimen.has_hits())
-                continue;
-            auto hits = TRY(specimen.hits(view));
-            sight.hits.push_back(std::move(hits));
-        }
+        sight.pictures = specimen.pictures(study().views);
+        if (specimen.has_hits())
+            for (const View& view : study().views) {
+                auto hits = TRY(specimen.hits(view));
+                sight.hits.push_back(std::move(hits));
+            }
         return sight;
     }
 

@@ -93,10 +93,12 @@ private:
         const Stopwatch watch;
         Specimen* const specimen = TRY(specimen_.at(settings, precision_));
         Shown shown{std::move(settings), {}, {}, specimen->kept_hashes()};
+        if (!keep_going_())
+            return std::optional<Shown>{};
+        shown.pictures = specimen->pictures(study_.views);
         for (const View& view : study_.views) {
             if (!keep_going_())
                 return std::optional<Shown>{};
-            shown.pictures.push_back(specimen->picture(view));
             if (!specimen->has_hits())
                 continue;
             auto hits = TRY(specimen->hits(view));

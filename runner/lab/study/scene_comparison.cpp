@@ -32,7 +32,7 @@ public:
             point.failure = to_string(specimen.error());
         auto& pictures = findings_.evidence.pictures.emplace_back();
         if (specimen) {
-            pictures = pictures_of(*specimen, study().views);
+            pictures = specimen->pictures(study().views);
             point.compile_milliseconds = specimen->compile_milliseconds();
             point.first_draw_milliseconds = specimen->first_draw_milliseconds();
         }
@@ -72,13 +72,6 @@ private:
 };
 
 } // namespace
-
-std::vector<image::Image> pictures_of(Specimen& specimen, const std::vector<View>& views) {
-    std::vector<image::Image> pictures;
-    for (const View& view : views)
-        pictures.push_back(specimen.picture(view));
-    return pictures;
-}
 
 Result<Truth> truth_of(std::vector<image::Image> pictures) {
     Truth truth{std::move(pictures), {}, {}, {}};

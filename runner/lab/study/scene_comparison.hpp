@@ -11,8 +11,6 @@
 
 namespace tidemark::lab {
 
-std::vector<image::Image> pictures_of(Specimen& specimen, const std::vector<View>& views);
-
 /// Pictures as a truth, but for the pixels that are NaN or infinite. Fails (ErrorCode::check_failed) where
 /// these are too many.
 Result<Truth> truth_of(std::vector<image::Image> pictures);

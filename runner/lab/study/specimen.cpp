@@ -7,6 +7,8 @@
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
 #include <set>
 
 namespace tidemark::lab {
@@ -52,14 +54,32 @@ void Specimen::turn(const std::vector<scene::Knob>& knobs) {
         hit_renderer_->turn(knobs);
 }
 
+std::vector<image::Image> Specimen::pictures(const std::vector<View>& views) {
+    std::vector<size_t> order(views.size());
+    std::iota(order.begin(), order.end(), size_t(0));
+    std::ranges::stable_sort(order, {}, [&](size_t i) { return views[i].state.frame; });
+    std::vector<image::Image> pictures(views.size());
+    render::FrameState now;
+    std::optional<render::FrameStepper> stepper;
+    for (const size_t i : order) {
+        const render::FrameState state = state_of(views[i], extent_);
+        const bool goes_on = stepper && state.is_in_run_of(now);
+        now = state;
+        if (!goes_on)
+            stepper.emplace(*renderer_, [&now](int frame) { return now.at_frame(frame); });
+        const Stopwatch watch;
+        stepper->draw(state.frame);
+        glFinish();
+        if (!drawn_)
+            first_draw_milliseconds_ = watch.elapsed().wall;
+        drawn_ = true;
+        pictures[i] = image::without_alpha(renderer_->read_back());
+    }
+    return pictures;
+}
+
 image::Image Specimen::picture(const View& view) {
-    const Stopwatch watch;
-    draw(*renderer_, view);
-    glFinish();
-    if (!drawn_)
-        first_draw_milliseconds_ = watch.elapsed().wall;
-    drawn_ = true;
-    return image::without_alpha(renderer_->read_back());
+    return std::move(pictures({view}).front());
 }
 
 Result<void> Specimen::record(const scene::Scene& set) {

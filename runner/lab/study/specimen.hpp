@@ -34,7 +34,9 @@ public:
     static Result<Specimen> create(const scene::Scene& scene, const Recipe& recipe, Extent extent,
                                    HitSource hits = HitSource::main_hit);
 
-    /// RGB, floats. Where a frame depends on the one before it, all frames from 0 are drawn.
+    /// RGB, floats, one for each view. Where a frame depends on the one before it, all frames from 0 are
+    /// drawn, once for views that lie in one run.
+    std::vector<image::Image> pictures(const std::vector<View>& views);
     image::Image picture(const View& view);
     /// The scene's knobs, in their order, from the next picture on.
     void turn(const std::vector<scene::Knob>& knobs);

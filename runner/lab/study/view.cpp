@@ -81,8 +81,9 @@ Result<std::vector<View>> parse_views(std::string_view text) {
 
 View unseen(const View& view, double seconds_later) {
     View later = view;
-    const double seconds = view.state.seconds() + seconds_later;
-    later.state = render::at_time(seconds);
+    const double fps = view.state.fps;
+    const double seconds = view.state.seconds() + std::round(seconds_later * fps) / fps;
+    later.state = render::at_time(seconds, view.state);
     later.name = fmt::format("t={:g}, not searched", seconds);
     return later;
 }

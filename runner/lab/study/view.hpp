@@ -28,7 +28,7 @@ Result<std::vector<View>> parse_views(std::string_view text);
 /// Checks time and mouse; the error says which values are possible.
 Result<void> check(const View& view);
 
-/// The same view later, by a name that says so: for a verdict, a moment that no search has seen.
+/// The same view whole frames later, by a name that says so: for a verdict, a moment that no search has seen.
 View unseen(const View& view, double seconds_later);
 
 /// A picture of the same shape, its longer side so long at most: for a search.
