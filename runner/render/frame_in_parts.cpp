@@ -120,8 +120,10 @@ void FrameInParts::exchange(Apart& apart, void (PassTarget::*surfaces)(gl::Rende
 void FrameInParts::keep_whole() {
     renderer_->passes_drawn_ += whole_.size();
     renderer_->draws_in_frame_ = 0;
-    for (const Apart& apart : whole_)
+    for (Apart& apart : whole_) {
         renderer_->draws_in_frame_ += size_t(renderer_->faces_of(apart.pass));
+        renderer_->passes_[apart.pass].target.keep_apart(std::move(apart.surface));
+    }
     changes_ = ++renderer_->changes_;
     whole_.clear();
 }

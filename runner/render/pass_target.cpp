@@ -45,17 +45,20 @@ Result<PassTarget> PassTarget::create_cube(const TargetPlan& plan) {
 }
 
 void PassTarget::flip() {
+    spare_.reset();
     latest_ = next_index();
     ++edition_;
     gl::make_mipmaps(latest().texture);
 }
 
-std::optional<gl::RenderTarget> PassTarget::make_apart(bool keeps) const {
+std::optional<gl::RenderTarget> PassTarget::make_apart(bool keeps) {
     const gl::Texture& like = next().texture;
     const bool cube = like.target == GL_TEXTURE_CUBE_MAP;
-    auto apart = gl::make_render_target(
-        cube ? gl::make_cube_texture(like.extent.width, like.internal_format, like.levels)
-             : gl::make_texture(like.extent, like.internal_format, like.levels));
+    auto apart = std::exchange(spare_, std::nullopt);
+    if (!apart)
+        apart = gl::make_render_target(
+            cube ? gl::make_cube_texture(like.extent.width, like.internal_format, like.levels)
+                 : gl::make_texture(like.extent, like.internal_format, like.levels));
     if (apart && keeps)
         gl::copy_overlap(next(), *apart);
     return apart;
@@ -115,7 +118,7 @@ size_t PassTarget::bytes() const {
     size_t bytes = 0;
     for (const gl::RenderTarget& surface : surfaces_)
         bytes += gl::bytes_of(surface.texture);
-    return bytes;
+    return bytes + (spare_ ? gl::bytes_of(spare_->texture) : 0);
 }
 
 Result<PassTarget> PassTarget::resized(Extent extent) const {

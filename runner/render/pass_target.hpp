@@ -8,6 +8,7 @@
 #include "render/last_drawing.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace tidemark::render {
@@ -28,12 +29,16 @@ public:
     const gl::RenderTarget& latest() const { return surfaces_[latest_]; }
     /// What is to be drawn into; becomes the latest by `flip`.
     const gl::RenderTarget& next() const { return surfaces_[next_index()]; }
-    /// At once after drawing, so that passes later in the frame see it. Makes the mipmaps.
+    /// At once after drawing, so that passes later in the frame see it. Makes the mipmaps. What was kept to
+    /// draw apart goes: pictures are drawn whole.
     void flip();
 
-    /// A surface to draw the next picture into while all of its own stay as they are; where pixels are
+    /// A surface to draw all of the next picture into while all of its own stay as they are; where pixels are
     /// discarded (`keeps`) it begins as `next` is. Nothing where the driver has no memory for it.
-    std::optional<gl::RenderTarget> make_apart(bool keeps) const;
+    std::optional<gl::RenderTarget> make_apart(bool keeps);
+    /// What `take_over` left is not wanted back: the next picture apart is drawn into it, so that a frame of
+    /// many that are drawn in parts asks for no memory.
+    void keep_apart(gl::RenderTarget spare) { spare_ = std::move(spare); }
     /// `apart`, with its mipmaps, becomes the latest and takes the place of `next`, whose surface it gets.
     void take_over(gl::RenderTarget& apart);
     /// All is again as it was before `take_over`, `apart` too.
@@ -59,6 +64,7 @@ private:
     size_t next_index() const { return surfaces_.size() - 1 - latest_; }
 
     std::vector<gl::RenderTarget> surfaces_;
+    std::optional<gl::RenderTarget> spare_; ///< like them
     size_t latest_ = 0;
     Generation edition_ = 0;
     TargetPlan plan_;

@@ -218,6 +218,20 @@ TEST_F(FrameInPartsTest, it_begins_anew_where_its_renderer_was_changed) {
     }
 }
 
+TEST_F(FrameInPartsTest, each_pass_keeps_one_picture_more_until_it_is_drawn_whole) {
+    const scene::Scene scene = scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(p, iFrame, 1); }");
+    Renderer drawn = renderer(scene, k_extent);
+    const size_t picture = gl::bytes_of(drawn.target_of(0).texture);
+    const size_t bytes = drawn.work().texture_bytes;
+    PartSize size;
+    for (int frame = 0; frame < 3; ++frame) {
+        draw_in_parts(drawn, size, frame);
+        EXPECT_EQ(drawn.work().texture_bytes, bytes + picture);
+    }
+    drawn.draw(inputs_of_frame(3, 60));
+    EXPECT_EQ(drawn.work().texture_bytes, bytes);
+}
+
 TEST_F(FrameInPartsTest, says_what_each_pass_took) {
     Renderer drawn = renderer(feedback(), k_extent);
     PartSize size;

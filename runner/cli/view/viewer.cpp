@@ -143,11 +143,9 @@ void Viewer::listen() {
 
 /// What needs the driver waits while that is held by a part of a frame; there is always a way out.
 void Viewer::handle_all(const std::vector<platform::InputEvent>& events, double now) {
-    const bool held = driver_is_held(now);
-    std::vector<platform::InputEvent> happened;
-    if (!held)
-        happened = std::exchange(events_held_, {});
+    std::vector<platform::InputEvent> happened = std::exchange(events_held_, {});
     happened.insert(happened.end(), events.begin(), events.end());
+    const bool held = !happened.empty() && driver_is_at_work();
     for (const platform::InputEvent& event : happened) {
         const auto* key = std::get_if<platform::KeyPressed>(&event);
         const bool leads_out =
@@ -185,7 +183,7 @@ bool Viewer::wants_frame(double now) const {
         return false;
     if (goes_on())
         return true;
-    if (driver_is_held(now))
+    if (stepping_ || driver_is_at_work())
         return false;
     if (overlay_due())
         return true;
@@ -236,7 +234,7 @@ ShownMoment Viewer::shown_moment() const {
 
 /// Said once of a text: a window shows them as what it likes.
 void Viewer::look_for_numbers(double now) {
-    if (!stage_ || now < finite_.due() || driver_is_held(now))
+    if (!stage_ || now < finite_.due() || driver_is_at_work())
         return;
     if (const size_t count = finite_.look(stage_->renderer(), now); count > 0)
         say(fmt::format("warning: {} not finite; where from: {}",

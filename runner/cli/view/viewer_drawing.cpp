@@ -72,6 +72,9 @@ void Viewer::begin_frame(const render::FrameState& state, bool wanted, double no
 }
 
 void Viewer::carry_on(double now) {
+    stale_overlay_ |= draws_for_long(now) && now - clock_shown_at_ > k_clock_seconds;
+    if (!is_between_parts())
+        return say_what_holds(now);
     const size_t before = stage_->renderer().passes_drawn();
     const auto whole = making_->frame.draw_for(k_turn_seconds);
     if (!whole) {
@@ -82,9 +85,19 @@ void Viewer::carry_on(double now) {
     if (*whole)
         return frame_is_made(stage_->renderer().passes_drawn() != before);
     say_what_holds(now);
-    stale_overlay_ |= draws_for_long(now) && now - clock_shown_at_ > k_clock_seconds;
-    if (overlay_due())
+}
+
+/// What waits for the driver has it between two parts, and no part is begun before: one of them may never
+/// end. Whether the next may be.
+bool Viewer::is_between_parts() {
+    const bool due = overlay_due();
+    if (!due && events_held_.empty())
+        return true;
+    if (driver_is_at_work())
+        return false;
+    if (due)
         present(false);
+    return events_held_.empty();
 }
 
 void Viewer::frame_is_made(bool drawn) {
@@ -180,13 +193,13 @@ const std::optional<render::FrameInParts::UnderWay>& Viewer::driver_at() const {
     return making_ ? making_->frame.under_way() : ending_;
 }
 
-/// With what will not be done at once.
+/// With what will not be done at once. Whoever asks it for anything else waits for as long.
 bool Viewer::driver_is_at_work() const {
     const auto& at = driver_at();
     return at && !at->end.wait(k_turn_seconds);
 }
 
-/// Whoever asks it for anything else waits for as long.
+/// At work for so long that people want to know.
 bool Viewer::driver_is_held(double now) const {
     const auto& at = driver_at();
     return at && now - at->begun > k_long_seconds && !at->end.wait(0);

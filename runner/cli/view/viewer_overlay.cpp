@@ -44,8 +44,7 @@ void Viewer::toggle_help() {
 
 /// It is drawn without a new frame of the scene, which brings it along while the scene moves.
 bool Viewer::overlay_due() const {
-    return (stale_overlay_ || screen_->wants_frame()) && (making_ || !moving()) &&
-           !driver_is_held(now_seconds());
+    return screen_->is_watched() && (stale_overlay_ || screen_->wants_frame()) && (making_ || !moving());
 }
 
 live::Model Viewer::overlay_model() {
