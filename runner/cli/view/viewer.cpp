@@ -132,17 +132,17 @@ void Viewer::listen() {
     if (ending_ && ending_->end.wait(0))
         ending_.reset();
     if (of_the_hold_) {
-        handle_all(screen_->wait(0), now);
+        handle_all(screen_->wait(0));
         next_draw_ = std::max(next_draw_, now + k_breath_seconds);
         now = now_seconds();
     }
     of_the_hold_ = false;
-    handle_all(screen_->wait(closing_ ? 0 : seconds_to_sleep(now)), now);
+    handle_all(screen_->wait(closing_ ? 0 : seconds_to_sleep(now)));
     listened_at_ = now_seconds();
 }
 
 /// What needs the driver waits while that is held by a part of a frame; there is always a way out.
-void Viewer::handle_all(const std::vector<platform::InputEvent>& events, double now) {
+void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
     std::vector<platform::InputEvent> happened = std::exchange(events_held_, {});
     happened.insert(happened.end(), events.begin(), events.end());
     const bool held = !happened.empty() && driver_is_at_work();

@@ -109,7 +109,7 @@ private:
     void handle(const platform::KeyPressed& event);
     void handle(const platform::KeyReleased& event);
     void obey(platform::Key key, double now);
-    void handle_all(const std::vector<platform::InputEvent>& events, double now);
+    void handle_all(const std::vector<platform::InputEvent>& events);
     void escape(double now);
     void forget_what_follows();
     void handle(const platform::TextTyped&) {}
