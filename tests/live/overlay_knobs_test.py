@@ -4,6 +4,7 @@ import re
 from support import png, probe
 from support.live import main, wait_for
 from support.overlay import OverlayTest
+from support.program import not_sanitized
 
 KNOBS = ["#iUniform float height = 0.5 in { 0.0, 2.0 } step 0.1",
          "#iUniform color3 deep = color3(0.25, 0.5, 1.0)",
@@ -57,6 +58,7 @@ class Knobs(OverlayTest):
         view.wait_until_told(VALUES, lambda told: told["height"] == 3.5)
         self.assertNotIn("paused", view.title())
 
+    @not_sanitized  # whose first frame is slow, and a slow frame's clock needs it
     def test_nothing_is_loaded_before_it_is_shown(self):
         self.write("a.glsl", KNOBS[0] + "\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(height); }\n")
         view = self.open("a.glsl", "--size", "640x360")

@@ -15,12 +15,12 @@ import unittest
 from typing import Callable, TypeVar
 
 from support import png, probe
-from support.program import PROGRAM, SKIPPED, ProgramTest, environment
+from support.program import PROGRAM, SKIPPED, ProgramTest, environment, is_sanitized
 
 T = TypeVar("T")
 
 # Nothing here is timed: this is how long a slow machine may take before we call it broken.
-PATIENCE = 60.0
+PATIENCE = 180.0 if is_sanitized() else 60.0
 
 
 def main() -> None:

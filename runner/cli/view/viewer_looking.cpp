@@ -16,6 +16,8 @@ void Viewer::toggle_magnifier() {
 
 void Viewer::toggle_marks() {
     marks_shown_ = !marks_shown_;
+    if (marks_shown_ && slow_)
+        say("marks rest while a frame takes more than a second");
     forget_looking();
     stale_overlay_ = true;
 }
