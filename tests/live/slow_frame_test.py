@@ -3,7 +3,7 @@ import json
 import re
 
 from support import osc, png, probe
-from support.live import LiveTest, View, main
+from support.live import LiveTest, View, main, wait_for
 
 SIZE = ("--size", "320x160")
 FRAME_SECONDS = 5
@@ -142,6 +142,21 @@ class SlowFrame(LiveTest):
         self.wait_for_the_paused_frame(view)
         told = view.told(COUNTED)
         self.assertEqual(told["count"], told["frame"] + 1)
+
+    def test_a_mended_text_waits_behind_a_loop_that_never_ends(self):
+        self.write("a.glsl", slow_function(65000, 300) + "void mainImage(out vec4 c, in vec2 p) {\n"
+                             "    c = vec4(p.y > 80.0 ? slow(p.x) : 0.0);\n}\n")
+        view = View(self.screen, self.folder, "a.glsl", *SIZE, "--plain", first_title=" - drawing ")
+        self.addCleanup(view.close)
+        view.wait_for_words(" on take more than 2 s: ")
+        self.write("a.glsl", probe.shader(SMALL))
+        earlier = float(view.wait_for_title(r" - drawing (\d+\.\d) s, ")[1])
+        wait_for(lambda: float(view.wait_for_title(r" - drawing (\d+\.\d) s, ")[1]) > earlier + 5, "the clock to go on")
+        view.key("Escape")
+        view.wait_for_words("^the driver cannot be stopped: what it is at ends by itself$")
+        while view.program.poll() is None:
+            view.key("Escape")
+        self.assertEqual(view.wait_for_end(), 0)
 
     def test_a_loop_that_never_ends(self):
         """Or as good as never: not in the small picture that is tried out in another process first. It is come upon

@@ -341,7 +341,10 @@ LiveScene::View Viewer::view() const {
             inputs_on_show(), settings_.rehearsal};
 }
 
+/// Not while the driver is held: what is on show can be taken over only when it is free.
 Result<void> Viewer::follow_scene(double now) {
+    if (driver_is_held(now))
+        return {};
     auto fresh = TRY(scene_.follow(view(), now));
     stale_overlay_ |= errors_.show(scene_.failure());
     if (scene_.failure())
