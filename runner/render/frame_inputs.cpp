@@ -32,10 +32,8 @@ bool take_time_of_day(std::string_view& text, double& seconds) {
     double second = 0;
     if (!take_number(text, hour, ':') || !take_number(text, minute, ':') || !take_number(text, second, 0))
         return false;
-    if (!(hour < 24 && minute < 60 && second < 61)) // the second may be no number
-        return false;
-    seconds = hour * 3600 + minute * 60 + second;
-    return true;
+    seconds = hour * 3600.0 + minute * 60.0 + second;
+    return hour < 24 && minute < 60 && second < 61;
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 """A frame that holds the window for seconds: what people do meanwhile, and how they are rid of it."""
-import json
-
 from support import probe
 from support.live import LiveTest, View, main, wait_for
+from support.slow import rounds_that_take, slow_shader
 
 SIZE = ("--size", "200x100")
 VALUES = {"mark": "MARK"}
@@ -14,25 +13,12 @@ def marked(mark: int) -> str:
 
 
 def slow(mark: int, rounds: int) -> str:
-    """llvmpipe leaves its loops after 65,536 rounds, so that each of them takes its time, in every pixel."""
-    text = probe.shader(VALUES, f"#define MARK {mark}.0\nfloat slow(float s) {{\n"
-                                f"    for (int i = 0; i < {rounds}; ++i) {{\n"
-                                + "        s = fract(sin(s + iTime) * 4371.0);\n" * 30 + "    }\n    return s;\n}\n")
-    return text.replace("0.0, 1.0);\n}", "slow(at.x + at.y), 1.0);\n}")
+    return slow_shader(rounds, VALUES, f"#define MARK {mark}.0\n")
 
 
 class Stall(LiveTest):
     def rounds(self) -> int:
-        """So many that this machine, as busy as it is, takes some seconds for a frame."""
-        rounds = 2
-        while True:
-            self.write("measure.glsl", slow(0, rounds))
-            done = self.succeed("capture", "measure.glsl", *SIZE, "--frames", "0-1", "-o",
-                                "measure.####.png", "--json")
-            seconds = json.loads(done.stdout)["frames"][1]["milliseconds"] / 1000  # the first is compiled, too
-            if seconds > 0.3:
-                return int(rounds * HELD_SECONDS / seconds)
-            rounds *= 4
+        return rounds_that_take(HELD_SECONDS, self, lambda rounds: slow(0, rounds), *SIZE)
 
     def hold(self, view: View, mark: int, rounds: int) -> None:
         self.write("a.glsl", slow(mark, rounds))

@@ -228,7 +228,7 @@ private:
     bool goes_on() const { return making_ && !waits_for_better(); }
     bool draws_for_long(double now) const;
     const std::optional<render::FrameInParts::UnderWay>& driver_at() const;
-    bool is_between_parts();
+    bool make_way();
     bool driver_is_at_work() const;
     bool driver_is_held(double now) const;
     std::string drawing_words(double now) const;

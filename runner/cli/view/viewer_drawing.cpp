@@ -29,7 +29,7 @@ void Viewer::draw(double now) {
     if (goes_on())
         return carry_on(now);
     const bool due = stale_ || (moving() && now >= next_draw_);
-    if (!stage_ || making_ || given_up_ || stepping_ || !due) {
+    if (!stage_ || making_ || given_up_ || !due) {
         stale_ = stale_ && making_;
         return present(false);
     }
@@ -73,7 +73,7 @@ void Viewer::begin_frame(const render::FrameState& state, bool wanted, double no
 
 void Viewer::carry_on(double now) {
     stale_overlay_ |= draws_for_long(now) && now - clock_shown_at_ > k_clock_seconds;
-    if (!is_between_parts())
+    if (!make_way())
         return say_what_holds(now);
     const size_t before = stage_->renderer().passes_drawn();
     const auto whole = making_->frame.draw_for(k_turn_seconds);
@@ -88,8 +88,8 @@ void Viewer::carry_on(double now) {
 }
 
 /// What waits for the driver has it between two parts, and no part is begun before: one of them may never
-/// end. Whether the next may be.
-bool Viewer::is_between_parts() {
+/// end. Whether the next may be begun.
+bool Viewer::make_way() {
     const bool due = overlay_due();
     if (!due && events_held_.empty())
         return true;

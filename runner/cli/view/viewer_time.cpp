@@ -56,7 +56,7 @@ void Viewer::seek(double seconds, double now) {
 /// A few frames at a time, and the bar between. Time goes on from there.
 void Viewer::step_there() {
     constexpr double k_seconds = 1 / 30.0;
-    if (!stepping_ || !is_between_parts())
+    if (!stepping_ || !make_way())
         return;
     if (stepping_->advance(k_seconds)) {
         clock_.seek(stepping_->seconds(), clock_.next_frame_number(), now_seconds());
