@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tidemark::glsl {
@@ -27,6 +28,12 @@ double upper_part(double value) {
     int exponent = 0;
     const double mantissa = std::frexp(value, &exponent);
     return std::ldexp(std::nearbyint(std::ldexp(mantissa, 12)), exponent - 12);
+}
+
+/// It has all its digits as one.
+bool is_float(double value) {
+    const double size = std::abs(value);
+    return size >= std::numeric_limits<float>::min() && size <= std::numeric_limits<float>::max();
 }
 
 /// With all digits: a scene in double reads them as doubles.
@@ -65,11 +72,16 @@ private:
         if (name == "fract")
             return 1;
         const auto period = name == "mod" ? constant(tree_.child(id, 2)) : std::nullopt;
-        return period && *period > 0 ? period : std::nullopt;
+        return period && period->value > 0 ? std::optional(period->value) : std::nullopt;
     }
 
+    struct Number {
+        double value;
+        bool whole; ///< no value but an int's
+    };
+
     /// Worked out once. Of what is being worked out it is none: a name may stand in its own value.
-    std::optional<double> constant(NodeId id, int names = 0) {
+    std::optional<Number> constant(NodeId id, int names = 0) {
         if (!constants_[id].known) {
             constants_[id].known = true;
             constants_[id].value = find_constant(id, names);
@@ -77,13 +89,19 @@ private:
         return constants_[id].value;
     }
 
-    std::optional<double> find_constant(NodeId id, int names) {
+    std::optional<Number> find_constant(NodeId id, int names) {
         id = without_brackets(tree_, id);
         switch (tree_[id].kind) {
-        case NodeKind::literal: return number(text_.word_of(id));
+        case NodeKind::literal: {
+            const std::string_view word = text_.word_of(id);
+            const auto value = number(word);
+            return value ? std::optional(Number{*value, word.find_first_of(".eEfF") == word.npos})
+                         : std::nullopt;
+        }
         case NodeKind::prefix: {
             const auto value = constant(tree_.child(id, 0), names);
-            return value && text_.word_of(id) == "-" ? std::optional(-*value) : std::nullopt;
+            return value && text_.word_of(id) == "-" ? std::optional(Number{-value->value, value->whole})
+                                                     : std::nullopt;
         }
         case NodeKind::name: {
             const NodeId value = names < k_most_names ? values_.of(id) : k_no_node;
@@ -92,14 +110,18 @@ private:
         case NodeKind::binary: {
             const auto left = constant(tree_.child(id, 0), names),
                        right = constant(tree_.child(id, 1), names);
-            if (!left || !right)
-                return std::nullopt;
-            return text_.word_of(id) == "*"   ? std::optional(*left * *right)
-                   : text_.word_of(id) == "/" ? std::optional(*left / *right)
-                                              : std::nullopt;
+            return left && right ? worked_out(text_.word_of(id), *left, *right) : std::nullopt;
         }
         default: return std::nullopt;
         }
+    }
+
+    /// None of two ints, which are counted otherwise: 2 / 3 is 0. And none that is not finite.
+    static std::optional<Number> worked_out(std::string_view sign, const Number& left, const Number& right) {
+        if ((sign != "*" && sign != "/") || (left.whole && right.whole))
+            return std::nullopt;
+        const double value = sign == "*" ? left.value * right.value : left.value / right.value;
+        return std::isfinite(value) ? std::optional(Number{value, false}) : std::nullopt;
     }
 
     /// The number that iTime is multiplied by in an expression that is nothing else.
@@ -127,13 +149,13 @@ private:
             return std::nullopt;
         const NodeId left = tree_.child(id, 0), right = tree_.child(id, 1);
         const auto behind = constant(right);
-        if (text_.word_of(id) == "/" && behind && *behind != 0)
-            return Scaled{left, 1 / *behind};
+        if (text_.word_of(id) == "/" && behind && behind->value != 0)
+            return Scaled{left, 1 / behind->value};
         if (text_.word_of(id) != "*")
             return std::nullopt;
         const auto before = behind ? std::nullopt : constant(left);
-        return behind   ? std::optional(Scaled{left, *behind})
-               : before ? std::optional(Scaled{right, *before})
+        return behind   ? std::optional(Scaled{left, behind->value})
+               : before ? std::optional(Scaled{right, before->value})
                         : std::nullopt;
     }
 
@@ -150,8 +172,12 @@ private:
 
     /// The terms of `id`, of which `factor` times are in an argument with that period.
     void reduce(NodeId id, double factor, double period) {
-        if (const auto rate = rate_of(id); rate && *rate != 0 && std::isfinite(*rate))
-            return use(id, period / factor, *rate * factor / period);
+        if (const auto rate = rate_of(id)) {
+            const double turn = period / factor, turns = *rate * factor / period;
+            if (is_float(turn) && is_float(turns))
+                use(id, turn, turns);
+            return;
+        }
         const NodeId inside = without_brackets(tree_, id);
         const std::string_view word = text_.word_of(inside);
         if (tree_[inside].kind != NodeKind::binary)
@@ -159,7 +185,7 @@ private:
         if (word == "+" || word == "-") {
             reduce(tree_.child(inside, 0), factor, period);
             reduce(tree_.child(inside, 1), factor, period);
-        } else if (const auto scaled = scaled_part(inside); scaled && scaled->factor != 0) {
+        } else if (const auto scaled = scaled_part(inside)) {
             reduce(scaled->part, factor * scaled->factor, period);
         }
     }
@@ -170,7 +196,7 @@ private:
     SingleValues values_;
     struct Constant {
         bool known = false;
-        std::optional<double> value{};
+        std::optional<Number> value{};
     };
     std::vector<Constant> constants_; ///< of each node
     HelperFunction turns_;

@@ -135,8 +135,18 @@ TEST(ReducedTime, IsAFractionOfATurn) {
 TEST(ReducedTime, StaysWhereTimeIsNoPhase) {
     for (const std::string body :
          {"return x + iTime;", "return sin(x * iTime);", "return fract(x);",
-          "float t = iTime; t += 1.0; return sin(t);", "return mod(iTime, x);", "return sin(sqrt(iTime));"})
+          "float t = iTime; t += 1.0; return sin(t);", "return mod(iTime, x);", "return sin(sqrt(iTime));",
+          "return mod(iTime, 2.0 / 0.0);", "return sin(1e30 * iTime * 1e30);", "return sin(iTime / 1e-320);",
+          "return sin(0.0 * iTime);", "return sin(x + 0.0 * (iTime + x));",
+          "return mod(iTime, 1e300 * 1e300);"})
         EXPECT_EQ(phases(body), body);
+}
+
+TEST(ReducedTime, TwoWholeNumbersAreDividedAsInts) {
+    const std::string body = "const int N = 3; return sin(2 / 3 * iTime) + mod(iTime, 7 / N * 2.0);";
+    EXPECT_EQ(phases(body), body);
+    EXPECT_EQ(phases("return fract(x + 3 / 2.0 * iTime);"),
+              "return fract(x + 1.0 * turns_of_time(vec3(1.5, 0, 0)));");
 }
 
 TEST(ReducedTime, ItsFunctionStandsOnceAndDeclaresWhatItNeeds) {
