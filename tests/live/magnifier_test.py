@@ -70,8 +70,6 @@ class Magnifier(OverlayTest):
                 view = self.open_text(KINDS, size, scale)
                 rows = view.place()["HEIGHT"] - 1
                 plain = view.picture()
-                if is_sanitized():
-                    view.key("Home")  # the first frame was slow, and marks rest behind such a one
                 view.key("n")
                 for colour in (MAGENTA, GREEN, BLUE):
                     wait_for(lambda: count(view, colour) == 40 * rows, f"the marks {colour!r}")

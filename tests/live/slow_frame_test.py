@@ -82,6 +82,13 @@ class SlowFrame(LiveTest):
         self.wait_for_a_frame(view)
         self.assertEqual(self.expect_picture_of_capture(view).width, 160)
 
+    def test_marks_would_hold_the_window_and_rest(self):
+        view = self.start()
+        view.key("space")
+        self.wait_for_the_paused_frame(view)
+        view.key("n")
+        view.wait_for_words("^marks rest while a frame takes more than a second$")
+
     def test_another_size_begins_the_frame_anew(self):
         view = self.start()
         self.screen.xdotool("windowsize", str(view.window), "200", "100")

@@ -227,6 +227,7 @@ private:
     void doubt_pace();
     bool goes_on() const { return making_ && !waits_for_better(); }
     bool draws_for_long(double now) const;
+    bool drawing_would_hold() const;
     const std::optional<render::FrameInParts::UnderWay>& driver_at() const;
     bool make_way();
     bool driver_is_at_work() const;

@@ -186,6 +186,12 @@ bool Viewer::draws_for_long(double now) const {
     return making_ && now - making_->begun > k_long_seconds;
 }
 
+/// Whether the frame on show, drawn once more and whole, would hold the window. That the last one took long
+/// does not say so: it may have waited for others, and where nothing moves none follows it.
+bool Viewer::drawing_would_hold() const {
+    return slow_ && pace_.expected(drawn_extent()).value_or(k_long_seconds) >= k_long_seconds;
+}
+
 /// What the driver is drawing, for this frame, for one that leads to another, or for one that was given up.
 const std::optional<render::FrameInParts::UnderWay>& Viewer::driver_at() const {
     if (stepping_ && stepping_->frame())

@@ -16,7 +16,7 @@ void Viewer::toggle_magnifier() {
 
 void Viewer::toggle_marks() {
     marks_shown_ = !marks_shown_;
-    if (marks_shown_ && slow_)
+    if (marks_shown_ && drawing_would_hold())
         say("marks rest while a frame takes more than a second");
     forget_looking();
     stale_overlay_ = true;
@@ -36,7 +36,7 @@ std::optional<live::MagnifierField> Viewer::magnifier_field() {
 
 /// What the marks are drawn from, while there are any: Image once more, and whole.
 const gl::Texture* Viewer::marked_picture() {
-    if (!marks_shown_ || !stage_ || stepping_ || frozen_ || making_ || slow_ ||
+    if (!marks_shown_ || !stage_ || stepping_ || frozen_ || making_ || drawing_would_hold() ||
         stage_->renderer().target().texture.target != GL_TEXTURE_2D)
         return nullptr;
     if (!marks_) {
