@@ -95,9 +95,13 @@ std::string to_string(const std::vector<Setting>& settings) {
     return text.empty() ? "defaults" : text;
 }
 
+bool is_knob(const scene::Scene& scene, std::string_view name) {
+    return std::ranges::find(scene.knobs, name, &scene::Knob::name) != scene.knobs.end();
+}
+
 Result<void> apply(scene::Scene& scene, const Setting& setting) {
     const std::string text = setting.name + "=" + setting.value;
-    if (std::ranges::find(scene.knobs, setting.name, &scene::Knob::name) != scene.knobs.end())
+    if (is_knob(scene, setting.name))
         return scene::override_knob(scene, text);
     if (glsl::definition_of(scene, setting.name))
         return glsl::override_definition(scene, text);

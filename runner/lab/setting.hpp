@@ -33,7 +33,10 @@ std::vector<Setting> merged(const std::vector<Setting>& settings);
 /// `a = 1, b = 2`; "defaults" when there are none.
 std::string to_string(const std::vector<Setting>& settings);
 
-/// Sets a knob (`#iUniform`), else rewrites a `#define` or `const`, else the number at a place. The error
+/// Whether it names a knob (`#iUniform`): its values are in no text.
+bool is_knob(const scene::Scene& scene, std::string_view name);
+
+/// Sets a knob, else rewrites a `#define` or `const`, else the number at a place. The error
 /// (ErrorCode::usage) has the nearest name there is.
 Result<void> apply(scene::Scene& scene, const Setting& setting);
 Result<scene::Scene> with(scene::Scene scene, const std::vector<Setting>& settings);

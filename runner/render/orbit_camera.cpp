@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,14 +33,14 @@ double wrapped(double degrees) {
     return positive < 360 ? positive : 0; // a hair below 0 rounds to 360
 }
 
-/// Finite ones with commas between them; nothing where the text is something else.
+/// Those of a float with commas between them; nothing where the text is something else.
 std::optional<std::vector<double>> numbers_of(std::string_view text) {
     std::vector<double> numbers;
     const char* at = text.data();
     const char* const end = at + text.size();
     do {
         const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
-        if (error != std::errc{} || !std::isfinite(numbers.back()))
+        if (error != std::errc{} || !(std::abs(numbers.back()) <= std::numeric_limits<float>::max()))
             return std::nullopt;
         at = rest;
     } while (at != end && *at == ',' && ++at);

@@ -23,10 +23,6 @@ std::optional<scene::Knob> knob_of(std::string name, const std::string& text) {
     return knob;
 }
 
-bool is_knob(const scene::Scene& scene, std::string_view name) {
-    return std::ranges::find(scene.knobs, name, &scene::Knob::name) != scene.knobs.end();
-}
-
 } // namespace
 
 Result<TurnableScene> TurnableScene::create(scene::Scene scene, const std::vector<Setting>& settings) {

@@ -245,11 +245,11 @@ std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal
 }
 
 /// No value of it changes what is compiled: it stands in a branch of #if that is not taken, as the threshold
-/// of a solver that is not chosen. (The value of a knob is in no text.)
+/// of a solver that is not chosen.
 bool is_idle(const QualitySetting& setting, const scene::Scene& scene,
              const std::vector<std::string>& words) {
     const Axis& axis = setting.axis;
-    if (std::ranges::find(scene.knobs, axis.name, &scene::Knob::name) != scene.knobs.end())
+    if (is_knob(scene, axis.name))
         return false;
     const auto other = with(scene, {{axis.name, axis.values[setting.own == 0 ? 1 : 0]}});
     return other && compiled_words(*other) == words;
