@@ -199,32 +199,12 @@ TEST(OrbitMotion, pans_along_the_first_heading) {
 }
 
 TEST(ParseCamera, what_is_no_camera) {
-    for (const std::string text : {"",
-                                   "1",
-                                   "1,2",
-                                   "1,2,",
-                                   "1,2,3,",
-                                   "1,2,3,4",
-                                   "1,2,x",
-                                   "x,2,3",
-                                   " 1,2,3",
-                                   "1, 2,3",
-                                   "1,2,3 ",
-                                   "nan,0,1",
-                                   "0,inf,1",
-                                   "0,0,nan",
-                                   "0,0,0",
-                                   "0,0,-1",
-                                   "0,0,1e7",
-                                   "0,0,1e-4",
-                                   "1e999,0,1",
-                                   ",,",
-                                   "1;2;3",
-                                   "1,2,3,4,5",
-                                   "1,2,3,4,5,nan",
-                                   "1,2,3,4,5,6,7",
-                                   "1,2,3,4,5,6;",
-                                   "0,0,1,1e39,0,0"}) {
+    for (const std::string text :
+         {"",        "1",         "1,2",           "1,2,",          "1,2,3,",
+          "1,2,3,4", "1,2,x",     "x,2,3",         " 1,2,3",        "1, 2,3",
+          "1,2,3 ",  "nan,0,1",   "0,inf,1",       "0,0,nan",       "0,0,0",
+          "0,0,-1",  "0,0,1e7",   "0,0,1e-4",      "1e999,0,1",     ",,",
+          "1;2;3",   "1,2,3,4,5", "1,2,3,4,5,nan", "1,2,3,4,5,6,7", "1,2,3,4,5,6;"}) {
         const auto parsed = parse_camera(text);
         ASSERT_FALSE(parsed) << text;
         EXPECT_EQ(parsed.error().code, ErrorCode::usage);
@@ -234,6 +214,12 @@ TEST(ParseCamera, what_is_no_camera) {
                       "degrees, a distance above 0), and behind them x,y,z where it is "
                       "panned to");
     }
+}
+
+TEST(ParseCamera, its_numbers_are_floats) {
+    for (const std::string text : {"1e39,0,1", "0,0,1,1e39,0,0", "0,0,1,0,0,-1e39"})
+        EXPECT_FALSE(parse_camera(text)) << text;
+    EXPECT_TRUE(std::isfinite(column(*parse_camera("0,0,1e6,0,0,3.4028234e38"), 3).z));
 }
 
 } // namespace
