@@ -47,6 +47,8 @@ public:
           length_(last - slice.start()), near_(near()) {}
 
     FirstHit run() {
+        if (!std::isfinite(length_))
+            return answer(FirstHit::Verdict::undecided, everything(), FirstHit::Reason::not_finite);
         if (last_ == slice_.start())
             return at_start();
         double at = slice_.start();

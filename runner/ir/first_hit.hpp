@@ -25,7 +25,8 @@ std::string_view to_string(FirstHit::Reason reason);
 /// How far a hit is narrowed down, relative to the parameter.
 inline constexpr double k_usual_width = 4e-6;
 
-/// From the slice's start to `last`, in terms of the ray's parameter.
+/// From the slice's start to `last`, which does not lie in front of it, in terms of the ray's parameter.
+/// Where one of them is no number, all is undecided.
 FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations = 20'000,
                    double relative_width = k_usual_width);
 

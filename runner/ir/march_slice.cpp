@@ -34,7 +34,7 @@ Textures<Tangent> with_slopes(const Textures<Interval>& textures) {
 
 template <class Real>
 Interval bounds(const Point<Real>& point) {
-    return {point.real, point.real};
+    return IntervalSystem::number(double(point.real));
 }
 const Interval& bounds(const Interval& interval) {
     return interval;
@@ -62,9 +62,13 @@ MarchSlice::MarchSlice(const LoopSlice& slice, const Evaluator<System>& entered,
         first_.push_back(itself ? Interval{} : bounds(entered.value(each.phi)));
         factor_.push_back(itself ? k_one : factor_of(each, entered));
     }
-    start_ = loop_->by_parameter() ? bounds(entered.value(loop_->carried[0].phi)).low : 0;
+    if (loop_->by_parameter()) {
+        const Interval start = bounds(entered.value(loop_->carried[0].phi));
+        start_ = start.partial ? -k_infinity : start.low;
+    }
     if (loop_->limited())
-        far_ = bounds(entered.value(loop_->far)).high;
+        if (const Interval far = bounds(entered.value(loop_->far)); !far.partial && std::isfinite(far.high))
+            far_ = far.high;
 }
 template MarchSlice::MarchSlice(const LoopSlice&, const FloatEvaluator&, const Textures<Interval>&, Surface);
 template MarchSlice::MarchSlice(const LoopSlice&, const PointEvaluator<double>&, const Textures<Interval>&,
@@ -103,8 +107,8 @@ auto MarchSlice::run(LoopTurn<System>& turn, const std::vector<typename System::
 
 double MarchSlice::end(const March& march) const {
     constexpr double k_beyond = 1.5; // a hit that is a little early is still found
-    if (loop_->limited())
-        return march.far;
+    if (march.far)
+        return *march.far;
     auto last = march.turns.rbegin();
     while (last + 1 != march.turns.rend() && !std::isfinite(parameter(*last)))
         ++last;
@@ -258,8 +262,9 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
             before = carried();
         return !loop.idle || block != loop.idle->block || idle_condition(block) != loop.idle->when;
     };
-    if (loop.far != k_no_value)
-        march.far = evaluator.value(loop.far).real;
+    if (loop.limited())
+        if (const float far = evaluator.value(loop.far).real; std::isfinite(far))
+            march.far = far;
     Decisions none(0);
     evaluator.run(none, visit, loop.header, loop.entry);
     if (!march.turns.empty()) {

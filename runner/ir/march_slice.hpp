@@ -23,10 +23,8 @@ struct Turn {
 /// The march of one pixel.
 struct March {
     std::vector<Turn> turns;
-    float far = 0;         ///< the loop's limit, where it has one
-    float threshold = 0;   ///< of the last turn
-    bool tightens = false; ///< it is smaller in some turn than in the first, though it is to grow
-    bool hit = false;      ///< it was left because of the distance
+    std::optional<float> far{}; ///< the loop's limit, where it has one that is a number
+    bool hit = false;           ///< it was left because of the distance
 };
 
 /// What becomes of conditions and jumps that are not decided: they cost width; or they are gone through one
@@ -38,7 +36,8 @@ enum class Surface { threshold, zero };
 
 /// A place on a ray that is not one number: those are floats, and what floats make of them is rounded.
 inline Interval place_at(double parameter) {
-    return {parameter, std::nextafter(parameter, k_infinity)};
+    return std::isfinite(parameter) ? Interval{parameter, std::nextafter(parameter, k_infinity)}
+                                    : everything();
 }
 
 /// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry: of one
@@ -49,7 +48,8 @@ public:
     MarchSlice(const LoopSlice& slice, const Evaluator<System>& entered,
                const Textures<Interval>& textures = {}, Surface surface = Surface::threshold);
 
-    /// Where the ray begins, in terms of its parameter; the first of the rays.
+    /// Where the ray begins, in terms of its parameter; the first of the rays. -infinity, where it may begin
+    /// at NaN or at an infinity.
     double start() const { return start_; }
     /// The parameter at which a turn measured.
     double parameter(const Turn& turn) const;
@@ -59,7 +59,7 @@ public:
     /// Up to where a first hit is looked for: the loop's limit; else the last place that the march came to,
     /// and beyond its own hit. What has no limit may go to infinity.
     double end(const March& march) const;
-    /// The loop's limit, where it has one: of many rays the largest.
+    /// The loop's limit, where all rays have one that is a number: the largest.
     std::optional<double> far() const { return far_; }
 
     /// Bounds, over that piece of the ray, of what is negative behind the surface; `partial` where NaN or an

@@ -145,7 +145,7 @@ private:
 
 std::optional<uint32_t> most_turns(MarchSlice& slice, double end, uint32_t enough,
                                    uint64_t most_evaluations) {
-    if (!(end > slice.start()) || !std::isfinite(end))
+    if (!(end > slice.start()) || !std::isfinite(end - slice.start()))
         return std::nullopt;
     const auto turns = TurnCount(slice, end, enough, most_evaluations).run();
     return turns && *turns <= enough ? turns : std::nullopt;

@@ -30,7 +30,7 @@ void look_along(const ir::Function& function, const std::vector<ir::MarchingLoop
         return;
     ir::MarchSlice slice(turn, entered);
     const double end = slice.end(march);
-    if (!std::isfinite(end) || end <= slice.start())
+    if (end <= slice.start())
         return;
     const ir::FirstHit hit = ir::first_hit(slice, end, k_most_evaluations);
     REQUIRE(hit.where.low <= hit.where.high);

@@ -44,5 +44,67 @@ TEST_F(Waters, FirstHitsFromTheTextAreThoseOfTheReferences) {
     }
 }
 
+/// A ball in the middle of the picture, marched with that start and that limit.
+std::string ball(const std::string& start, const std::string& limit) {
+    return "float map(vec3 p) { return length(p) - 1.0; }\n"
+           "void mainImage(out vec4 c, in vec2 p) {\n"
+           "    vec3 rd = normalize(vec3((p - 0.5 * iResolution.xy) / iResolution.y, 1.0));\n"
+           "    float t = " +
+           start +
+           ";\n"
+           "    for (int i = 0; i < 64; ++i) {\n"
+           "        float d = map(vec3(0.0, 0.0, -3.0) + rd * t);\n"
+           "        if (d < 0.001 || t > " +
+           limit +
+           ") break;\n"
+           "        t += d;\n"
+           "    }\n"
+           "    c = vec4(exp(-t));\n"
+           "}\n";
+}
+
+/// Of each ray what is proved of it.
+struct Known {
+    size_t hits = 0, misses = 0, unknown = 0;
+};
+
+class BallHits : public RenderTest {
+protected:
+    Known known(const std::string& text) const {
+        const scene::Scene scene = scene_of(text);
+        Renderer drawing = renderer(scene, k_few);
+        drawing.draw({});
+        const auto function = lab::PassFunction::create(scene, scene.passes[0]);
+        EXPECT_TRUE(function) << function.error().message;
+        const auto proved = lab::true_hits({*function, drawing, 0, {}}, 1e6, [] { return true; });
+        EXPECT_TRUE(proved);
+        if (!proved)
+            return {};
+        Known known{.unknown = proved->unknown};
+        for (const double distance : proved->hits.distance) {
+            known.hits += distance >= 0;
+            known.misses += distance == -1;
+        }
+        return known;
+    }
+};
+
+TEST_F(BallHits, WithoutALimitNoRayIsProvedToMiss) {
+    const Known limited = known(ball("0.0", "20.0"));
+    EXPECT_GT(limited.hits, k_few.pixels() / 20);
+    EXPECT_GT(limited.misses, k_few.pixels() / 2);
+    const Known infinite = known(ball("0.0", "1.0 / iTime"));
+    EXPECT_EQ(infinite.hits, limited.hits);
+    EXPECT_EQ(infinite.misses, 0u);
+}
+
+TEST_F(BallHits, OfRaysThatBeginNowhereNothingIsProved) {
+    for (const char* start : {"0.0 / iTime", "1.0 / iTime", "-1.0 / iTime"}) {
+        const Known nowhere = known(ball(start, "20.0"));
+        EXPECT_EQ(nowhere.hits + nowhere.misses, 0u) << start;
+        EXPECT_EQ(nowhere.unknown, k_few.pixels()) << start;
+    }
+}
+
 } // namespace
 } // namespace tidemark::render

@@ -28,7 +28,7 @@ Result<FieldOnRays> FieldOnRays::create(ProbeBench& bench, const FrameState& sta
             const glm::ivec2 pixel{(2 * x + 1) * renderer.extent().width / (2 * k_grid.width),
                                    (2 * y + 1) * renderer.extent().height / (2 * k_grid.height)};
             auto ray = field.source_->enter(pixel, ir::Surface::zero);
-            if (ray && ray->slice && !ray->march.turns.empty())
+            if (ray && ray->slice && !ray->march.turns.empty() && std::isfinite(ray->slice->start()))
                 field.rays_.push_back(*std::move(ray));
         }
     return field;

@@ -102,7 +102,7 @@ struct Scales {
 uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& scales) {
     ir::MarchSlice& slice = *ray.slice;
     const double last = slice.end(ray.march);
-    if (last < slice.start() || !std::isfinite(last))
+    if (last < slice.start())
         return 0;
     const ir::FirstHit hit = ir::first_hit(slice, last, k_most_of_a_ray);
     if (hit.verdict != ir::FirstHit::Verdict::hit)

@@ -73,7 +73,7 @@ public:
             return 1;
         used_ = 0;
         const ir::March& march = ray->march;
-        const double end = loop.limited() ? march.far : behind(*ray->slice, march);
+        const double end = march.far ? *march.far : behind(*ray->slice, march);
         const auto most = bound({at(pixel.x), at(pixel.y)}, ray->loop, end);
         counts_.proved += most.has_value();
         counts_.contradicted += most && (out || *most < march.turns.size());
@@ -104,7 +104,7 @@ private:
 
     static bool runs_out(const MarchRay& ray, const ir::MarchingLoop& loop) {
         const ir::March& march = ray.march;
-        const bool beyond = loop.limited() && march.turns.back().carried[0] > march.far;
+        const bool beyond = march.far && march.turns.back().carried[0] > *march.far;
         return !march.hit && !beyond && march.turns.size() >= *loop.turns;
     }
 

@@ -99,7 +99,7 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
     }
     ir::MarchSlice slice(loop_slice, entered, ir::textures_in<ir::Interval>(textures));
     const double end = slice.end(march);
-    if (!std::isfinite(end) || end < slice.start()) {
+    if (end < slice.start()) {
         ray.reason = ir::FirstHit::Reason::not_finite;
         return ray;
     }

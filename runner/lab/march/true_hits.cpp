@@ -28,9 +28,9 @@ std::optional<ir::Interval> hit_of(const MarchRays& rays, size_t number, ir::Sur
     if (!ray->slice)
         return std::nullopt;
     ir::MarchSlice& slice = *ray->slice;
-    const bool limited = rays.function().loops()[ray->loop].limited();
+    const bool limited = ray->march.far.has_value();
     const double last = slice.end(ray->march);
-    if (!std::isfinite(last) || last < slice.start())
+    if (last < slice.start())
         return limited ? std::optional(k_miss) : std::nullopt;
     const ir::FirstHit found = ir::first_hit(slice, last, k_most_evaluations, k_relative_width);
     if (found.verdict == ir::FirstHit::Verdict::hit)

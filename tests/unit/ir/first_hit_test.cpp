@@ -129,6 +129,18 @@ TEST(FirstHit, of_a_ray_that_begins_below_the_surface_is_its_start) {
     EXPECT_EQ(hit_of("length(p) - 1.0", 0, 0).verdict, Verdict::none);
 }
 
+/// A march that begins at NaN or at an infinity proves nothing: it has no place to begin with.
+TEST(FirstHit, of_a_ray_that_begins_nowhere_is_not_known) {
+    for (const char* start : {"0.0 / iTime", "1.0 / iTime", "-1.0 / iTime"}) {
+        const FirstHit hit =
+            hit_of("length(p) - 1.0", 0, 20, "t = " + std::string(start) + ";" + k_sphere_tracing);
+        EXPECT_EQ(hit.verdict, Verdict::undecided) << start;
+        EXPECT_EQ(hit.reason, FirstHit::Reason::not_finite) << start;
+        EXPECT_EQ(hit.where.low, -k_infinity) << start;
+    }
+    EXPECT_EQ(hit_of("length(p) - 1.0", 1.5f, k_infinity).verdict, Verdict::undecided);
+}
+
 /// Where nothing ends it, the march goes on until its place is no number any more.
 TEST(FirstHit, is_looked_for_up_to_the_last_place_that_is_a_number) {
     const Function function =

@@ -65,6 +65,12 @@ TEST(TurnBound, is_not_known_where_steps_may_be_too_short_or_too_long) {
     EXPECT_FALSE(bounded("3.0 * (length(p) - 0.1)", k_sphere_tracing, 0).most);
 }
 
+TEST(TurnBound, is_not_known_of_a_ray_that_begins_nowhere) {
+    for (const char* start : {"0.0 / iTime", "1.0 / iTime", "-1.0 / iTime"})
+        EXPECT_FALSE(bounded("length(p) - 1.0", "t = " + std::string(start) + ";" + k_sphere_tracing, 0).most)
+            << start;
+}
+
 TEST(TurnBound, is_that_of_all_rays_of_an_area) {
     const Function function = marcher("length(p) - 1.0", k_sphere_tracing);
     const auto loops = find_marching_loops(function);
