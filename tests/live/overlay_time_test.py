@@ -63,6 +63,13 @@ class Time(OverlayTest):
             told = view.wait_until_told(COUNTED, lambda told: abs(told["iTime"] - float(seconds)) < 0.01)
             self.assertEqual(told["count"], 60 * float(seconds) + 1)
 
+    def test_a_number_is_typed_while_time_goes_on(self):
+        self.write("count.glsl", COUNT.format(""))
+        view = self.open_controls(probe.shader(COUNTED, '#iChannel0 "count.glsl"'))
+        view.type_time("100", frames_held=5)
+        told = view.wait_until_told(COUNTED, lambda told: told["iTime"] >= 100)
+        self.assertEqual(told["count"], told["iFrame"] + 1)
+
     def test_stepping_can_be_given_up(self):
         heavy = "; for (int i = 0; i < 4000; ++i) c.g += sin(c.r + float(i))"
         self.write("count.glsl", COUNT.format(heavy))

@@ -59,9 +59,14 @@ class OverlayView(View):
         width = self.place()["WIDTH"] / self.scale - SCRUBBER - PADDING
         return SCRUBBER + share * width
 
-    def type_time(self, seconds: str) -> None:
+    def type_time(self, seconds: str, frames_held: int = 0) -> None:
+        """The button that opens the field is held down for so many pictures."""
         self.screen.xdotool("keydown", "ctrl")
-        self.click_bar(self.scrubber(0.5))
+        self.point(*self.at(self.scrubber(0.5), self.bar_y()))
+        self.button(1, True)
+        for _ in range(frames_held):
+            self.wait_for_change(self.picture())
+        self.button(1, False)
         self.screen.xdotool("keyup", "ctrl")
         self.screen.xdotool("type", seconds)
         self.key("Return")

@@ -46,6 +46,7 @@ void draw_speed(TimeField& time, Commands& commands) {
 }
 
 /// A number that is typed is gone to when it is whole: the way to its first digit would take the bar away.
+/// The button that begins it is still down for a while, in which time goes on below the field.
 void draw_scrubber(TimeField& time, Commands& commands) {
     constexpr double k_begin = 0;
     constexpr float k_nothing = -1;
@@ -55,7 +56,7 @@ void draw_scrubber(TimeField& time, Commands& commands) {
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time.seconds, &k_begin, &end, "%.2f s")) {
         const double wanted = std::max(time.seconds, 0.0);
-        if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
+        if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::GetIO().WantTextInput)
             commands.emplace_back(Seek{wanted});
         else
             kept.SetFloat(typed, float(wanted));
