@@ -31,6 +31,21 @@ class Time(OverlayTest):
         view.type_time("42.5")
         self.assertEqual(view.wait_until_told(CLOCK, lambda told: told["iTime"] == 42.5)["iFrame"], 2550)
 
+    def test_escape_takes_a_number_back(self):
+        view = self.open_controls(probe.shader(CLOCK))
+        for paused in (False, True):
+            with self.subTest(paused=paused):
+                if paused:
+                    view.click_bar(PAUSE)
+                    view.wait_for_title(" - paused at ")
+                before = view.told(CLOCK)["iTime"]
+                view.type_time("3000", frames_held=0 if paused else 5, end="Escape")
+                after = view.told(CLOCK)["iTime"]
+                if paused:
+                    self.assertEqual(after, before)
+                else:
+                    self.assertTrue(before < after < 2000, after)
+
     def test_speed_and_backwards(self):
         view = self.open_controls(probe.shader(CLOCK))
         view.type_time("42.5")

@@ -59,8 +59,8 @@ class OverlayView(View):
         width = self.place()["WIDTH"] / self.scale - SCRUBBER - PADDING
         return SCRUBBER + share * width
 
-    def type_time(self, seconds: str, frames_held: int = 0) -> None:
-        """The button that opens the field is held down for so many pictures."""
+    def type_time(self, seconds: str, frames_held: int = 0, end: str = "Return") -> None:
+        """The button that opens the field is held down for so many pictures; the key `end` closes it."""
         self.screen.xdotool("keydown", "ctrl")
         self.point(*self.at(self.scrubber(0.5), self.bar_y()))
         self.button(1, True)
@@ -69,7 +69,7 @@ class OverlayView(View):
         self.button(1, False)
         self.screen.xdotool("keyup", "ctrl")
         self.screen.xdotool("type", seconds)
-        self.key("Return")
+        self.key(end)
 
     def loaded(self) -> str:
         """What the process has mapped into its memory."""

@@ -46,7 +46,8 @@ void draw_speed(TimeField& time, Commands& commands) {
 }
 
 /// A number that is typed is gone to when it is whole: the way to its first digit would take the bar away.
-/// The button that begins it is still down for a while, in which time goes on below the field.
+/// Escape takes it back. The button that begins it is still down for a while, in which time goes on below the
+/// field.
 void draw_scrubber(TimeField& time, Commands& commands) {
     constexpr double k_begin = 0;
     constexpr float k_nothing = -1;
@@ -63,7 +64,8 @@ void draw_scrubber(TimeField& time, Commands& commands) {
     }
     if (!ImGui::IsItemDeactivated())
         return;
-    if (const float wanted = kept.GetFloat(typed, k_nothing); wanted >= 0)
+    const bool taken_back = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (const float wanted = kept.GetFloat(typed, k_nothing); wanted >= 0 && !taken_back)
         commands.emplace_back(Seek{wanted});
     kept.SetFloat(typed, k_nothing);
 }
