@@ -26,7 +26,7 @@ std::string_view to_string(FirstHit::Reason reason);
 inline constexpr double k_usual_width = 4e-6;
 
 /// From the slice's start to `last`, which does not lie in front of it, in terms of the ray's parameter.
-/// Where one of them is no number, all is undecided.
+/// Where one of them is NaN or infinite, all is undecided.
 FirstHit first_hit(MarchSlice& slice, double last, uint64_t most_evaluations = 20'000,
                    double relative_width = k_usual_width);
 

@@ -23,7 +23,7 @@ struct Turn {
 /// The march of one pixel.
 struct March {
     std::vector<Turn> turns;
-    std::optional<float> far{}; ///< the loop's limit, where it has one that is a number
+    std::optional<float> far{}; ///< the loop's limit, where it has a finite one
     bool hit = false;           ///< it was left because of the distance
 };
 
@@ -59,7 +59,7 @@ public:
     /// Up to where a first hit is looked for: the loop's limit; else the last place that the march came to,
     /// and beyond its own hit. What has no limit may go to infinity.
     double end(const March& march) const;
-    /// The loop's limit, where all rays have one that is a number: the largest.
+    /// The loop's limit, where all rays have a finite one: the largest.
     std::optional<double> far() const { return far_; }
 
     /// Bounds, over that piece of the ray, of what is negative behind the surface; `partial` where NaN or an

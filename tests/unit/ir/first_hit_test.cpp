@@ -141,7 +141,7 @@ TEST(FirstHit, of_a_ray_that_begins_nowhere_is_not_known) {
     EXPECT_EQ(hit_of("length(p) - 1.0", 1.5f, k_infinity).verdict, Verdict::undecided);
 }
 
-/// Where nothing ends it, the march goes on until its place is no number any more.
+/// Where nothing ends it, the march goes on until its place is infinite or NaN.
 TEST(FirstHit, is_looked_for_up_to_the_last_place_that_is_a_number) {
     const Function function =
         marcher("length(p) - 1.0", "for (int i = 0; i < 200; ++i) { float d = map(ro + rd * t);"

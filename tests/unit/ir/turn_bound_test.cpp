@@ -88,5 +88,24 @@ TEST(TurnBound, is_that_of_all_rays_of_an_area) {
     }
 }
 
+/// Where x is below 0 the march begins at NaN, and takes all turns.
+TEST(TurnBound, is_not_known_where_a_ray_of_the_area_may_begin_nowhere) {
+    const Function function = marcher("length(p) - 1.0", "t = sqrt(gl_FragCoord.x);" + k_sphere_tracing);
+    const auto loops = find_marching_loops(function);
+    ASSERT_EQ(loops.size(), 1u);
+    const LoopSlice turn = slice_of(function, loops[0], SliceOf::step);
+    const auto most_of = [&](const Interval& x) {
+        Evaluator<IntervalSystem> all(function);
+        all.memory()[function.find("gl_FragCoord")->first] = x;
+        EXPECT_TRUE(enter_first(all, loops));
+        MarchSlice slice(turn, all);
+        return most_turns(slice, 20, 100, 2000);
+    };
+    EXPECT_TRUE(most_of({0.1, 0.2}));
+    EXPECT_FALSE(most_of({-0.2, 0.2}));
+    FloatEvaluator one = entered(function, loops, -0.1f);
+    EXPECT_EQ(follow(one, function, loops[0]).turns.size(), 100u);
+}
+
 } // namespace
 } // namespace tidemark::ir
