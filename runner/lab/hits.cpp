@@ -21,6 +21,11 @@ double percent(size_t part, size_t whole) {
     return whole == 0 ? 0.0 : 100.0 * double(part) / double(whole);
 }
 
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
 /// Off by more than `tolerance`, in whatever way.
 bool wrong(double reference, double test, double tolerance) {
     if (std::isnan(test) || met(reference) != met(test))
@@ -46,10 +51,21 @@ Cause cause_of(double reference, double test, int flags) {
 
 } // namespace
 
-void Hits::append(const Hits& other) {
-    distance.insert(distance.end(), other.distance.begin(), other.distance.end());
-    evaluations.insert(evaluations.end(), other.evaluations.begin(), other.evaluations.end());
-    flags.insert(flags.end(), other.flags.begin(), other.flags.end());
+Hits joined(const std::vector<Hits>& views) {
+    Hits all;
+    for (const Hits& view : views) {
+        append(all.distance, view.distance);
+        append(all.evaluations, view.evaluations);
+        append(all.flags, view.flags);
+    }
+    return all;
+}
+
+std::vector<double> joined(const std::vector<std::vector<double>>& views) {
+    std::vector<double> all;
+    for (const auto& view : views)
+        append(all, view);
+    return all;
 }
 
 Hits hits_of(const image::Image& image) {

@@ -18,8 +18,11 @@ struct Hits {
     std::vector<uint8_t> flags; ///< glsl::HitFlag
 
     size_t size() const { return distance.size(); }
-    void append(const Hits& other);
 };
+
+/// Of several views as of one, in their order.
+Hits joined(const std::vector<Hits>& views);
+std::vector<double> joined(const std::vector<std::vector<double>>& views);
 
 /// From the RGBA32F picture that mainHit makes. A distance that is NaN, or below 0 but not a miss, is
 /// no answer; nor is one whose evaluations are NaN or below 0, which count as 0.

@@ -123,8 +123,8 @@ lab::Hits hits_of(std::vector<double> ways, double evaluations) {
 
 /// What the marches of one setting found, case by case and together.
 void hold_against_exact(const MarchSetting& setting, lab::WorkPrecision& point) {
-    lab::Hits exact, found;
-    std::vector<double> footprint;
+    std::vector<lab::Hits> exact, found;
+    std::vector<std::vector<double>> footprints; // hit_errors takes them at distance 1
     const auto outcome_of = [](const lab::Hits& truth, const lab::Hits& test,
                                const std::vector<double>& pixel) {
         lab::Outcome outcome;
@@ -134,18 +134,14 @@ void hold_against_exact(const MarchSetting& setting, lab::WorkPrecision& point) 
     };
     for (const bake::KnownCase& known : bake::known_cases()) {
         bake::MarchSample sample = bake::study_march(known, setting.side, setting.stencil);
-        std::vector<double> pixel; // hit_errors takes it at distance 1
-        for (const double way : sample.ways.exact)
+        for (std::vector<double>& pixel = footprints.emplace_back(); const double way : sample.ways.exact)
             pixel.push_back(sample.spacing / std::max(way, 1e-9));
         const double thousands = 1e-3 * double(sample.work.updates);
-        const lab::Hits truth = hits_of(std::move(sample.ways.exact), 0);
-        const lab::Hits test = hits_of(std::move(sample.ways.found), thousands);
-        point.views.push_back(outcome_of(truth, test, pixel));
-        exact.append(truth);
-        found.append(test);
-        footprint.insert(footprint.end(), pixel.begin(), pixel.end());
+        exact.push_back(hits_of(std::move(sample.ways.exact), 0));
+        found.push_back(hits_of(std::move(sample.ways.found), thousands));
+        point.views.push_back(outcome_of(exact.back(), found.back(), footprints.back()));
     }
-    point.all = outcome_of(exact, found, footprint);
+    point.all = outcome_of(lab::joined(exact), lab::joined(found), lab::joined(footprints));
     point.compile_milliseconds = point.first_draw_milliseconds = std::nan("");
 }
 

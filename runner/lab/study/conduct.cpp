@@ -105,10 +105,7 @@ private:
         Sight sight;
         sight.pictures = specimen.pictures(study().views);
         if (specimen.has_hits())
-            for (const View& view : study().views) {
-                auto hits = TRY(specimen.hits(view));
-                sight.hits.push_back(std::move(hits));
-            }
+            sight.hits = TRY(specimen.hits(study().views));
         return sight;
     }
 
@@ -243,17 +240,9 @@ private:
 
     /// Where hits are proved, the rays of the pictures' reference are held against them.
     void check_pictures_by_hits(const std::vector<Hits>& hits) {
-        Hits proved, drawn;
-        std::vector<double> footprints;
-        for (size_t view = 0; view < hits.size(); ++view) {
-            proved.append(truth_.hits[view]);
-            drawn.append(hits[view]);
-            footprints.insert(footprints.end(), truth_.footprints[view].begin(),
-                              truth_.footprints[view].end());
-        }
         if (hits.empty())
             return;
-        const HitErrors errors = hit_errors(proved, drawn, footprints);
+        const HitErrors errors = hit_errors(joined(truth_.hits), joined(hits), joined(truth_.footprints));
         set().picture_standard.check += fmt::format(
             "; its rays against the proved hits: RMS {:.2g}, {:.2g} % wrong", errors.rms, errors.wrong_tenth);
     }

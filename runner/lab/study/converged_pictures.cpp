@@ -41,12 +41,7 @@ std::vector<double> plain_footprints(size_t views, Extent extent) {
 }
 
 double rms_of_hits(const std::vector<Hits>& left, const std::vector<Hits>& right, Extent extent) {
-    Hits all_left, all_right;
-    for (size_t i = 0; i < left.size(); ++i) {
-        all_left.append(left[i]);
-        all_right.append(right[i]);
-    }
-    return hit_errors(all_left, all_right, plain_footprints(left.size(), extent)).rms;
+    return hit_errors(joined(left), joined(right), plain_footprints(left.size(), extent)).rms;
 }
 
 double noise_of(const std::vector<image::Image>& pictures, const std::vector<PixelMask>& blind) {

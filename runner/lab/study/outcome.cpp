@@ -6,20 +6,6 @@
 namespace tidemark::lab {
 namespace {
 
-Hits joined(const std::vector<Hits>& views) {
-    Hits all;
-    for (const Hits& hits : views)
-        all.append(hits);
-    return all;
-}
-
-std::vector<double> joined(const std::vector<std::vector<double>>& views) {
-    std::vector<double> all;
-    for (const auto& values : views)
-        all.insert(all.end(), values.begin(), values.end());
-    return all;
-}
-
 image::PictureMetrics unknown_metrics() {
     image::PictureMetrics metrics;
     metrics.samples.rmse = metrics.samples.psnr = metrics.samples.relative_mse = metrics.samples.largest =

@@ -107,6 +107,15 @@ Result<Hits> Specimen::hits(const View& view) {
     return hits_of(hit_renderer_->read_back());
 }
 
+Result<std::vector<Hits>> Specimen::hits(const std::vector<View>& views) {
+    std::vector<Hits> all;
+    for (const View& view : views) {
+        auto one = TRY(hits(view));
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
 std::vector<std::string> Specimen::kept_hashes() const {
     std::set<std::string> names;
     for (const render::PlannedPass& planned : renderer_->plan().passes)

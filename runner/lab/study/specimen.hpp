@@ -44,6 +44,7 @@ public:
     bool has_hits() const { return hit_scene_.has_value(); }
     /// The error says why what was recorded is not to be used.
     Result<Hits> hits(const View& view);
+    Result<std::vector<Hits>> hits(const std::vector<View>& views);
 
     /// One more picture of that view, from idle to idle.
     Cost time(const View& view, bool ask_gpu);

@@ -173,13 +173,10 @@ private:
         auto specimen = Specimen::create(scene_, {settings}, study.extent);
         if (!specimen || !specimen->has_hits())
             return "";
-        Hits all;
-        for (const View& view : study.views) {
-            const auto hits = specimen->hits(view);
-            if (!hits)
-                return "";
-            all.append(*hits);
-        }
+        const auto views = specimen->hits(study.views);
+        if (!views)
+            return "";
+        const Hits all = joined(*views);
         const double sum = std::accumulate(all.evaluations.begin(), all.evaluations.end(), 0.0);
         return fmt::format(", {:.1f} field evaluations a pixel", sum / double(all.size()));
     }

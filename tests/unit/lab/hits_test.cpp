@@ -32,6 +32,14 @@ TEST(Hits, are_read_from_the_picture_that_main_hit_makes) {
     EXPECT_THAT(read.flags, testing::ElementsAre(3, 0, 0));
 }
 
+TEST(Hits, views_are_joined_in_their_order) {
+    const Hits all = joined({hits({1, -1}, {0, 2}), hits({}), hits({3}, {1})});
+    EXPECT_THAT(all.distance, testing::ElementsAre(1, -1, 3));
+    EXPECT_THAT(all.evaluations, testing::ElementsAre(10, 10, 10));
+    EXPECT_THAT(all.flags, testing::ElementsAre(0, 2, 1));
+    EXPECT_EQ(joined(std::vector<Hits>{}).size(), 0u);
+}
+
 TEST(Hits, a_distance_below_0_that_is_no_miss_is_no_answer) {
     image::Image image({1, 1}, 4, image::SampleType::f32);
     image.f32()[0] = -0.5f;
