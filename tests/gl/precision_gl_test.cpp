@@ -2,9 +2,9 @@
 // not.
 #include "gl_test.hpp"
 #include "glsl/hit.hpp"
-#include "image/compare/metrics.hpp"
 #include "render/sound_renderer.hpp"
 #include "scene/load_scene.hpp"
+#include "support/largest_difference.hpp"
 
 #include <gmock/gmock.h>
 
@@ -32,12 +32,6 @@ protected:
                   Extent extent = {48, 32}) const {
         Renderer drawing = drawn_in(text, precision, extent);
         return frame(drawing, inputs);
-    }
-    static double largest_difference(const Image& a, const Image& b) {
-        double largest = 0;
-        for (size_t i = 0; i < a.f32().size(); ++i)
-            largest = std::max(largest, std::abs(double(a.f32()[i]) - double(b.f32()[i])));
-        return largest;
     }
     /// The first red of a promoted shader, with what it lost as a float in green.
     double told_in_double(const std::string& expression, const FrameInputs& inputs = {},

@@ -1,5 +1,6 @@
 // One program turned from setting to setting shows what each of them shows when it is compiled by itself.
 #include "lab/study/turned_specimen.hpp"
+#include "support/largest_difference.hpp"
 #include "waters.hpp"
 
 #include <set>
@@ -11,12 +12,6 @@ using glsl::Precision;
 
 class TurnedSpecimenTest : public render::Waters {
 protected:
-    static double largest_difference(const image::Image& a, const image::Image& b) {
-        double most = 0;
-        for (size_t i = 0; i < a.f32().size(); ++i)
-            most = std::max(most, std::abs(double(a.f32()[i]) - double(b.f32()[i])));
-        return most;
-    }
     static scene::Scene ocean() {
         auto scene = scene::load_scene(render::k_shaders / "procedural_ocean.glsl");
         EXPECT_TRUE(scene) << to_string(scene.error());

@@ -1,5 +1,6 @@
 #include "image/files/cubemap_file.hpp"
 #include "image/files/picture_file.hpp"
+#include "support/largest_difference.hpp"
 #include "unit/image/picture_support.hpp"
 
 #include <gmock/gmock.h>
@@ -54,13 +55,6 @@ CubeFaces compass(int side) {
             }
     }
     return faces;
-}
-
-double largest_difference(const Image& a, const Image& b) {
-    double largest = a.extent == b.extent && a.channels == b.channels ? 0.0 : 1e9;
-    for (size_t i = 0; largest < 1e9 && i < a.samples(); ++i)
-        largest = std::max(largest, std::abs(double(a.f32()[i]) - double(b.f32()[i])));
-    return largest;
 }
 
 float* pixel_from_top(Image& image, int x, int y) {

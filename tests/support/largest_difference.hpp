@@ -1,0 +1,18 @@
+// How far two pictures of a test are apart, in one number.
+#pragma once
+
+#include "image/compare/metrics.hpp"
+
+#include <limits>
+
+namespace tidemark {
+
+/// Of two samples; NaN, which passes no comparison, where the pictures differ in size or where only one of
+/// two samples is finite.
+inline double largest_difference(const image::Image& left, const image::Image& right) {
+    const auto difference = image::compare(left, right);
+    return difference && difference->one_non_finite == 0 ? difference->largest
+                                                         : std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace tidemark
