@@ -51,12 +51,13 @@ void mainHit(out vec4 hit, in vec2 p) {
 #endif
 """
 
-QUICK = ["--size", "16x9", "--budget", "2"]
+SMALL = ["--size", "16x9"]
+QUICK = [*SMALL, "--budget", "2"]
 
 
 class Study(ProgramTest):
-    def study(self, *arguments: str, code: int = 0) -> dict:
-        done = self.run_program("study", *arguments, "--json", *QUICK, "-o", "report")
+    def study(self, *arguments: str, code: int = 0, budget: str = "2") -> dict:
+        done = self.run_program("study", *arguments, "--json", *SMALL, "--budget", budget, "-o", "report")
         self.assertEqual(done.returncode, code, done.stderr)
         self.words = done.stderr
         return json.loads(done.stdout)
@@ -105,7 +106,7 @@ class Pictures(Study):
 
     def test_times_are_counted(self):
         self.write("sum.glsl", SUM)
-        study = self.study("sum.glsl", "--vary", "STEPS=4,8", "--views", "0;1.5@.5,.5")
+        study = self.study("sum.glsl", "--vary", "STEPS=4,8", "--views", "0;1.5@.5,.5", budget="1000")
         for point in study["points"]:
             self.assertEqual(list(point["views"]), ["t=0", "t=1.5@.5,.5"])
             times = point["all"]["wall_ms"]
