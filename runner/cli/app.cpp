@@ -170,10 +170,10 @@ int run_or_throw(int argc, const char* const* argv) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Action chosen;
     for (const AddCommand add : k_commands)
-        add(app, chosen);
+        add(Command(app), chosen);
     LimitOptions limits;
-    add_limit_options(app, limits);
-    add_diagnostics_option(app);
+    add_limit_options(Command(app), limits);
+    add_diagnostics_option(Command(app));
 
     std::vector<std::string> arguments(argv + 1, argv + argc);
     if (arguments.empty())

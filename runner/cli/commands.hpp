@@ -3,14 +3,11 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "cli/command_line.hpp"
 
 #include <functional>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace tidemark::cli {
 
@@ -18,28 +15,28 @@ namespace tidemark::cli {
 using Action = std::function<Result<int>()>;
 
 /// Adds a sub-command to `app`. `chosen` is set when the line calls it.
-using AddCommand = void (*)(CLI::App& app, Action& chosen);
+using AddCommand = void (*)(Command app, Action& chosen);
 
-void add_capture(CLI::App& app, Action& chosen);
-void add_inspect(CLI::App& app, Action& chosen);
-void add_check(CLI::App& app, Action& chosen);
-void add_import(CLI::App& app, Action& chosen);
-void add_gather(CLI::App& app, Action& chosen);
-void add_export(CLI::App& app, Action& chosen);
-void add_new(CLI::App& app, Action& chosen);
-void add_lsp(CLI::App& app, Action& chosen);
-void add_bake(CLI::App& app, Action& chosen);
-void add_compare(CLI::App& app, Action& chosen);
-void add_study(CLI::App& app, Action& chosen);
-void add_completion(CLI::App& app, Action& chosen);
-void add_help(CLI::App& app, Action& chosen);
+void add_capture(Command app, Action& chosen);
+void add_inspect(Command app, Action& chosen);
+void add_check(Command app, Action& chosen);
+void add_import(Command app, Action& chosen);
+void add_gather(Command app, Action& chosen);
+void add_export(Command app, Action& chosen);
+void add_new(Command app, Action& chosen);
+void add_lsp(Command app, Action& chosen);
+void add_bake(Command app, Action& chosen);
+void add_compare(Command app, Action& chosen);
+void add_study(Command app, Action& chosen);
+void add_completion(Command app, Action& chosen);
+void add_help(Command app, Action& chosen);
 /// What it takes, each once.
 std::vector<std::string> help_topics();
-void add_tune(CLI::App& app, Action& chosen);
-void add_simplify(CLI::App& app, Action& chosen);
-void add_trace(CLI::App& app, Action& chosen);
-void add_view(CLI::App& app, Action& chosen);
-void add_serve(CLI::App& app, Action& chosen);
+void add_tune(Command app, Action& chosen);
+void add_simplify(Command app, Action& chosen);
+void add_trace(Command app, Action& chosen);
+void add_view(Command app, Action& chosen);
+void add_serve(Command app, Action& chosen);
 
 /// The whole program.
 int run(int argc, const char* const* argv);

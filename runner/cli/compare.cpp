@@ -1,10 +1,10 @@
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/output_name.hpp"
 #include "cli/sequence.hpp"
-#include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "image/compare/difference.hpp"
 #include "image/compare/flip.hpp"
@@ -12,8 +12,8 @@
 #include "image/compare/same_channels.hpp"
 #include "image/files/picture_file.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
@@ -223,39 +223,38 @@ Result<int> compare(const CompareOptions& options) {
 
 } // namespace
 
-void add_compare(CLI::App& app, Action& chosen) {
+void add_compare(Command app, Action& chosen) {
     auto options = std::make_shared<CompareOptions>();
-    CLI::App* command =
-        app.add_subcommand("compare", "Tells how far two pictures or two sequences are apart");
-    command->add_option("A", options->reference, "The reference: a picture, or a sequence with %04d or ####")
-        ->required();
-    command->add_option("B", options->test, "What is compared with it")->required();
+    Command command = app.add_subcommand("compare", "Tells how far two pictures or two sequences are apart");
+    command.add_option("A", options->reference, "The reference: a picture, or a sequence with %04d or ####")
+        .required();
+    command.add_option("B", options->test, "What is compared with it").required();
     command
-        ->add_option("-o,--output", options->output,
-                     "Picture of the difference: .png .jpg .tif .exr .hdr, %04d or #### for a sequence")
-        ->type_name("OUT");
-    command->add_option("--map", options->map, "What that picture shows: |A - B|, or FLIP in false colours")
-        ->type_name("difference|flip")
-        ->check(one_of({"difference", "flip"}))
-        ->capture_default_str();
+        .add_option("-o,--output", options->output,
+                    "Picture of the difference: .png .jpg .tif .exr .hdr, %04d or #### for a sequence")
+        .type_name("OUT");
+    command.add_option("--map", options->map, "What that picture shows: |A - B|, or FLIP in false colours")
+        .type_name("difference|flip")
+        .check(one_of({"difference", "flip"}))
+        .capture_default_str();
     command
-        ->add_option("--gain", options->gain,
-                     "|A - B| is drawn so many times brighter [8; 1 where the file has floats]")
-        ->type_name("G");
+        .add_option("--gain", options->gain,
+                    "|A - B| is drawn so many times brighter [8; 1 where the file has floats]")
+        .type_name("G");
     command
-        ->add_option("--tolerance", options->tolerance,
-                     "A pixel differs when a sample does by more than this part of the peak")
-        ->type_name("D")
-        ->capture_default_str();
+        .add_option("--tolerance", options->tolerance,
+                    "A pixel differs when a sample does by more than this part of the peak")
+        .type_name("D")
+        .capture_default_str();
     for (size_t i = 0; i < k_metric_count; ++i)
         command
-            ->add_option(k_metrics[i].option, options->limits[i],
-                         fmt::format("Exit 1 where {} is {} this", k_metrics[i].label,
-                                     k_metrics[i].more_is_better ? "below" : "above"))
-            ->type_name("X")
-            ->check(number<double>("a number"));
-    command->add_flag("--json", options->json, "One JSON object on standard output");
-    command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
+            .add_option(k_metrics[i].option, options->limits[i],
+                        fmt::format("Exit 1 where {} is {} this", k_metrics[i].label,
+                                    k_metrics[i].more_is_better ? "below" : "above"))
+            .type_name("X")
+            .check(number<double>("a number"));
+    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.on_call([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }
 
 } // namespace tidemark::cli

@@ -1,13 +1,13 @@
 #include "cli/diagnostics.hpp"
 
+#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/limits.hpp"
 #include "cli/sarif.hpp"
-#include "cli/value_check.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <mutex>
@@ -61,15 +61,15 @@ void choose(const std::string& name) {
 
 } // namespace
 
-void add_diagnostics_option(CLI::App& app) {
-    for (CLI::App* command : app.get_subcommands({}))
-        if (compiles_scenes(*command))
+void add_diagnostics_option(Command app) {
+    for (Command command : app.subcommands())
+        if (compiles_scenes(command))
             command
-                ->add_option_function<std::string>(
-                    "--diagnostics", choose,
+                .add_option(
+                    "--diagnostics", [](const std::string& name) { choose(name); },
                     "What is wrong with the scene in a form for editors, on standard error")
-                ->type_name("gcc|json|sarif")
-                ->check(one_of({"gcc", "json", "sarif"}));
+                .type_name("gcc|json|sarif")
+                .check(one_of({"gcc", "json", "sarif"}));
 }
 
 void place_diagnostics(std::string scene) {

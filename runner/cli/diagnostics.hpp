@@ -2,18 +2,15 @@
 // run, made when the command line is read; every command reports through `say` and need not know it.
 #pragma once
 
+#include "cli/command_line.hpp"
 #include "cli/finding.hpp"
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace tidemark::cli {
 
 /// Adds --diagnostics to every sub-command that compiles a scene.
-void add_diagnostics_option(CLI::App& app);
+void add_diagnostics_option(Command app);
 
 /// What is wrong with the scene and has no place of its own, as a file that cannot be read, is said of that.
 void place_diagnostics(std::string scene);

@@ -1,5 +1,7 @@
 #include "cli/error_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace tidemark::cli {
 
 Json to_json(const Error& error) {

@@ -11,7 +11,6 @@
 #include "scene/project_files.hpp"
 #include "web/page.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -93,27 +92,28 @@ Result<int> export_scene(const ExportOptions& options) {
 
 } // namespace
 
-void add_export(CLI::App& app, Action& chosen) {
+void add_export(Command app, Action& chosen) {
     auto options = std::make_shared<ExportOptions>();
-    CLI::App* command = app.add_subcommand(
+    Command command = app.add_subcommand(
         "export", "Makes ShaderToy's JSON of a scene, or a page that draws it in any browser");
-    command->add_option("SCENE", options->scene.path, "A scene folder, or a file with mainImage")->required();
-    CLI::Option* output = command->add_option("-o,--output", options->output, "File; -: standard output")
-                              ->type_name("FILE")
-                              ->capture_default_str();
+    command.add_option("SCENE", options->scene.path, "A scene folder, or a file with mainImage").required();
+    const Option output = command.add_option("-o,--output", options->output, "File; -: standard output")
+                              .type_name("FILE")
+                              .capture_default_str();
     command
-        ->add_option("--html", options->html,
-                     "A page that draws the scene in a browser, all in one file; -: standard output")
-        ->type_name("FILE")
-        ->excludes(output);
-    command->add_flag("--embed", options->embed, "With --html: a <div> for a page of your own");
-    repeatable(
-        command->add_option("--set", options->scene.sets,
-                            "Value of a knob (#iUniform): a constant in JSON, where it begins in a page"))
-        ->type_name("NAME=VALUE");
-    add_file_options(*command, options->scene);
-    command->add_flag("--json", options->json, "One JSON object on standard output");
-    command->callback([options, &chosen] { chosen = [options] { return export_scene(*options); }; });
+        .add_option("--html", options->html,
+                    "A page that draws the scene in a browser, all in one file; -: standard output")
+        .type_name("FILE")
+        .excludes(output);
+    command.add_flag("--embed", options->embed, "With --html: a <div> for a page of your own");
+    command
+        .add_option("--set", options->scene.sets,
+                    "Value of a knob (#iUniform): a constant in JSON, where it begins in a page")
+        .repeatable()
+        .type_name("NAME=VALUE");
+    add_file_options(command, options->scene);
+    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.on_call([options, &chosen] { chosen = [options] { return export_scene(*options); }; });
 }
 
 } // namespace tidemark::cli

@@ -1,15 +1,14 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/project_source.hpp"
-#include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "scene/project_files.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -115,28 +114,28 @@ Result<int> import(const ImportOptions& options) {
 
 } // namespace
 
-void add_import(CLI::App& app, Action& chosen) {
+void add_import(Command app, Action& chosen) {
     auto options = std::make_shared<ImportOptions>();
-    CLI::App* command = app.add_subcommand("import", "Makes a scene folder of a ShaderToy project");
+    Command command = app.add_subcommand("import", "Makes a scene folder of a ShaderToy project");
     command
-        ->add_option("FILE", options->source.project,
-                     "A project's JSON or a saved page of it; with --via its ID or address")
-        ->required();
-    command->add_option("-o,--output", options->folder, "Folder (default: the name of the file, or the ID)")
-        ->type_name("FOLDER");
-    CLI::Option* via = command->add_option(
+        .add_option("FILE", options->source.project,
+                    "A project's JSON or a saved page of it; with --via its ID or address")
+        .required();
+    command.add_option("-o,--output", options->folder, "Folder (default: the name of the file, or the ID)")
+        .type_name("FOLDER");
+    const Option via = command.add_option(
         "--via", options->source.via, "A file that holds the project, or a program of yours that prints it");
-    via->type_name("FILE|COMMAND");
+    via.type_name("FILE|COMMAND");
     command
-        ->add_option("--timeout", options->source.timeout,
-                     "Gives the command of --via up after so many seconds")
-        ->type_name("S")
-        ->needs(via)
-        ->check(number<double>("a number of seconds above 0", 1e-3, 1e6))
-        ->capture_default_str();
-    command->add_flag("--force", options->force, "Write into a folder that holds other files too");
-    command->add_flag("--json", options->json, "One JSON object on standard output");
-    command->callback([options, &chosen] { chosen = [options] { return import(*options); }; });
+        .add_option("--timeout", options->source.timeout,
+                    "Gives the command of --via up after so many seconds")
+        .type_name("S")
+        .needs(via)
+        .check(number<double>("a number of seconds above 0", 1e-3, 1e6))
+        .capture_default_str();
+    command.add_flag("--force", options->force, "Write into a folder that holds other files too");
+    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.on_call([options, &chosen] { chosen = [options] { return import(*options); }; });
 }
 
 } // namespace tidemark::cli

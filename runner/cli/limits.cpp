@@ -1,32 +1,30 @@
 #include "cli/limits.hpp"
 
+#include "cli/command_line.hpp"
 #include "cli/memory_limit.hpp"
-#include "cli/value_check.hpp"
-
-#include <CLI/CLI.hpp>
 
 namespace tidemark::cli {
 
-bool compiles_scenes(const CLI::App& command) {
-    return command.get_option_no_throw("SCENE") && command.get_option_no_throw("--set");
+bool compiles_scenes(Command command) {
+    return command.has_option("SCENE") && command.has_option("--set");
 }
 
-void add_memory_option(CLI::App& command, LimitOptions& options) {
+void add_memory_option(Command command, LimitOptions& options) {
     command.add_option("--memory", options.memory, "What compiling and drawing may take, as in 2G [50%]")
-        ->type_name("SIZE");
+        .type_name("SIZE");
 }
 
-void add_limit_options(CLI::App& app, LimitOptions& options) {
-    for (CLI::App* command : app.get_subcommands({})) {
-        if (!compiles_scenes(*command) || command->get_option_no_throw("--memory")) // view's
+void add_limit_options(Command app, LimitOptions& options) {
+    for (Command command : app.subcommands()) {
+        if (!compiles_scenes(command) || command.has_option("--memory")) // view's
             continue;
-        add_memory_option(*command, options);
-        if (!command->get_option_no_throw("--timeout"))
+        add_memory_option(command, options);
+        if (!command.has_option("--timeout"))
             command
-                ->add_option("--timeout", options.timeout,
-                             "Give up where the driver takes longer to compile a pass or to draw")
-                ->type_name("SECONDS")
-                ->check(number<double>("a number of seconds"));
+                .add_option("--timeout", options.timeout,
+                            "Give up where the driver takes longer to compile a pass or to draw")
+                .type_name("SECONDS")
+                .check(number<double>("a number of seconds"));
     }
 }
 

@@ -2,14 +2,11 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "cli/command_line.hpp"
 #include "cli/supervisor.hpp"
 
 #include <optional>
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace tidemark::cli {
 
@@ -19,12 +16,12 @@ struct LimitOptions {
 };
 
 /// Whether a sub-command has a driver compile or draw a scene.
-bool compiles_scenes(const CLI::App& command);
+bool compiles_scenes(Command command);
 
-void add_memory_option(CLI::App& command, LimitOptions& options);
+void add_memory_option(Command command, LimitOptions& options);
 
 /// --memory for every sub-command that has a driver draw and has none of its own; --timeout likewise.
-void add_limit_options(CLI::App& app, LimitOptions& options);
+void add_limit_options(Command app, LimitOptions& options);
 
 /// Without --memory: half of the machine's.
 Result<Limits> resolve(const LimitOptions& options);

@@ -3,6 +3,8 @@
 #include "base/shell_word.hpp"
 #include "cli/state_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 

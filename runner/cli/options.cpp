@@ -1,12 +1,11 @@
 #include "cli/options.hpp"
 
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/diagnostics.hpp"
-#include "cli/value_check.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/stated_size.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,103 +13,96 @@
 #include <utility>
 
 namespace tidemark::cli {
-CLI::Option* repeatable(CLI::Option* option) {
-    // CLI11 takes every word behind an option of a vector for one more of its values, unless told otherwise
-    // last.
-    return option->type_size(1)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
-}
 
-void add_scene_options(CLI::App& command, SceneRequest& request) {
+void add_scene_options(Command command, SceneRequest& request) {
     command
         .add_option("SCENE", request.path,
                     "A .glsl or .frag file with mainImage, a scene folder, or ShaderToy's .json")
-        ->required()
-        ->each(place_diagnostics);
-    repeatable(
-        command.add_option("--set", request.sets, "Value of a knob (#iUniform)")->type_name("NAME=VALUE"));
-    repeatable(command.add_option("--define", request.defines, "Replaces a #define or const of the scene")
-                   ->type_name("NAME=VALUE"));
-    repeatable(
-        command
-            .add_option("--channel", request.channels,
-                        "What iChannelN reads, of Image or another pass: a file, a name as in a directive "
-                        "(noise, keyboard), none; to test with: black, white, nan, texel")
-            ->type_name("[PASS:]N=FILE|noise|none"));
+        .required()
+        .each(place_diagnostics);
+    command.add_option("--set", request.sets, "Value of a knob (#iUniform)")
+        .type_name("NAME=VALUE")
+        .repeatable();
+    command.add_option("--define", request.defines, "Replaces a #define or const of the scene")
+        .type_name("NAME=VALUE")
+        .repeatable();
+    command
+        .add_option("--channel", request.channels,
+                    "What iChannelN reads, of Image or another pass: a file, a name as in a directive "
+                    "(noise, keyboard), none; to test with: black, white, nan, texel")
+        .type_name("[PASS:]N=FILE|noise|none")
+        .repeatable();
     add_file_options(command, request);
 }
 
-void add_file_options(CLI::App& command, SceneRequest& request) {
+void add_file_options(Command command, SceneRequest& request) {
     command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
-        ->type_name("DIR")
-        ->check(unnamed(CLI::ExistingDirectory));
+        .type_name("DIR")
+        .check(existing_folder());
     command.add_flag("--allow-outside", request.files.allow_outside,
                      "The scene may read files that lie outside its folder");
 }
 
-void add_precision_options(CLI::App& command, SceneRequest& request) {
-    auto* precision =
+void add_precision_options(Command command, SceneRequest& request) {
+    const Option precision =
         command
-            .add_option_function<std::string>(
+            .add_option(
                 "--precision", [&request](const std::string& text) { request.doubles = text == "double"; },
                 "double: the scene promoted to 64-bit floats [single]")
-            ->type_name("single|double")
-            ->check(one_of({"single", "double"}));
+            .type_name("single|double")
+            .check(one_of({"single", "double"}));
     command
         .add_flag("--double-hashes", request.double_hashes,
                   "Promotes hashes too: other random numbers, another scene")
-        ->needs(precision);
+        .needs(precision);
 }
 
-void add_device_options(CLI::App& command, platform::DeviceChoice& device) {
+void add_device_options(Command command, platform::DeviceChoice& device) {
     command.add_option("--device", device.name, "Where to draw: a name from `tidemark inspect --devices`")
-        ->type_name("NAME")
-        ->capture_default_str();
+        .type_name("NAME")
+        .capture_default_str();
     command.add_flag("--require-gpu", device.gpu_only,
                      "Fails where the CPU would draw instead of a graphics card");
 }
 
-void add_picture_options(CLI::App& command, FrameOptions& options) {
-    command
-        .add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
-        ->type_name("WxH")
-        ->default_str("640x360");
+void add_picture_options(Command command, FrameOptions& options) {
+    command.add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
+        .type_name("WxH")
+        .default_str("640x360");
     command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")
-        ->type_name("F")
-        ->check(number<double>("a number"))
-        ->default_str("60");
+        .type_name("F")
+        .check(number<double>("a number"))
+        .default_str("60");
     command.add_option("--date", options.date, "iDate at iTime 0, as in 2024-12-31T23:59:58")
-        ->type_name("ISO");
+        .type_name("ISO");
     command
         .add_option("--camera", options.camera,
                     "Orbit camera of a scene that declares iCamera or iOrbit, in degrees")
-        ->type_name("AZIMUTH,ELEVATION,DISTANCE[,X,Y,Z]");
+        .type_name("AZIMUTH,ELEVATION,DISTANCE[,X,Y,Z]");
     command.add_option("--pass", options.pass, "The pass to show, as in \"Buffer A\" [Image]")
-        ->type_name("NAME");
+        .type_name("NAME");
     command.add_option("--input", options.input, "Mouse and keyboard events by frame, from a recording")
-        ->type_name("FILE");
+        .type_name("FILE");
 }
 
-void add_time_options(CLI::App& command, FrameOptions& options) {
-    auto* frame = command.add_option("--frame", options.frame, "One frame, from 0 (the default)")
-                      ->type_name("N")
-                      ->check(number<int>("a whole number"));
-    auto* frames =
+void add_time_options(Command command, FrameOptions& options) {
+    const Option frame = command.add_option("--frame", options.frame, "One frame, from 0 (the default)")
+                             .type_name("N")
+                             .check(number<int>("a whole number"));
+    const Option frames =
         command.add_option("--frames", options.frames, "Frames, inclusive, as in 0-29 or 0-120x10")
-            ->type_name("A-B[xS][,...]");
-    auto* time = command.add_option("--time", options.time, "iTime in seconds, instead of a frame")
-                     ->type_name("T")
-                     ->check(number<double>("a number"));
-    frame->excludes(frames)->excludes(time);
-    frames->excludes(time);
+            .type_name("A-B[xS][,...]");
+    const Option time = command.add_option("--time", options.time, "iTime in seconds, instead of a frame")
+                            .type_name("T")
+                            .check(number<double>("a number"));
+    frame.excludes(frames).excludes(time);
+    frames.excludes(time);
     command
         .add_option("--mouse", options.mouse,
                     "iMouse after a click at that pixel, or after a drag to it from another; down: in the "
                     "frame of the press, or before the drag's end")
-        ->type_name("X,Y[,FROM_X,FROM_Y][,down]")
-        ->excludes("--input");
+        .type_name("X,Y[,FROM_X,FROM_Y][,down]")
+        .excludes("--input");
 }
 
 std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options) {

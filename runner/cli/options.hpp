@@ -1,6 +1,7 @@
 // The options that mean the same wherever they stand: registered on a command, then turned into requests.
 #pragma once
 
+#include "cli/command_line.hpp"
 #include "cli/requests.hpp"
 #include "platform/device_choice.hpp"
 
@@ -9,26 +10,18 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-class Option;
-} // namespace CLI
-
 namespace tidemark::cli {
 
-/// Lets an option be given again, with one value each time: what stands behind the value is not its own.
-CLI::Option* repeatable(CLI::Option* option);
-
 /// SCENE, --set, --define, --channel, --media, --allow-outside.
-void add_scene_options(CLI::App& command, SceneRequest& request);
+void add_scene_options(Command command, SceneRequest& request);
 /// The last two of these.
-void add_file_options(CLI::App& command, SceneRequest& request);
+void add_file_options(Command command, SceneRequest& request);
 
 /// --precision, --double-hashes: of every command that draws.
-void add_precision_options(CLI::App& command, SceneRequest& request);
+void add_precision_options(Command command, SceneRequest& request);
 
 /// --device, --require-gpu: of every command that draws without a window.
-void add_device_options(CLI::App& command, platform::DeviceChoice& device);
+void add_device_options(Command command, platform::DeviceChoice& device);
 
 /// The frame options as they were typed.
 struct FrameOptions {
@@ -45,9 +38,9 @@ struct FrameOptions {
 };
 
 /// --size, --fps, --date, --camera, --pass, --input: what a window knows too.
-void add_picture_options(CLI::App& command, FrameOptions& options);
+void add_picture_options(Command command, FrameOptions& options);
 /// --frame, --frames, --time, --mouse: what a window gets from the person in front of it.
-void add_time_options(CLI::App& command, FrameOptions& options);
+void add_time_options(Command command, FrameOptions& options);
 
 /// All files that a scene is drawn from: what an output must not replace.
 std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options = {});

@@ -5,6 +5,7 @@
 #include "text/utf16.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <vector>

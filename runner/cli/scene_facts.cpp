@@ -5,6 +5,7 @@
 #include "glsl/overrides.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

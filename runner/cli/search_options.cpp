@@ -4,25 +4,24 @@
 #include "cli/options.hpp"
 #include "render/frame_plan.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace tidemark::cli {
 
-void add_search_options(CLI::App& command, SearchOptions& options) {
+void add_search_options(Command command, SearchOptions& options) {
     command
         .add_option("--views", options.views,
                     "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4")
-        ->type_name("LIST")
-        ->default_str(options.usual_views);
-    command.add_option("--size", options.size, "Resolution in pixels [320x180]")->type_name("WxH");
+        .type_name("LIST")
+        .default_str(options.usual_views);
+    command.add_option("--size", options.size, "Resolution in pixels [320x180]").type_name("WxH");
     command.add_option("--for", options.seconds, "Seconds for the search and the timing, compiling aside")
-        ->type_name("S")
-        ->capture_default_str();
+        .type_name("S")
+        .capture_default_str();
     command
         .add_option("-o,--output", options.output,
-                    fmt::format("Folder for the report [SCENE-{}]", command.get_name()))
-        ->type_name("FOLDER");
+                    fmt::format("Folder for the report [SCENE-{}]", command.name()))
+        .type_name("FOLDER");
     command.add_flag("--write", options.write, "Writes what was chosen into the scene's files");
     add_device_options(command, options.device);
     command.add_flag("--json", options.json, "What was chosen and its study on standard output");

@@ -2,15 +2,12 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "cli/command_line.hpp"
 #include "cli/requests.hpp"
 #include "lab/tune/search.hpp"
 #include "platform/device_choice.hpp"
 
 #include <string>
-
-namespace CLI {
-class App;
-} // namespace CLI
 
 namespace tidemark::cli {
 
@@ -29,7 +26,7 @@ struct SearchOptions {
 };
 
 /// All but the scene and the goal, as the last options of a command.
-void add_search_options(CLI::App& command, SearchOptions& options);
+void add_search_options(Command command, SearchOptions& options);
 
 /// Views, size and seconds; the goal is left to the caller.
 Result<lab::SearchRequest> search_request(const SearchOptions& options, const scene::Scene& scene);

@@ -15,8 +15,8 @@
 #include "lab/study/verdict.hpp"
 #include "platform/headless_context.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -97,7 +97,7 @@ Result<void> put_json(const lab::Simplified& found, const Offer& offer, bool wri
                          {"cuts", std::move(cuts)},
                          {"sentences", found.sentences},
                          {"written", written},
-                         {"study", Json::parse(lab::to_json(found.findings.set))}}));
+                         {"study", parse_json(lab::to_json(found.findings.set))}}));
 }
 
 Result<void> show(const SimplifyOptions& options, const lab::Simplified& found) {
@@ -139,23 +139,23 @@ Result<int> simplify(const SimplifyOptions& options) {
 
 } // namespace
 
-void add_simplify(CLI::App& app, Action& chosen) {
+void add_simplify(Command app, Action& chosen) {
     auto options = std::make_shared<SimplifyOptions>();
     options->most_error = "flip=0.01";
     options->usual_views = "1;4.3;10;31";
     options->early_views = "0.2;0.5;1;2";
-    CLI::App* command = app.add_subcommand(
+    Command command = app.add_subcommand(
         "simplify", "Finds what a scene can do without, within a stated error of its picture");
-    add_scene_options(*command, options->scene);
+    add_scene_options(command, options->scene);
     command
-        ->add_option("--max-error", options->most_error,
-                     "How far from the scene as it is, in every view: flip=0.02, rmse=0.01 or psnr=40dB")
-        ->type_name("MEASURE=V")
-        ->capture_default_str();
-    command->add_flag("--exact", options->exact, "Only what leaves every pixel as it is")
-        ->excludes("--max-error");
-    add_search_options(*command, *options);
-    command->callback([options, &chosen] { chosen = [options] { return simplify(*options); }; });
+        .add_option("--max-error", options->most_error,
+                    "How far from the scene as it is, in every view: flip=0.02, rmse=0.01 or psnr=40dB")
+        .type_name("MEASURE=V")
+        .capture_default_str();
+    command.add_flag("--exact", options->exact, "Only what leaves every pixel as it is")
+        .excludes("--max-error");
+    add_search_options(command, *options);
+    command.on_call([options, &chosen] { chosen = [options] { return simplify(*options); }; });
 }
 
 } // namespace tidemark::cli

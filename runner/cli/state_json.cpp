@@ -2,6 +2,8 @@
 
 #include "render/frame_fields.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <concepts>

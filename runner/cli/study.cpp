@@ -1,5 +1,6 @@
 #include "base/file.hpp"
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
@@ -7,15 +8,14 @@
 #include "cli/options.hpp"
 #include "cli/output_name.hpp"
 #include "cli/study_support.hpp"
-#include "cli/value_check.hpp"
 #include "lab/study/baseline.hpp"
 #include "lab/study/conduct.hpp"
 #include "lab/study/report_data.hpp"
 #include "platform/headless_context.hpp"
 #include "scene/bounds.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -169,45 +169,45 @@ Result<int> study(const StudyOptions& options) {
 
 } // namespace
 
-void add_study(CLI::App& app, Action& chosen) {
+void add_study(Command app, Action& chosen) {
     auto options = std::make_shared<StudyOptions>();
-    CLI::App* command =
+    Command command =
         app.add_subcommand("study", "Measures error against run time over settings, and writes a report");
-    add_scene_options(*command, options->scene);
-    add_precision_options(*command, options->scene);
-    command->add_option("-o,--output", options->output, "Folder for the report [SCENE-study]")
-        ->type_name("FOLDER");
-    command->add_option("--study", options->file, "What to study [SCENE.study.json]")
-        ->type_name("FILE")
-        ->check(unnamed(CLI::ExistingFile));
-    repeatable(
-        command
-            ->add_option("--vary", options->vary,
-                         "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
-            ->type_name("NAME=a,b,c"));
+    add_scene_options(command, options->scene);
+    add_precision_options(command, options->scene);
+    command.add_option("-o,--output", options->output, "Folder for the report [SCENE-study]")
+        .type_name("FOLDER");
+    command.add_option("--study", options->file, "What to study [SCENE.study.json]")
+        .type_name("FILE")
+        .check(existing_file());
     command
-        ->add_option(
+        .add_option("--vary", options->vary,
+                    "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
+        .type_name("NAME=a,b,c")
+        .repeatable();
+    command
+        .add_option(
             "--views", options->views,
             "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4; or a file [1;10]")
-        ->type_name("LIST|FILE");
-    repeatable(command
-                   ->add_option(
-                       "--reference", options->reference,
-                       "Settings that count as the truth [the strictest, made stricter until nothing moves]")
-                   ->type_name("NAME=V,..."));
-    command->add_option("--size", options->size, "Resolution in pixels [320x180]")->type_name("WxH");
+        .type_name("LIST|FILE");
     command
-        ->add_option("--budget", options->timing.budget,
-                     "Seconds for the timing: fewer rounds when 40 take longer")
-        ->type_name("S")
-        ->capture_default_str();
+        .add_option("--reference", options->reference,
+                    "Settings that count as the truth [the strictest, made stricter until nothing moves]")
+        .type_name("NAME=V,...")
+        .repeatable();
+    command.add_option("--size", options->size, "Resolution in pixels [320x180]").type_name("WxH");
     command
-        ->add_option("--baseline", options->baseline,
-                     "An older study.json: exit 1 where something is slower or more wrong beyond noise")
-        ->type_name("FILE");
-    add_device_options(*command, options->device);
-    command->add_flag("--json", options->json, "study.json on standard output, too");
-    command->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
+        .add_option("--budget", options->timing.budget,
+                    "Seconds for the timing: fewer rounds when 40 take longer")
+        .type_name("S")
+        .capture_default_str();
+    command
+        .add_option("--baseline", options->baseline,
+                    "An older study.json: exit 1 where something is slower or more wrong beyond noise")
+        .type_name("FILE");
+    add_device_options(command, options->device);
+    command.add_flag("--json", options->json, "study.json on standard output, too");
+    command.on_call([options, &chosen] { chosen = [options] { return study(*options); }; });
 }
 
 } // namespace tidemark::cli

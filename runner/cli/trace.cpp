@@ -1,17 +1,17 @@
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/trace_report.hpp"
-#include "cli/value_check.hpp"
 #include "gl/reset.hpp"
 #include "lab/pixel/pixel_trace.hpp"
 #include "platform/headless_context.hpp"
 #include "render/frame_stepper.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <memory>
@@ -97,33 +97,33 @@ Result<int> run_trace(const TraceCommand& command) {
 
 } // namespace
 
-void add_trace(CLI::App& app, Action& chosen) {
+void add_trace(Command app, Action& chosen) {
     auto options = std::make_shared<TraceCommand>();
-    CLI::App* command = app.add_subcommand(
+    Command command = app.add_subcommand(
         "trace", "What each line computes for one pixel: in float, in double, and how many digits are right");
-    add_scene_options(*command, options->scene);
-    add_picture_options(*command, options->frames);
-    add_time_options(*command, options->frames);
-    command->add_option("--pixel", options->pixel, "The pixel to follow, from the bottom left")
-        ->type_name("X,Y")
-        ->required();
+    add_scene_options(command, options->scene);
+    add_picture_options(command, options->frames);
+    add_time_options(command, options->frames);
+    command.add_option("--pixel", options->pixel, "The pixel to follow, from the bottom left")
+        .type_name("X,Y")
+        .required();
     command
-        ->add_option("--line", options->line, "All values of that line of the text [a summary of all lines]")
-        ->type_name("[FILE:]N");
+        .add_option("--line", options->line, "All values of that line of the text [a summary of all lines]")
+        .type_name("[FILE:]N");
     command
-        ->add_option(
+        .add_option(
             "--turns", options->turns,
             "With --line: those turns of the innermost loop [the first, the last, and where something "
             "happens]")
-        ->type_name("A-B")
-        ->needs("--line");
-    command->add_option("--seed", options->seed, "Of the roundings that are drawn by lot")
-        ->type_name("N")
-        ->check(number<uint64_t>("a whole number"))
-        ->capture_default_str();
-    add_device_options(*command, options->device);
-    command->add_flag("--json", options->json, "One JSON object on standard output");
-    command->callback([options, &chosen] {
+        .type_name("A-B")
+        .needs("--line");
+    command.add_option("--seed", options->seed, "Of the roundings that are drawn by lot")
+        .type_name("N")
+        .check(number<uint64_t>("a whole number"))
+        .capture_default_str();
+    add_device_options(command, options->device);
+    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.on_call([options, &chosen] {
         chosen = [options]() -> Result<int> {
             Interrupt interrupt;
             const Interrupt::Immediate at_once(interrupt);

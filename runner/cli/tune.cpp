@@ -14,9 +14,9 @@
 #include "lab/study/report_data.hpp"
 #include "platform/headless_context.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -116,7 +116,7 @@ Result<void> put_json(const lab::Tuned& tuned, const std::vector<ChangedFile>& f
                          {"chosen", std::move(chosen)},
                          {"sentences", tuned.sentences},
                          {"difference", std::move(diff)},
-                         {"study", Json::parse(lab::to_json(tuned.findings.set))}}));
+                         {"study", parse_json(lab::to_json(tuned.findings.set))}}));
 }
 
 Result<int> tune(const TuneOptions& options) {
@@ -146,34 +146,35 @@ Result<int> tune(const TuneOptions& options) {
 
 } // namespace
 
-void add_tune(CLI::App& app, Action& chosen) {
+void add_tune(Command app, Action& chosen) {
     auto options = std::make_shared<TuneOptions>();
     options->usual_views = "1;10";
     options->early_views = "0.5;1.5";
-    CLI::App* command = app.add_subcommand(
+    Command command = app.add_subcommand(
         "tune", "Finds the fastest settings that keep an error, or the most exact that keep a time");
-    add_scene_options(*command, options->scene);
+    add_scene_options(command, options->scene);
     command
-        ->add_option("--max-error", options->most_error,
-                     "What may be wrong: rmse=0.01, psnr=40dB, flip=0.02 or wrong=0.05% [as much as now]")
-        ->type_name("MEASURE=V");
+        .add_option("--max-error", options->most_error,
+                    "What may be wrong: rmse=0.01, psnr=40dB, flip=0.02 or wrong=0.05% [as much as now]")
+        .type_name("MEASURE=V");
     command
-        ->add_option("--max-time", options->most_milliseconds,
-                     "The most exact within so many milliseconds a frame")
-        ->type_name("MS");
+        .add_option("--max-time", options->most_milliseconds,
+                    "The most exact within so many milliseconds a frame")
+        .type_name("MS");
     command
-        ->add_flag("--as-it-is", options->as_it_is,
-                   "Errors against what the scene shows now, not against a truth [flip=0.01]")
-        ->excludes("--max-time");
-    repeatable(
-        command
-            ->add_option("--vary", options->vary,
-                         "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
-            ->type_name("NAME=a,b,c"));
-    repeatable(
-        command->add_option("--keep", options->keep, "A number that stays as it is")->type_name("NAME"));
-    add_search_options(*command, *options);
-    command->callback([options, &chosen] { chosen = [options] { return tune(*options); }; });
+        .add_flag("--as-it-is", options->as_it_is,
+                  "Errors against what the scene shows now, not against a truth [flip=0.01]")
+        .excludes("--max-time");
+    command
+        .add_option("--vary", options->vary,
+                    "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
+        .type_name("NAME=a,b,c")
+        .repeatable();
+    command.add_option("--keep", options->keep, "A number that stays as it is")
+        .type_name("NAME")
+        .repeatable();
+    add_search_options(command, *options);
+    command.on_call([options, &chosen] { chosen = [options] { return tune(*options); }; });
 }
 
 } // namespace tidemark::cli

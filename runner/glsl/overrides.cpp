@@ -119,7 +119,7 @@ std::vector<text::Edit> edits_of(const std::vector<Token>& tokens, std::string_v
     return edits;
 }
 
-constexpr int k_longest_chain = 32; ///< of names that stand for names, which may go round
+constexpr int k_longest_name_chain = 32; ///< of names that stand for names, which may go round
 
 std::optional<std::string> value_of(const std::vector<NamedText>& definitions, std::string_view name) {
     const auto found = std::ranges::find(definitions, name, &NamedText::name);
@@ -167,7 +167,7 @@ std::vector<NamedText> plain_numbers(const scene::Scene& scene) {
 std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name) {
     const std::vector<NamedText> definitions = definitions_of(scene);
     auto value = value_of(definitions, name);
-    for (int i = 0; value && i < k_longest_chain; ++i) {
+    for (int i = 0; value && i < k_longest_name_chain; ++i) {
         auto meant = value_of(definitions, *value);
         if (!meant)
             break;

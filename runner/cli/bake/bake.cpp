@@ -1,13 +1,12 @@
 #include "bake/ramps.hpp"
 #include "base/try.hpp"
 #include "cli/bake/bake_island.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
-#include "cli/value_check.hpp"
 #include "image/files/picture_file.hpp"
 #include "image/made/noise.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -47,29 +46,29 @@ Result<int> bake_ramps(const BakeOptions& options) {
 
 } // namespace
 
-void add_bake(CLI::App& app, Action& chosen) {
-    CLI::App* command = app.add_subcommand("bake", "Makes the textures that scenes need");
-    command->require_subcommand(1);
+void add_bake(Command app, Action& chosen) {
+    Command command = app.add_subcommand("bake", "Makes the textures that scenes need");
+    command.require_subcommand();
 
     auto noise = std::make_shared<BakeOptions>();
-    CLI::App* noise_command = command->add_subcommand("noise", "The 256x256 noise that iChannels read");
-    noise_command->add_option("-o,--output", noise->output, "File [noise.png]")->type_name("FILE");
-    noise_command->add_option("--seed", noise->seed, "Another noise of the same kind")
-        ->check(number<uint32_t>("a whole number from 0"))
-        ->type_name("N")
-        ->capture_default_str();
-    noise_command->callback([noise, &chosen] { chosen = [noise] { return bake_noise(*noise); }; });
+    Command noise_command = command.add_subcommand("noise", "The 256x256 noise that iChannels read");
+    noise_command.add_option("-o,--output", noise->output, "File [noise.png]").type_name("FILE");
+    noise_command.add_option("--seed", noise->seed, "Another noise of the same kind")
+        .check(number<uint32_t>("a whole number from 0"))
+        .type_name("N")
+        .capture_default_str();
+    noise_command.on_call([noise, &chosen] { chosen = [noise] { return bake_noise(*noise); }; });
 
     auto ramps = std::make_shared<BakeOptions>();
     ramps->output = ".";
-    CLI::App* ramps_command =
-        command->add_subcommand("ramps", "The ramps of shaders/pseudo3d_water.glsl and stylized_waves.glsl");
-    ramps_command->add_option("-o,--output", ramps->output, "Folder")
-        ->type_name("FOLDER")
-        ->capture_default_str();
-    ramps_command->callback([ramps, &chosen] { chosen = [ramps] { return bake_ramps(*ramps); }; });
+    Command ramps_command =
+        command.add_subcommand("ramps", "The ramps of shaders/pseudo3d_water.glsl and stylized_waves.glsl");
+    ramps_command.add_option("-o,--output", ramps->output, "Folder")
+        .type_name("FOLDER")
+        .capture_default_str();
+    ramps_command.on_call([ramps, &chosen] { chosen = [ramps] { return bake_ramps(*ramps); }; });
 
-    add_bake_island(*command, chosen);
+    add_bake_island(command, chosen);
 }
 
 } // namespace tidemark::cli

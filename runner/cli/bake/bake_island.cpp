@@ -4,11 +4,10 @@
 #include "bake/wave_map.hpp"
 #include "base/try.hpp"
 #include "cli/bake/bake_island_study.hpp"
+#include "cli/command_line.hpp"
 #include "cli/console.hpp"
-#include "cli/value_check.hpp"
 #include "image/files/picture_file.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -79,62 +78,61 @@ Result<int> bake(const IslandOptions& options) {
 
 } // namespace
 
-void add_bake_island(CLI::App& bake_command, Action& chosen) {
+void add_bake_island(Command bake_command, Action& chosen) {
     auto options = std::make_shared<IslandOptions>();
-    CLI::App* island = bake_command.add_subcommand(
+    Command island = bake_command.add_subcommand(
         "island", "Waves' ways over water, sheltered places, depth and height of an island's sea");
     island
-        ->add_option("-o,--output", options->output,
-                     "File, .exr or (with --depth float) .tif [island.exr]; of --study the report's folder")
-        ->type_name("FILE");
+        .add_option("-o,--output", options->output,
+                    "File, .exr or (with --depth float) .tif [island.exr]; of --study the report's folder")
+        .type_name("FILE");
     island
-        ->add_option_function<std::string>(
+        .add_option(
             "--depth",
             [options](const std::string& depth) {
                 options->depth = depth == "half" ? image::SampleDepth::half : image::SampleDepth::f32;
             },
             "Bits of a sample [half]")
-        ->check(one_of({"half", "float"}))
-        ->type_name("half|float");
-    CLI::Option* side = island->add_option("--size", options->side, "Texels a side of the generated island")
-                            ->check(number<int>(fmt::format("a whole number from {} to {}",
-                                                            bake::k_least_side, bake::k_largest_side),
-                                                bake::k_least_side, bake::k_largest_side))
-                            ->type_name("N")
-                            ->capture_default_str();
-    CLI::Option* seed =
-        island->add_option("--seed", options->seed, "Another island of the same kind")->capture_default_str();
-    CLI::Option* heights =
-        island
-            ->add_option("--heights", options->heights, "Your own square height map instead (first channel)")
-            ->type_name("FILE")
-            ->excludes(side)
-            ->excludes(seed);
-    island->add_option("--extent", options->extent, "Metres along a side of that map")
-        ->needs(heights)
-        ->check(
+        .check(one_of({"half", "float"}))
+        .type_name("half|float");
+    const Option side = island.add_option("--size", options->side, "Texels a side of the generated island")
+                            .check(number<int>(fmt::format("a whole number from {} to {}", bake::k_least_side,
+                                                           bake::k_largest_side),
+                                               bake::k_least_side, bake::k_largest_side))
+                            .type_name("N")
+                            .capture_default_str();
+    const Option seed =
+        island.add_option("--seed", options->seed, "Another island of the same kind").capture_default_str();
+    const Option heights =
+        island.add_option("--heights", options->heights, "Your own square height map instead (first channel)")
+            .type_name("FILE")
+            .excludes(side)
+            .excludes(seed);
+    island.add_option("--extent", options->extent, "Metres along a side of that map")
+        .needs(heights)
+        .check(
             number(fmt::format("metres from 1 to {:g}", bake::k_largest_metres), 1.0, bake::k_largest_metres))
-        ->type_name("M")
-        ->capture_default_str();
-    island->add_option("--sea", options->sea, "Its value at the sea's level")
-        ->needs(heights)
-        ->check(number("a number from -1e6 to 1e6", -1e6, 1e6))
-        ->type_name("V")
-        ->capture_default_str();
-    island->add_option("--metres", options->metres, "Metres of height a value of 1")
-        ->needs(heights)
-        ->check(number("metres from 1e-6 to 1e6", 1e-6, 1e6))
-        ->type_name("M")
-        ->capture_default_str();
-    CLI::Option* study = island->add_flag(
+        .type_name("M")
+        .capture_default_str();
+    island.add_option("--sea", options->sea, "Its value at the sea's level")
+        .needs(heights)
+        .check(number("a number from -1e6 to 1e6", -1e6, 1e6))
+        .type_name("V")
+        .capture_default_str();
+    island.add_option("--metres", options->metres, "Metres of height a value of 1")
+        .needs(heights)
+        .check(number("metres from 1e-6 to 1e6", 1e-6, 1e6))
+        .type_name("M")
+        .capture_default_str();
+    const Option study = island.add_flag(
         "--study", options->study,
         "Print error against run time on maps with known answers; with -o FOLDER a report of it, too");
-    island->add_option("--budget", options->march_study.budget, "Seconds for the timing of that report")
-        ->needs(study)
-        ->check(number("seconds from 0.01 to 1e6", 0.01, 1e6))
-        ->type_name("S")
-        ->capture_default_str();
-    island->callback([options, &chosen] {
+    island.add_option("--budget", options->march_study.budget, "Seconds for the timing of that report")
+        .needs(study)
+        .check(number("seconds from 0.01 to 1e6", 0.01, 1e6))
+        .type_name("S")
+        .capture_default_str();
+    island.on_call([options, &chosen] {
         chosen = [options] {
             options->march_study.folder = options->output;
             return options->study ? study_march(options->march_study) : bake(*options);

@@ -8,19 +8,18 @@
 #include "cli/capture/likeness.hpp"
 #include "cli/capture/run_fingerprint.hpp"
 #include "cli/capture/saved_state.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/json_dump.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/trial.hpp"
-#include "cli/value_check.hpp"
 #include "gl/capabilities.hpp"
 #include "platform/headless_context.hpp"
 #include "render/renderer.hpp"
 #include "sound/sound_file.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -187,23 +186,6 @@ Result<int> capture_frames(CapturePlan plan) {
     return complete ? 0 : Interrupt::k_exit_code;
 }
 
-/// What was typed, but for what another shard is told otherwise.
-std::vector<std::string> words_for_all_shards(const CLI::App& command) {
-    std::vector<std::string> words;
-    for (const CLI::Option* option : command.get_options()) {
-        const std::string name = option->get_name();
-        if (option->count() == 0 || name == "--shard" || name == "--resume" || name == "--json")
-            continue;
-        for (const std::string& value : option->results()) {
-            if (!option->get_positional())
-                words.push_back(name);
-            if (option->get_items_expected_max() > 0)
-                words.push_back(value);
-        }
-    }
-    return words;
-}
-
 Result<int> capture(const CaptureOptions& typed) {
     const CaptureOptions options = TRY(with_likeness(typed));
     return wants_sound(options) ? plan_sound(options).and_then(capture_sound)
@@ -212,125 +194,126 @@ Result<int> capture(const CaptureOptions& typed) {
 
 } // namespace
 
-void add_codec_option(CLI::App& command, std::string& codec) {
+void add_codec_option(Command command, std::string& codec) {
     command
         .add_option(
             "--codec", codec,
             "Of a video: of .mp4 and .mkv h264 in 8 bits, hevc or av1 in 10; of .webm vp9 in 8, av1 in "
             "10 [the first]")
-        ->type_name("h264|hevc|av1|vp9");
+        .type_name("h264|hevc|av1|vp9");
 }
 
-void add_capture_options(CLI::App& command, CaptureOptions& options) {
+void add_capture_options(Command command, CaptureOptions& options) {
     add_scene_options(command, options.scene);
     add_precision_options(command, options.scene);
     add_picture_options(command, options.frames);
     add_time_options(command, options.frames);
-    command.get_option("SCENE")->required(false); // --like may name it
+    command.option("SCENE").required(false); // --like may name it
     command
         .add_option(
             "--like", options.like,
             "Draws the moment that a picture shows, from its metadata: what is left open here, SCENE too")
-        ->type_name("PICTURE");
+        .type_name("PICTURE");
     command
         .add_option("-o,--output", options.output,
                     "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
                     "a cube; a video: .mp4 .mkv .webm .mov .gif .webp; - for "
                     "raw RGB frames on standard output [SCENE.png]")
-        ->type_name("OUT");
+        .type_name("OUT");
     command
         .add_option(
             "--depth", options.depth,
             "Bits of a sample in the file [what the format stores by nature; a --pass in .exr: float]")
-        ->type_name("8|16|half|float");
+        .type_name("8|16|half|float");
     command
         .add_option("--transfer", options.transfer,
                     "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
                     "which takes 16 bits or floats [srgb; of another --pass: numbers]")
-        ->type_name("srgb|linear");
+        .type_name("srgb|linear");
     add_codec_option(command, options.codec);
     command
         .add_option(
             "--alpha", options.alpha,
             "Of Image: 1, as ShaderToy shows it; or what its text gives, straight or with the colours "
             "multiplied by it [opaque]")
-        ->type_name("opaque|keep|premultiplied");
+        .type_name("opaque|keep|premultiplied");
     command.add_flag("--layers", options.layers,
                      "All passes into one .exr, each as a part of its name; a cube as six");
     add_device_options(command, options.device);
     command
         .add_option("--timeout", options.timeout,
                     "Give up where compiling takes longer, or getting ready to draw, or a frame")
-        ->type_name("SECONDS")
-        ->check(number<double>("a number of seconds"));
-    command
-        .add_option("--duration", options.duration, "Length of a .wav [60], or of what --sheet shows [10]")
-        ->type_name("SECONDS")
-        ->check(number<double>("a number of seconds"));
-    auto* plain = command.add_flag("--plain", options.plain, "Compiles the scene's text whole, as it is");
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds"));
+    command.add_option("--duration", options.duration, "Length of a .wav [60], or of what --sheet shows [10]")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds"));
+    const Option plain =
+        command.add_flag("--plain", options.plain, "Compiles the scene's text whole, as it is");
     command
         .add_option("--allow-difference", options.allowed_difference,
                     "Makes knobs constants where that is faster and moves no sample by more")
-        ->type_name("MAX")
-        ->check(number<double>("a number"))
-        ->excludes(plain)
-        ->excludes("--timeout"); // a trial's frames have no limit
+        .type_name("MAX")
+        .check(number<double>("a number"))
+        .excludes(plain)
+        .excludes("--timeout"); // a trial's frames have no limit
     command
         .add_option("--tile", options.tile,
                     "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
-        ->type_name("N")
-        ->check(number<int>("a whole number"));
+        .type_name("N")
+        .check(number<int>("a whole number"));
     command
         .add_option("--samples", options.samples,
                     "Makes each frame the mean, in linear light, of N that are shifted within their pixels")
-        ->type_name("N")
-        ->check(number<int>("a whole number from 1 to 65536", 1, render::k_most_samples))
-        ->excludes("--allow-difference");
+        .type_name("N")
+        .check(number<int>("a whole number from 1 to 65536", 1, render::k_most_samples))
+        .excludes("--allow-difference");
     command
         .add_option(
             "--shutter", options.shutter,
             "Motion blur: those samples see as much of the time to the next frame, 0 to 1 [16 samples]")
-        ->type_name("PART")
-        ->check(number<double>("a number from 0 to 1", 0, 1))
-        ->excludes("--allow-difference");
-    auto* resume =
+        .type_name("PART")
+        .check(number<double>("a number from 0 to 1", 0, 1))
+        .excludes("--allow-difference");
+    const Option resume =
         command.add_flag("--resume", options.resume,
                          "Goes on where a capture was cut short: frames that are there already are kept");
     command
         .add_option("--state-every", options.state_every,
                     "Saves the buffers of a scene that reads its own last frame, for --resume")
-        ->type_name("FRAMES")
-        ->check(unnamed(CLI::PositiveNumber));
+        .type_name("FRAMES")
+        .check(positive_number());
     command
         .add_option(
             "--shard", options.shard,
             "Makes every N-th frame, from the K-th on, for one of N processes; slurm: as a task of an array")
-        ->type_name("K/N|slurm");
+        .type_name("K/N|slurm");
     command
         .add_flag("--loop", options.loop,
                   "Says whether the sequence goes round: how like its first the frame behind its last is")
-        ->excludes(resume)
-        ->excludes("--shard");
+        .excludes(resume)
+        .excludes("--shard");
     command
         .add_option("--sheet", options.sheet,
                     "One picture of so many moments, each of --size, evenly from --frames or --duration")
-        ->type_name("COLUMNSxROWS")
-        ->excludes("--layers")
-        ->excludes("--tile")
-        ->excludes(resume)
-        ->excludes("--state-every")
-        ->excludes("--shard")
-        ->excludes("--loop");
+        .type_name("COLUMNSxROWS")
+        .excludes("--layers")
+        .excludes("--tile")
+        .excludes(resume)
+        .excludes("--state-every")
+        .excludes("--shard")
+        .excludes("--loop");
     command.add_flag("--json", options.json, "One JSON object about the frames on standard output");
 }
 
-void add_capture(CLI::App& app, Action& chosen) {
+void add_capture(Command app, Action& chosen) {
     auto options = std::make_shared<CaptureOptions>();
-    CLI::App* command =
+    Command command =
         app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene, with no display");
-    add_capture_options(*command, *options);
-    command->callback([options, command, &chosen] {
-        options->words = words_for_all_shards(*command);
+    add_capture_options(command, *options);
+    command.on_call([options, command, &chosen] {
+        options->words =
+            command.typed_words(std::array<std::string_view, 3>{"--shard", "--resume", "--json"});
         chosen = [options] { return capture(*options); };
     });
 }

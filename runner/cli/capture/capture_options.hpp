@@ -1,19 +1,17 @@
 // The options of `tidemark capture`, for whoever reads its words.
 #pragma once
 
-#include <string>
+#include "cli/command_line.hpp"
 
-namespace CLI {
-class App;
-}
+#include <string>
 
 namespace tidemark::cli {
 
 struct CaptureOptions;
 
-void add_capture_options(CLI::App& command, CaptureOptions& options);
+void add_capture_options(Command command, CaptureOptions& options);
 
 /// --codec: of every command that makes videos.
-void add_codec_option(CLI::App& command, std::string& codec);
+void add_codec_option(Command command, std::string& codec);
 
 } // namespace tidemark::cli

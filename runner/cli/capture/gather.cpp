@@ -12,14 +12,13 @@
 #include "cli/capture/run_fingerprint.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/capture/shard_note.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/scene_facts.hpp"
-#include "cli/value_check.hpp"
 #include "image/files/file_samples.hpp"
 #include "platform/headless_context.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,14 +34,10 @@ namespace fs = std::filesystem;
 
 Result<CaptureOptions> options_of(const ShardNote& note, const fs::path& file) {
     CaptureOptions options;
-    CLI::App app;
-    add_capture_options(app, options);
-    std::vector<std::string> words(note.words.rbegin(), note.words.rend()); // as CLI11 takes them
-    try {
-        app.parse(words);
-    } catch (const CLI::Error& error) {
-        return fail(ErrorCode::load, fmt::format("'{}': {}", file.string(), error.what()));
-    }
+    if (auto parsed =
+            parse_words([&](Command command) { add_capture_options(command, options); }, note.words);
+        !parsed)
+        return fail(ErrorCode::load, fmt::format("'{}': {}", file.string(), parsed.error().message));
     return options;
 }
 
@@ -223,28 +218,27 @@ Result<int> gather(const GatherOptions& options) {
     return 0;
 }
 
-void add_gather(CLI::App& app, Action& chosen) {
+void add_gather(Command app, Action& chosen) {
     auto options = std::make_shared<GatherOptions>();
-    CLI::App* command =
-        app.add_subcommand("gather", "Checks what the shards of a capture made, and joins it");
-    command->add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
-        ->required()
-        ->check(unnamed(CLI::ExistingDirectory));
+    Command command = app.add_subcommand("gather", "Checks what the shards of a capture made, and joins it");
+    command.add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
+        .required()
+        .check(existing_folder());
     command
-        ->add_option("-o,--output", options->video, "A video of the frames: .mp4 .mkv .webm .mov .gif .webp")
-        ->type_name("OUT");
-    add_codec_option(*command, options->codec);
-    command->get_option("--codec")->needs("--output");
-    command->add_option("--sample", options->samples, "Frames that are drawn again and compared")
-        ->type_name("N")
-        ->check(unnamed(CLI::NonNegativeNumber))
-        ->capture_default_str();
+        .add_option("-o,--output", options->video, "A video of the frames: .mp4 .mkv .webm .mov .gif .webp")
+        .type_name("OUT");
+    add_codec_option(command, options->codec);
+    command.option("--codec").needs("--output");
+    command.add_option("--sample", options->samples, "Frames that are drawn again and compared")
+        .type_name("N")
+        .check(non_negative_number())
+        .capture_default_str();
     command
-        ->add_option("--tolerance", options->tolerance,
-                     "How far a sample may be off where another device drew the frames [2/255]")
-        ->type_name("D")
-        ->check(unnamed(CLI::NonNegativeNumber));
-    command->callback([options, &chosen] { chosen = [options] { return gather(*options); }; });
+        .add_option("--tolerance", options->tolerance,
+                    "How far a sample may be off where another device drew the frames [2/255]")
+        .type_name("D")
+        .check(non_negative_number());
+    command.on_call([options, &chosen] { chosen = [options] { return gather(*options); }; });
 }
 
 } // namespace tidemark::cli

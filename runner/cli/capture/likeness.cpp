@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/console.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/picture_facts.hpp"
 #include "image/files/picture_metadata.hpp"
 #include "scene/bounds.hpp"
@@ -26,7 +27,7 @@ Result<Moment> read_moment(const std::string& picture, const image::Metadata& me
         return refuse(picture,
                       "it does not hold how it was drawn: give one that `tidemark capture` or the window's "
                       "S saved, other than .hdr, and that no other program has saved since");
-    if (auto moment = moment_of(Json::parse(*text, nullptr, false)))
+    if (auto moment = moment_of(parse_or_discard(*text)))
         return *std::move(moment);
     return refuse(picture, "what it says of how it was drawn is damaged");
 }

@@ -1,5 +1,7 @@
 #include "cli/capture/run_fingerprint.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace tidemark::cli {
 namespace {
 

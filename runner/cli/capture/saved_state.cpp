@@ -6,6 +6,7 @@
 #include "cli/json_dump.hpp"
 #include "cli/sequence.hpp"
 
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -133,7 +134,7 @@ std::optional<SavedState> read_state(const fs::path& file,
         return std::nullopt;
     const size_t line = std::min(content->find('\n'), content->size());
     try {
-        const Json header = Json::parse(content->substr(0, line));
+        const Json header = parse_json(content->substr(0, line));
         if (header.at("tidemark_state") != k_version_of_format ||
             header.at("fingerprint") != fingerprint_of(header.at("frame").get<int>()).text())
             return std::nullopt;

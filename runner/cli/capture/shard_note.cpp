@@ -6,13 +6,14 @@
 #include "cli/json_dump.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tidemark::cli {
 
 Result<ShardNote> read_note(const std::filesystem::path& file) {
     const std::string text = TRY(read_file(file));
     try {
-        const Json json = Json::parse(text);
+        const Json json = parse_json(text);
         ShardNote note{json.at("capture").get<std::vector<std::string>>(), json.at("shards").get<int>()};
         if (note.count >= 1 && note.count <= k_most_shards)
             return note;

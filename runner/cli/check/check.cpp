@@ -7,8 +7,6 @@
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <memory>
 
@@ -27,21 +25,21 @@ struct CheckOptions {
 };
 
 /// All of them need --trace, which must be there.
-void add_trace_options(CLI::App& command, TraceOptions& options) {
-    const auto before = command.get_options();
+void add_trace_options(Command command, TraceOptions& options) {
+    const auto before = command.options();
     add_picture_options(command, options.frames);
     add_time_options(command, options.frames);
     command
         .add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
-        ->type_name("X,Y");
+        .type_name("X,Y");
     command.add_flag("--hidden", options.hidden,
                      "Where all pixels are finite, trace a NaN that a clamp or a condition masked");
     command.add_option("--timeout", options.timeout, "Give up the trace after so long")
-        ->type_name("SECONDS")
-        ->capture_default_str();
-    for (CLI::Option* option : command.get_options())
+        .type_name("SECONDS")
+        .capture_default_str();
+    for (const Option& option : command.options())
         if (std::ranges::find(before, option) == before.end())
-            option->needs("--trace")->group("With --trace");
+            option.needs("--trace").group("With --trace");
 }
 
 Result<int> trace(const CheckOptions& options) {
@@ -60,49 +58,52 @@ FixOptions fix_options(const CheckOptions& options) {
 
 } // namespace
 
-void add_check(CLI::App& app, Action& chosen) {
+void add_check(Command app, Action& chosen) {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command =
+    Command command =
         app.add_subcommand("check", "Tells whether a scene's numbers can be trusted, and where not");
     ProbesRequest& probes = options->probes;
-    add_scene_options(*command, probes.scene);
-    repeatable(command->add_option("--probe", probes.probes, "Only this probe; may be given again [all]"))
-        ->type_name("NAME");
+    add_scene_options(command, probes.scene);
+    command.add_option("--probe", probes.probes, "Only this probe; may be given again [all]")
+        .repeatable()
+        .type_name("NAME");
     command
-        ->add_option("-o,--output", probes.output,
-                     "Folder for index.html, and a picture of each failure and warning")
-        ->type_name("FOLDER");
+        .add_option("-o,--output", probes.output,
+                    "Folder for index.html, and a picture of each failure and warning")
+        .type_name("FOLDER");
     command
-        ->add_option("--budget", probes.budget,
-                     "Seconds for all of it: what has not answered by then is cut, and is exit 5")
-        ->type_name("S")
-        ->capture_default_str();
-    add_device_options(*command, probes.device);
-    auto* list = command->add_flag("--list", options->list, "What each probe looks at, and nothing else");
-    command->get_option("SCENE")->required(false);
+        .add_option("--budget", probes.budget,
+                    "Seconds for all of it: what has not answered by then is cut, and is exit 5")
+        .type_name("S")
+        .capture_default_str();
+    add_device_options(command, probes.device);
+    const Option list =
+        command.add_flag("--list", options->list, "What each probe looks at, and nothing else");
+    command.option("SCENE").required(false);
     command
-        ->add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
-        ->excludes(list);
+        .add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
+        .excludes(list);
     command
-        ->add_flag("--trace", options->traced,
-                   "Instead: where a NaN or an infinity in the picture has its origin")
-        ->excludes(list)
-        ->excludes("--portable");
-    auto* fix = command->add_flag("--fix", options->mended,
-                                  "Instead: cures of what is not finite, undefined or without a value, each "
-                                  "drawn before it is offered, as a diff");
-    fix->excludes(list)->excludes("--portable")->excludes("--trace")->excludes("--probe");
-    command->add_flag("--write", options->write, "Writes the cures into the scene's files, one by one")
-        ->needs(fix);
+        .add_flag("--trace", options->traced,
+                  "Instead: where a NaN or an infinity in the picture has its origin")
+        .excludes(list)
+        .excludes("--portable");
+    const Option fix =
+        command.add_flag("--fix", options->mended,
+                         "Instead: cures of what is not finite, undefined or without a value, each "
+                         "drawn before it is offered, as a diff");
+    fix.excludes(list).excludes("--portable").excludes("--trace").excludes("--probe");
+    command.add_flag("--write", options->write, "Writes the cures into the scene's files, one by one")
+        .needs(fix);
     command
-        ->add_flag("--hashes", options->hashes,
-                   "Hashes of large sines, too: the same numbers on every GPU, and another picture")
-        ->needs(fix);
-    add_trace_options(*command, options->trace);
-    command->add_flag("--json", probes.json, "One JSON object on standard output");
-    command->callback([options, &chosen] {
+        .add_flag("--hashes", options->hashes,
+                  "Hashes of large sines, too: the same numbers on every GPU, and another picture")
+        .needs(fix);
+    add_trace_options(command, options->trace);
+    command.add_flag("--json", probes.json, "One JSON object on standard output");
+    command.on_call([options, &chosen] {
         if (!options->list && options->probes.scene.path.empty())
-            throw CLI::RequiredError("SCENE");
+            fail_for_missing("SCENE");
         chosen = [options]() -> Result<int> {
             Interrupt interrupt;
             const Interrupt::Immediate at_once(interrupt); // what was answered stands there already

@@ -10,12 +10,14 @@
 #include "cli/console.hpp"
 #include "cli/error_json.hpp"
 #include "cli/forked.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/options.hpp"
 #include "cli/version.hpp"
 #include "gl/reset.hpp"
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tidemark::cli {
 namespace {
@@ -170,7 +172,7 @@ Result<int> check_fix(const FixOptions& options) {
         {.seconds = options.budget, .unwanted = [&] { return !heard; }},
         [&](std::string_view line) {
             if (heard)
-                heard = report.hear(Json::parse(line));
+                heard = report.hear(parse_json(line));
         }));
     if (!heard)
         return fail(heard.error());

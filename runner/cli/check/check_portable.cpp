@@ -9,6 +9,8 @@
 #include "glsl/portability.hpp"
 #include "platform/headless_context.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace tidemark::cli {
 namespace {
 

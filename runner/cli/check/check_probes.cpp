@@ -9,6 +9,7 @@
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/forked.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "gl/reset.hpp"
@@ -18,6 +19,7 @@
 #include "scene/bounds.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -152,7 +154,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             },
             left,
             [&](std::string_view line) {
-                const Json json = Json::parse(line);
+                const Json json = parse_json(line);
                 if (auto error = error_of(json))
                     heard = fail(*std::move(error));
                 if (!heard)

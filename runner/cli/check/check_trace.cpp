@@ -8,6 +8,7 @@
 #include "cli/version.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tidemark::cli {
 namespace {

@@ -1,6 +1,7 @@
 #include "cli/check/fix_text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tidemark::cli {
 namespace {

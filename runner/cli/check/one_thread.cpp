@@ -2,11 +2,13 @@
 
 #include "base/try.hpp"
 #include "cli/error_json.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/state_json.hpp"
 #include "gl/capabilities.hpp"
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -34,7 +36,7 @@ Json bits_of(const image::Image& picture) {
 Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device) {
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
         ::setenv("LP_NUM_THREADS", "0", 1); // none beside the one that asks
-        const auto drawn = picture(scene, device, frame_state_of(Json::parse(question)));
+        const auto drawn = picture(scene, device, frame_state_of(parse_json(question)));
         tell(dump(drawn ? bits_of(*drawn) : to_json(drawn.error())));
     });
 }
@@ -49,7 +51,7 @@ Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& s
         return fail(ErrorCode::timed_out, fmt::format("one thread gave up after {:.3g} s", seconds));
     if (run.output.empty())
         return fail(ErrorCode::load, run.crash);
-    const Json bits = Json::parse(run.output);
+    const Json bits = parse_json(run.output);
     if (auto error = error_of(bits))
         return fail(*std::move(error));
     image::Image picture(state.extent, 3, image::SampleType::f32);

@@ -2,6 +2,8 @@
 
 #include "cli/state_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace tidemark::cli {

@@ -3,10 +3,12 @@
 #include "base/try.hpp"
 #include "cli/check/trace_text.hpp"
 #include "cli/forked.hpp"
+#include "cli/json_dump.hpp"
 #include "gl/reset.hpp"
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <string_view>
@@ -45,7 +47,7 @@ struct Heard {
     int frame = -1;
 
     void hear(std::string_view text) {
-        Json json = Json::parse(text, nullptr, false);
+        Json json = parse_or_discard(text);
         if (json.contains("frame"))
             frame = json["frame"].get<int>();
         else

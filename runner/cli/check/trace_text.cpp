@@ -3,6 +3,7 @@
 #include "cli/json_dump.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tidemark::cli {
 namespace {

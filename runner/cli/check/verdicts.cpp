@@ -7,6 +7,7 @@
 #include "glsl/pass_reading.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <functional>

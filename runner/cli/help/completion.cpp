@@ -1,10 +1,8 @@
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/help/candidates.hpp"
-#include "cli/value_check.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <memory>
 
@@ -48,13 +46,12 @@ end
 complete -c tidemark -a '(__tidemark_words)'
 )sh";
 
-Result<int> print_completion(const CLI::App& app, const std::string& what,
-                             const std::vector<std::string>& words) {
+Result<int> print_completion(Command app, const std::string& what, const std::vector<std::string>& words) {
     if (what != "words" && !words.empty())
         return fail(ErrorCode::usage, "unexpected argument '" + words.front() + "'");
     std::string text;
     if (what == "words")
-        for (const std::string& word : candidates(app, words))
+        for (const std::string& word : candidates(app.app(), words))
             text += word + '\n';
     else
         text = what == "zsh" ? k_zsh : what == "fish" ? k_fish : k_bash;
@@ -64,21 +61,20 @@ Result<int> print_completion(const CLI::App& app, const std::string& what,
 
 } // namespace
 
-void add_completion(CLI::App& app, Action& chosen) {
+void add_completion(Command app, Action& chosen) {
     struct Options {
         std::string what = "bash";
         std::vector<std::string> words;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("completion", "Prints the completion script for bash, zsh or fish");
-    command->add_option("SHELL", options->what, "bash, zsh or fish; words: what the last WORD may become")
-        ->type_name("bash|zsh|fish|words")
-        ->check(one_of({"bash", "zsh", "fish", "words"}));
-    command->add_option("WORD", options->words, "With words, behind --: the line as far as it is typed")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->callback([options, &app, &chosen] {
-        chosen = [options, &app] { return print_completion(app, options->what, options->words); };
+    Command command = app.add_subcommand("completion", "Prints the completion script for bash, zsh or fish");
+    command.add_option("SHELL", options->what, "bash, zsh or fish; words: what the last WORD may become")
+        .type_name("bash|zsh|fish|words")
+        .check(one_of({"bash", "zsh", "fish", "words"}));
+    command.add_option("WORD", options->words, "With words, behind --: the line as far as it is typed")
+        .take_all();
+    command.on_call([options, app, &chosen] {
+        chosen = [options, app] { return print_completion(app, options->what, options->words); };
     });
 }
 

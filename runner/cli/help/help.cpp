@@ -6,7 +6,6 @@
 #include "cli/help/pages.hpp"
 #include "cli/help/topics.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,12 +37,12 @@ Result<int> help(const std::string& name) {
 }
 
 /// One page a command, and that of the program.
-Result<int> write_man_pages(const CLI::App& program, const std::filesystem::path& folder) {
+Result<int> write_man_pages(Command program, const std::filesystem::path& folder) {
     TRY(make_folder(folder));
-    std::vector<const CLI::App*> all = program.get_subcommands({});
-    all.push_back(&program);
-    for (const CLI::App* command : all) {
-        const ManPage page = man_page(*command);
+    std::vector<Command> all = program.subcommands();
+    all.push_back(program);
+    for (const Command& command : all) {
+        const ManPage page = man_page(command.app());
         TRY(write_file(folder / (page.name + ".1"), page.roff));
     }
     return 0;
@@ -59,15 +58,15 @@ std::vector<std::string> help_topics() {
     return names;
 }
 
-void add_help(CLI::App& app, Action& chosen) {
+void add_help(Command app, Action& chosen) {
     auto topic = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("help", "Prints a section of the manual, or the list of them");
-    command->add_option("TOPIC", *topic, "A section, as in keys, recordings, directives, check");
+    Command command = app.add_subcommand("help", "Prints a section of the manual, or the list of them");
+    command.add_option("TOPIC", *topic, "A section, as in keys, recordings, directives, check");
     auto folder = std::make_shared<std::string>();
-    command->add_option("--man", *folder, "Writes a page for man(1) on every command into that folder")
-        ->type_name("FOLDER");
-    command->callback([topic, folder, &app, &chosen] {
-        chosen = [topic, folder, &app] {
+    command.add_option("--man", *folder, "Writes a page for man(1) on every command into that folder")
+        .type_name("FOLDER");
+    command.on_call([topic, folder, app, &chosen] {
+        chosen = [topic, folder, app] {
             return folder->empty() ? help(*topic) : write_man_pages(app, *folder);
         };
     });

@@ -4,6 +4,7 @@
 #include "cli/json_dump.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <optional>
 
@@ -16,14 +17,13 @@ using platform::HeadlessDevice;
 constexpr double k_patience_seconds = 30;
 
 std::string told(const HeadlessDevice& device, bool tried) {
-    return Json{{"name", device.name},
-                {"kind", int(device.kind)},
-                {"renderer", device.renderer},
-                {"version", device.version},
-                {"reason", device.reason},
-                {"names", device.lasting_names},
-                {"tried", tried}}
-        .dump(-1, ' ', false, Json::error_handler_t::replace);
+    return dump({{"name", device.name},
+                 {"kind", int(device.kind)},
+                 {"renderer", device.renderer},
+                 {"version", device.version},
+                 {"reason", device.reason},
+                 {"names", device.lasting_names},
+                 {"tried", tried}});
 }
 
 HeadlessDevice device_of(const Json& json) {
@@ -46,7 +46,7 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
             },
             k_patience_seconds,
             [&](std::string_view line) {
-                const Json json = Json::parse(line);
+                const Json json = parse_json(line);
                 in_hand = device_of(json);
                 if (json.at("tried").get<bool>())
                     found.push_back(*std::exchange(in_hand, std::nullopt));

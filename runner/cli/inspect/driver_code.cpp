@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -51,7 +52,7 @@ std::optional<CompiledSizes> sizes_of(const scene::Scene& scene, const scene::Pa
     return sizes;
 }
 
-Json to_json(const DriverCode& code) {
+Json code_json(const DriverCode& code) {
     Json instructions = Json::object();
     for (const auto& [shader, count] : code.instructions)
         instructions[shader] = count;
@@ -106,10 +107,10 @@ std::string to_lines(const CompiledSizes& sizes) {
 }
 
 Json to_json(const CompiledSizes& sizes) {
-    return {{"plain", to_json(of(sizes, Specialise::nothing))},
-            {"specialised", to_json(of(sizes, Specialise::unreachable))},
-            {"long_sequence", to_json(of(sizes, Specialise::invariant_uniforms))},
-            {"constant_knobs", to_json(of(sizes, Specialise::constants))}};
+    return {{"plain", code_json(of(sizes, Specialise::nothing))},
+            {"specialised", code_json(of(sizes, Specialise::unreachable))},
+            {"long_sequence", code_json(of(sizes, Specialise::invariant_uniforms))},
+            {"constant_knobs", code_json(of(sizes, Specialise::constants))}};
 }
 
 } // namespace tidemark::cli

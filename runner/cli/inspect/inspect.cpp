@@ -1,4 +1,5 @@
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/inspect/driver_code.hpp"
@@ -10,16 +11,15 @@
 #include "cli/options.hpp"
 #include "cli/precision_report.hpp"
 #include "cli/scene_facts.hpp"
-#include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "gl/capabilities.hpp"
 #include "glsl/pass_reading.hpp"
 #include "glsl/specialise/specialise.hpp"
 #include "platform/headless_context.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
@@ -165,48 +165,47 @@ Result<int> inspect_scene(const InspectOptions& options) {
 
 } // namespace
 
-void add_inspect(CLI::App& app, Action& chosen) {
+void add_inspect(Command app, Action& chosen) {
     auto options = std::make_shared<InspectOptions>();
-    CLI::App* command = app.add_subcommand("inspect", "Tells what a scene needs and what was left out");
-    add_scene_options(*command, options->scene);
-    command->get_option("SCENE")->required(false);
-    add_precision_options(*command, options->scene);
-    add_device_options(*command, options->device);
-    command->get_option("--device")
-        ->description("Where to draw: a name from --devices; none: without a driver, what the files say");
-    command->add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
-        ->type_name("NAME");
-    auto* devices = command->add_flag("--devices", options->devices,
-                                      "Lists where OpenGL contexts can be had, and no scene");
+    Command command = app.add_subcommand("inspect", "Tells what a scene needs and what was left out");
+    add_scene_options(command, options->scene);
+    command.option("SCENE").required(false);
+    add_precision_options(command, options->scene);
+    add_device_options(command, options->device);
+    command.option("--device")
+        .description("Where to draw: a name from --devices; none: without a driver, what the files say");
+    command.add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
+        .type_name("NAME");
+    const Option devices = command.add_flag("--devices", options->devices,
+                                            "Lists where OpenGL contexts can be had, and no scene");
     command
-        ->add_flag("--self-test", options->self_test,
-                   "With --devices: what each of them can be trusted with, a verdict a line")
-        ->needs(devices);
-    command->add_flag("--source", options->source,
-                      "Prints the text that the driver compiles, and nothing else");
+        .add_flag("--self-test", options->self_test,
+                  "With --devices: what each of them can be trusted with, a verdict a line")
+        .needs(devices);
+    command.add_flag("--source", options->source,
+                     "Prints the text that the driver compiles, and nothing else");
     const auto things = things_left_out();
     command
-        ->add_option("--with", options->with,
-                     fmt::format("Puts back what was left out and measures what that costs: {}",
-                                 fmt::join(things, ", ")))
-        ->type_name("THING[,…]")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(one_of(things));
-    command->add_option("--size", options->size, "With --with: the picture's size")
-        ->type_name("WxH")
-        ->capture_default_str();
-    command->add_option("--budget", options->budget, "With --with: seconds to measure for")
-        ->type_name("S")
-        ->check(number<double>("a number of seconds above 0", 1e-3))
-        ->capture_default_str();
+        .add_option("--with", options->with,
+                    fmt::format("Puts back what was left out and measures what that costs: {}",
+                                fmt::join(things, ", ")))
+        .type_name("THING[,…]")
+        .delimiter(',')
+        .one_word()
+        .check(one_of(things));
+    command.add_option("--size", options->size, "With --with: the picture's size")
+        .type_name("WxH")
+        .capture_default_str();
+    command.add_option("--budget", options->budget, "With --with: seconds to measure for")
+        .type_name("S")
+        .check(number<double>("a number of seconds above 0", 1e-3))
+        .capture_default_str();
     command
-        ->add_flag(
-            "--specialised", options->specialised,
-            "With --source: the text without what the scene does not need, as a long sequence is drawn")
-        ->needs("--source");
-    command->add_flag("--json", options->json, "One JSON object on standard output");
-    command->callback([options, &chosen] {
+        .add_flag("--specialised", options->specialised,
+                  "With --source: the text without what the scene does not need, as a long sequence is drawn")
+        .needs("--source");
+    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.on_call([options, &chosen] {
         chosen = [options]() -> Result<int> {
             if (options->devices)
                 return inspect_devices(options->self_test, options->json);

@@ -78,7 +78,7 @@ void ask_all(const HeadlessDevice& device, const Tell& tell) {
 Result<Json> verdicts_on(const HeadlessDevice& device) {
     Json verdicts = Json::array();
     const auto run = TRY(run_forked([&](const Tell& tell) { ask_all(device, tell); }, k_self_test_seconds,
-                                    [&](std::string_view line) { verdicts.push_back(Json::parse(line)); }));
+                                    [&](std::string_view line) { verdicts.push_back(parse_json(line)); }));
     if (!run.timed_out && run.crash.empty())
         return verdicts;
     verdicts.push_back({{"check", std::string(lab::device_checks()[verdicts.size()].name)},

@@ -3,6 +3,7 @@
 #include "lab/march/pass_function.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tidemark::cli {
 

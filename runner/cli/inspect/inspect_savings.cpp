@@ -11,6 +11,7 @@
 #include "platform/headless_context.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

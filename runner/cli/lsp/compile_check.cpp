@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "cli/error_json.hpp"
+#include "cli/json_dump.hpp"
 #include "cli/lsp/hints.hpp"
 #include "cli/supervisor.hpp"
 #include "platform/driver_cache.hpp"
@@ -10,6 +11,7 @@
 #include "scene/load_scene.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -89,7 +91,7 @@ Result<CompileCheck> CompileCheck::start(const fs::path& scene, const lsp::Docum
 std::vector<lsp::Verdict> CompileCheck::look() {
     std::vector<lsp::Verdict> verdicts;
     const auto hear = [&](std::string_view line) {
-        const Json json = Json::parse(line);
+        const Json json = parse_json(line);
         Diagnostics found = error_of(json.at("found"))->diagnostics;
         const bool problems = json.at("kind") == "problems";
         answered_ |= problems;

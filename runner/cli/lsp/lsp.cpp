@@ -2,16 +2,15 @@
 // and for the process that compiles (cli/lsp/compile_check.hpp).
 #include "base/doing.hpp"
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/limits.hpp"
 #include "cli/lsp/compile_check.hpp"
 #include "cli/options.hpp"
-#include "cli/value_check.hpp"
 #include "cli/version.hpp"
 #include "lsp/session.hpp"
 
-#include <CLI/CLI.hpp>
 #include <poll.h>
 #include <unistd.h>
 
@@ -131,17 +130,17 @@ Result<int> serve(const LspOptions& options) {
 
 } // namespace
 
-void add_lsp(CLI::App& app, Action& chosen) {
+void add_lsp(Command app, Action& chosen) {
     auto options = std::make_shared<LspOptions>();
-    CLI::App* command =
+    Command command =
         app.add_subcommand("lsp", "A language server for editors, on standard input and output");
-    add_device_options(*command, options->device);
-    add_memory_option(*command, options->limits);
-    command->add_option("--timeout", options->timeout, "Give up a scene that takes longer to compile")
-        ->type_name("SECONDS")
-        ->check(number<double>("a number of seconds from 0.1", 0.1))
-        ->capture_default_str();
-    command->callback([options, &chosen] { chosen = [options] { return serve(*options); }; });
+    add_device_options(command, options->device);
+    add_memory_option(command, options->limits);
+    command.add_option("--timeout", options->timeout, "Give up a scene that takes longer to compile")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds from 0.1", 0.1))
+        .capture_default_str();
+    command.on_call([options, &chosen] { chosen = [options] { return serve(*options); }; });
 }
 
 } // namespace tidemark::cli

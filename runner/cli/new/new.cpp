@@ -7,7 +7,6 @@
 #include "cli/new/scene_templates.hpp"
 #include "cli/version.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -85,17 +84,17 @@ Result<int> make_scene(const NewOptions& options) {
 
 } // namespace
 
-void add_new(CLI::App& app, Action& chosen) {
+void add_new(Command app, Action& chosen) {
     auto options = std::make_shared<NewOptions>();
-    CLI::App* command = app.add_subcommand("new", "Writes a commented scene to start from");
-    command->add_option("NAME", options->name, "The scene's name: NAME.glsl, or a folder")->required();
+    Command command = app.add_subcommand("new", "Writes a commented scene to start from");
+    command.add_option("NAME", options->name, "The scene's name: NAME.glsl, or a folder").required();
     for (const SceneTemplate& scene : scene_templates())
         if (!scene.flag.empty())
-            command->add_flag_callback(
+            command.add_flag(
                 std::string(scene.flag), [options, &scene] { options->chosen.push_back(&scene); },
                 std::string(scene.meaning));
-    command->add_flag("--json", options->json, "One JSON object on standard output");
-    command->callback([options, &chosen] { chosen = [options] { return make_scene(*options); }; });
+    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.on_call([options, &chosen] { chosen = [options] { return make_scene(*options); }; });
 }
 
 } // namespace tidemark::cli

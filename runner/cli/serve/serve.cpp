@@ -1,13 +1,12 @@
 #include "base/file.hpp"
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/serve/remote_screen.hpp"
-#include "cli/value_check.hpp"
 #include "cli/view/viewer_options.hpp"
 #include "serve/access.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,34 +74,34 @@ Result<int> serve_scene(const ServeOptions& options) {
 
 } // namespace
 
-void add_serve(CLI::App& app, Action& chosen) {
+void add_serve(Command app, Action& chosen) {
     auto options = std::make_shared<ServeOptions>();
-    CLI::App* command =
+    Command command =
         app.add_subcommand("serve", "Shows a scene in browsers, from a machine without a display");
-    add_viewer_options(*command, *options);
-    command->add_option("--host", options->host, "Where to listen: an address or a name of this machine")
-        ->type_name("HOST")
-        ->capture_default_str();
-    command->add_option("--port", options->port, "Where to listen; 0: any that is free")
-        ->type_name("N")
-        ->check(number<int>("a whole number from 0 to 65535", 0, 65535))
-        ->capture_default_str();
+    add_viewer_options(command, *options);
+    command.add_option("--host", options->host, "Where to listen: an address or a name of this machine")
+        .type_name("HOST")
+        .capture_default_str();
+    command.add_option("--port", options->port, "Where to listen; 0: any that is free")
+        .type_name("N")
+        .check(number<int>("a whole number from 0 to 65535", 0, 65535))
+        .capture_default_str();
     command
-        ->add_option("--token-file", options->token_file,
-                     "Has the address's token, as TIDEMARK_TOKEN may; else one is made")
-        ->type_name("FILE");
-    command->add_option("--quality", options->quality, "Of the pictures: JPEG's, from 1 to 100")
-        ->type_name("N")
-        ->check(number<int>("a whole number from 1 to 100", 1, 100))
-        ->capture_default_str();
+        .add_option("--token-file", options->token_file,
+                    "Has the address's token, as TIDEMARK_TOKEN may; else one is made")
+        .type_name("FILE");
+    command.add_option("--quality", options->quality, "Of the pictures: JPEG's, from 1 to 100")
+        .type_name("N")
+        .check(number<int>("a whole number from 1 to 100", 1, 100))
+        .capture_default_str();
     command
-        ->add_option("--codec", options->codec,
-                     "jpeg, or vp8: films for browsers that show them, smaller where little moves")
-        ->type_name("NAME")
-        ->check(unnamed(CLI::IsMember({"jpeg", "vp8"})))
-        ->capture_default_str();
-    command->add_flag("--once", options->once, "Ends when the last viewer has left");
-    command->callback([options, &chosen] { chosen = [options] { return serve_scene(*options); }; });
+        .add_option("--codec", options->codec,
+                    "jpeg, or vp8: films for browsers that show them, smaller where little moves")
+        .type_name("NAME")
+        .check(one_of({"jpeg", "vp8"}))
+        .capture_default_str();
+    command.add_flag("--once", options->once, "Ends when the last viewer has left");
+    command.on_call([options, &chosen] { chosen = [options] { return serve_scene(*options); }; });
 }
 
 } // namespace tidemark::cli

@@ -1,6 +1,7 @@
 #include "cli/view/origin_search.hpp"
 
 #include "base/argument_pointers.hpp"
+#include "cli/json_dump.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -47,16 +48,16 @@ std::string read_all(int pipe) {
 } // namespace
 
 Error origin_of(const std::string& json) {
-    const auto report = nlohmann::json::parse(json, nullptr, false);
+    const auto report = parse_or_discard(json);
     if (!report.is_object())
         return {ErrorCode::check_failed, "the trace ended without an answer: run check --trace to see why"};
     if (const auto ended = report.value("ended", ""); !ended.empty())
         return {ErrorCode::check_failed, "no origin was found: " + ended};
-    const auto trace = report.value("trace", nlohmann::json());
+    const auto trace = report.value("trace", Json());
     if (!trace.is_object())
         return {ErrorCode::check_failed, "no origin was found: drawn again, the pixel is finite"};
-    const auto fix = trace.value("fix", nlohmann::json());
-    const auto origin = fix.is_object() ? fix : trace.value("first", nlohmann::json());
+    const auto fix = trace.value("fix", Json());
+    const auto origin = fix.is_object() ? fix : trace.value("first", Json());
     if (!origin.is_object())
         return {ErrorCode::check_failed, "no operation of the shown pass gave it: it was read from an input"};
     Error error{ErrorCode::check_failed, ""};

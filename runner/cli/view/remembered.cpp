@@ -4,9 +4,11 @@
 #include "base/hash.hpp"
 #include "base/try.hpp"
 #include "cli/console.hpp"
+#include "cli/json_dump.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -86,7 +88,7 @@ std::vector<live::Binding> bindings_of(const Json& json) {
 /// Nothing where it is another's.
 std::optional<Remembered> parse(const std::string& text, const fs::path& scene) {
     try {
-        const Json json = Json::parse(text);
+        const Json json = parse_json(text);
         if (json.at("tidemark_view") != k_version_of_format || json.at("scene") != whole_name(scene))
             return std::nullopt;
         Remembered state;

@@ -1,11 +1,10 @@
 #include "base/try.hpp"
+#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
-#include "cli/value_check.hpp"
 #include "cli/view/viewer_options.hpp"
 #include "cli/view/window_options.hpp"
 #include "cli/view/window_screen.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -83,61 +82,62 @@ Result<int> view(const ViewOptions& options) {
                 [&](const std::string& title) { return WindowScreen::open(size, title, wishes, second); });
 }
 
-void add_scale_options(CLI::App& command, ViewOptions& options) {
+void add_scale_options(Command command, ViewOptions& options) {
     std::vector<std::string> names;
     for (const render::RenderScale scale : render::RenderScale::all())
         names.push_back(scale.name());
     command
-        .add_option_function<std::string>(
+        .add_option(
             "--scale",
             [&options](const std::string& name) { options.scale = render::RenderScale::named(name); },
             "Pixels that are drawn for one of the window's, along a side, at first [1]")
-        ->type_name(fmt::format("{}", fmt::join(names, "|")))
-        ->check(one_of(names));
+        .type_name(fmt::format("{}", fmt::join(names, "|")))
+        .check(one_of(names));
     command.add_option("--adaptive", options.adaptive, "Changes the scale to hold that frame rate")
-        ->type_name("FPS")
-        ->check(number<double>("a frame rate from 1 to 1000", 1, 1000))
-        ->excludes("--record", "--input");
+        .type_name("FPS")
+        .check(number<double>("a frame rate from 1 to 1000", 1, 1000))
+        .excludes("--record")
+        .excludes("--input");
 }
 
-void add_live_options(CLI::App& command, LiveInputRequest& inputs) {
+void add_live_options(Command command, LiveInputRequest& inputs) {
     command
         .add_option(
             "--osc", inputs.osc,
             "Listens for OSC at that port of this machine, or at that address: /knob/NAME, /time, /play")
-        ->type_name("[HOST:]PORT")
-        ->excludes("--input");
+        .type_name("[HOST:]PORT")
+        .excludes("--input");
     command
         .add_option("--midi", inputs.midi,
                     "Listens to the controllers of a MIDI device: a part of its port's name, or its file")
-        ->type_name("PORT|FILE")
-        ->excludes("--input");
+        .type_name("PORT|FILE")
+        .excludes("--input");
     command
         .add_option("--microphone", inputs.microphone,
                     "What inputs without a sound file hear: a device of ALSA's, as in --microphone default")
-        ->type_name("DEVICE")
-        ->excludes("--input");
+        .type_name("DEVICE")
+        .excludes("--input");
     command
         .add_option("--webcam", inputs.webcam,
                     "What webcam inputs see: a device, as in --webcam /dev/video0, or a video")
-        ->type_name("DEVICE|FILE")
-        ->excludes("--input");
+        .type_name("DEVICE|FILE")
+        .excludes("--input");
 }
 
 } // namespace
 
-void add_view(CLI::App& app, Action& chosen) {
+void add_view(Command app, Action& chosen) {
     auto options = std::make_shared<ViewOptions>();
-    CLI::App* command =
+    Command command =
         app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
-    add_viewer_options(*command, *options);
-    add_scale_options(*command, *options);
-    add_window_options(*command, options->window);
-    command->add_flag("--plain", options->plain,
-                      "Stays with the scene's text as it is when nobody touches it for a while");
-    command->add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");
-    add_live_options(*command, options->inputs);
-    command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
+    add_viewer_options(command, *options);
+    add_scale_options(command, *options);
+    add_window_options(command, options->window);
+    command.add_flag("--plain", options->plain,
+                     "Stays with the scene's text as it is when nobody touches it for a while");
+    command.add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");
+    add_live_options(command, options->inputs);
+    command.on_call([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 
 } // namespace tidemark::cli

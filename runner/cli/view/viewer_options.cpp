@@ -10,7 +10,6 @@
 #include "render/renderer.hpp"
 #include "render/sound_renderer.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -58,16 +57,16 @@ std::string why_not_again(const Viewer::Settings& settings, double life) {
 
 } // namespace
 
-void add_viewer_options(CLI::App& command, ViewerOptions& options) {
+void add_viewer_options(Command command, ViewerOptions& options) {
     add_scene_options(command, options.scene);
     add_precision_options(command, options.scene);
     add_picture_options(command, options.frames);
     command
         .add_option("--record", options.record,
                     "Writes what mouse and keyboard do, for --input; iTime goes by frames")
-        ->type_name("FILE")
-        ->excludes("--input");
-    command.get_option("--fps")->description(
+        .type_name("FILE")
+        .excludes("--input");
+    command.option("--fps").description(
         "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
     add_memory_option(command, options.limits);
 }

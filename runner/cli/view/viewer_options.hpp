@@ -1,6 +1,7 @@
 // What the options of `view` and of `serve` have in common, and what both do with a Viewer.
 #pragma once
 
+#include "cli/command_line.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/limits.hpp"
 #include "cli/options.hpp"
@@ -20,7 +21,7 @@ struct ViewerOptions {
     bool by_frames() const { return frames.input || !record.empty(); }
 };
 
-void add_viewer_options(CLI::App& command, ViewerOptions& options);
+void add_viewer_options(Command command, ViewerOptions& options);
 
 /// Starts the Rehearsal, which forks: to be called before there are threads or a context.
 Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence frames);

@@ -1,9 +1,8 @@
 #include "cli/view/window_options.hpp"
 
 #include "base/try.hpp"
-#include "cli/value_check.hpp"
+#include "cli/command_line.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -31,24 +30,24 @@ Result<platform::ScreenPoint> parse_position(const std::string& text) {
 
 } // namespace
 
-void add_window_options(CLI::App& command, WindowOptions& options) {
+void add_window_options(Command command, WindowOptions& options) {
     command.add_flag("--on-top", options.on_top, "The window stays above the others");
     command
         .add_option("--monitor", options.monitor,
                     "Opens the window on that monitor, in its middle; 1 is the first")
-        ->type_name("N")
-        ->check(number<int>("a monitor's number from 1", 1));
+        .type_name("N")
+        .check(number<int>("a monitor's number from 1", 1));
     command
         .add_option("--position", options.position,
                     "Left upper corner of the window, on the screen or on the monitor of --monitor")
-        ->type_name("X,Y");
+        .type_name("X,Y");
     command.add_flag("--output-window", options.output,
                      "A second window that shows the picture and nothing else");
     command
         .add_option("--output-monitor", options.output_monitor,
                     "The same, full screen on that monitor; 1 is the first")
-        ->type_name("N")
-        ->check(number<int>("a monitor's number from 1", 1));
+        .type_name("N")
+        .check(number<int>("a monitor's number from 1", 1));
 }
 
 Result<platform::WindowWishes> resolve(const WindowOptions& options) {

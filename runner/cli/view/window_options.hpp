@@ -2,14 +2,11 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "cli/command_line.hpp"
 #include "platform/window.hpp"
 
 #include <optional>
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace tidemark::cli {
 
@@ -23,7 +20,7 @@ struct WindowOptions {
 };
 
 /// --on-top, --monitor, --position, --output-window, --output-monitor.
-void add_window_options(CLI::App& command, WindowOptions& options);
+void add_window_options(Command command, WindowOptions& options);
 
 /// What they say of the first window.
 Result<platform::WindowWishes> resolve(const WindowOptions& options);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t k_longest = 160, k_most_values = 64;
 /// Local variables whose values are made of local variables …
-constexpr int k_longest_chain = 8;
+constexpr int k_longest_word_chain = 8;
 
 struct SharedValue {
     std::string type, name, words;
@@ -139,7 +139,7 @@ private:
         return words;
     }
     std::optional<std::string> spelled(const UniformExpressions::Alias& alias, int depth) {
-        const auto words = depth < k_longest_chain ? spelled(alias.value, depth + 1) : std::nullopt;
+        const auto words = depth < k_longest_word_chain ? spelled(alias.value, depth + 1) : std::nullopt;
         const auto value = expressions_.value(alias.value);
         if (!words)
             return std::nullopt;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view k_hoisted = "tidemark_hoisted";
 constexpr int k_most_hoisted = 256;
 /// Local variables whose values are made of local variables …
-constexpr int k_longest_chain = 60;
+constexpr int k_longest_alias_chain = 60;
 
 class Hoister {
 public:
@@ -145,7 +145,7 @@ private:
         const auto known = aliases_.find(name);
         if (known != aliases_.end())
             return known->second;
-        if (aliases_open_ >= k_longest_chain)
+        if (aliases_open_ >= k_longest_alias_chain)
             return std::nullopt;
         ++aliases_open_;
         auto declared = declare(alias.type, alias.value);

@@ -22,7 +22,7 @@ namespace {
 constexpr Extent k_asked{640, 360}; ///< the size that `capture` has
 constexpr Extent k_part{32, 18};    ///< what is drawn of it at once
 constexpr size_t k_most_confirmed = 3;
-constexpr int k_most_steps = 320; ///< towards edges
+constexpr int k_most_edge_steps = 320; ///< towards edges
 constexpr int k_steps_of_one = 14;
 constexpr int k_rounds = 2;
 constexpr size_t k_valleys = 3; ///< moments that are near an edge among their neighbours
@@ -63,7 +63,7 @@ public:
         surveyed_ = looks_.size();
         // Behind a comparison that goes another way there may be more of them.
         for (int round = 1; round <= k_rounds; ++round)
-            TRY(step_to_edges(k_most_steps * round / k_rounds));
+            TRY(step_to_edges(k_most_edge_steps * round / k_rounds));
         spent_ = watch_.elapsed().cpu;
         TRY(zoom_in());
         TRY(draw_whole());

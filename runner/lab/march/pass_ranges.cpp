@@ -5,8 +5,6 @@
 
 namespace tidemark::lab {
 
-using ir::Interval;
-
 ir::ValueRanges ranges_of(const DrawnPass& drawn, double seconds) {
     InputRanges inputs(drawn);
     const auto [width, height] = drawn.renderer.extent();
@@ -15,7 +13,7 @@ ir::ValueRanges ranges_of(const DrawnPass& drawn, double seconds) {
     inputs.turn_knobs();
     const ir::TextureSet textures = textures_of(drawn.renderer, drawn.pass);
     return ir::value_ranges(drawn.function.function(), inputs.memory(),
-                            [&](const ir::Lookup& lookup, std::span<const Interval> operands) {
+                            [&](const ir::Lookup& lookup, std::span<const ir::Interval> operands) {
                                 const auto any = changing(drawn, lookup.sampler);
                                 return any ? *any
                                            : ir::look_up(textures, lookup, operands, ir::UnnamedLevel::any);

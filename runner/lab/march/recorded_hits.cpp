@@ -60,7 +60,7 @@ uint32_t as_bits(float value) {
     return std::bit_cast<uint32_t>(value);
 }
 
-size_t different_pixels(const image::Image& a, const image::Image& b) {
+size_t differing_colours(const image::Image& a, const image::Image& b) {
     size_t count = 0;
     for (size_t i = 0; i < a.extent.pixels(); ++i)
         count +=
@@ -167,7 +167,7 @@ RecordingCheck check_recording(render::Renderer& plain, render::Renderer& record
     RecordingCheck check;
     render::FrameStepper(plain, state).draw(state.frame);
     check.other_pixels =
-        different_pixels(plain.read_back(), answer(recording, glsl::RecordAnswer::picture, state));
+        differing_colours(plain.read_back(), answer(recording, glsl::RecordAnswer::picture, state));
     const image::Image marches = answer(recording, glsl::RecordAnswer::march, state);
     answer(recording, glsl::RecordAnswer::hit, state);
     const ir::FloatEvaluator frame = image.frame(plain, plain.scene().image_index(), inputs_of(state));

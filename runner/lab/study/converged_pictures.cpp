@@ -15,7 +15,7 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr int k_most_steps = 6;
+constexpr int k_most_refinements = 6;
 /// From three changes on a ratio that rises is seen to rise.
 constexpr size_t k_wanted_changes = 3;
 /// A reference is good enough when its own error is this part of what the strictest point's is.
@@ -163,7 +163,7 @@ private:
     /// Draws the next rung; false: the last one it is.
     bool step_up() {
         const double longest = changes_.size() < 2 ? longest_first_step() : study_.longest_step;
-        if (step_ == k_most_steps)
+        if (step_ == k_most_refinements)
             return false;
         if (last_.seconds > longest) {
             stopped_ = fmt::format("a step took {:.0f} s", last_.seconds);
@@ -226,7 +226,7 @@ private:
             if (changes(what)[i] > rounding(what))
                 moves.push_back(changes(what)[i]);
         const Shown* stricter = &first_;
-        for (int back = 1; back <= k_most_steps && moves.size() < 2; ++back) {
+        for (int back = 1; back <= k_most_refinements && moves.size() < 2; ++back) {
             const std::vector<Setting> settings = strictest(study_, -back);
             if (settings == stricter->settings)
                 break;

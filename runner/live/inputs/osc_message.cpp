@@ -11,6 +11,7 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 namespace tidemark::live {
 namespace {
@@ -82,7 +83,8 @@ std::optional<OscArgument> argument_of(char type, const void* argument) {
 Result<OscMessage> parse_message(const OscLibrary& liblo, std::string_view packet) {
     std::string bytes(packet); // liblo asks for some that it may write to
     int error = 0;
-    const std::unique_ptr<void, decltype(liblo.free)> message(
+    // lo_message is void* up to liblo 0.31 and a pointer to a struct since 0.32.
+    const std::unique_ptr<std::remove_pointer_t<lo_message>, decltype(liblo.free)> message(
         liblo.deserialise(bytes.data(), bytes.size(), &error), liblo.free);
     if (!message)
         return refuse();

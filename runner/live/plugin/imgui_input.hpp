@@ -1,4 +1,4 @@
-// Window events for Dear ImGui 1.86, which reads a state instead of a queue.
+// Passes window events on to Dear ImGui: 1.86, which reads a state, or 1.89 and later, which have a queue.
 #pragma once
 
 #include "platform/input.hpp"
@@ -7,8 +7,8 @@ struct ImGuiIO;
 
 namespace tidemark::live {
 
-/// Tells which of our keys its own names for keys are.
-void name_keys(ImGuiIO& io);
+/// Maps Tidemark's keys to those of Dear ImGui; called once, before the first frame.
+void set_up_input(ImGuiIO& io);
 
 /// `height` of what is drawn on: our pixels count from the bottom, its from the top.
 void feed(ImGuiIO& io, const platform::InputEvent& event, int height);

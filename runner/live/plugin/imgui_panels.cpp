@@ -39,7 +39,7 @@ ImGuiPanels::ImGuiPanels() {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr; // it writes no file
-    name_keys(io);
+    set_up_input(io);
     ImGui_ImplOpenGL3_Init(k_glsl_version);
 }
 
