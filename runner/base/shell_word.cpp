@@ -46,7 +46,7 @@ std::string shell_word(std::string_view word) {
 std::string shell_words(std::span<const std::string> words) {
     std::string line;
     for (const std::string& word : words)
-        line += (line.empty() ? "" : " ") + shell_word(word);
+        line.append(line.empty() ? "" : " ").append(shell_word(word));
     return line;
 }
 

@@ -8,8 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::changed_gl_test {
 
 using image::SampleType;
 
@@ -363,5 +362,4 @@ TEST_F(ChangedTest, whatever_happens_nobody_can_tell) {
     EXPECT_LT(drawn, sparing_->plan().passes.size() * k_frames * 4 / 5) << "something rested";
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::changed_gl_test

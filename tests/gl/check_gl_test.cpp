@@ -2,8 +2,7 @@
 #include "gl_test.hpp"
 #include "lab/check/probes.hpp"
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::check_gl_test {
 
 class Threads : public render::RenderTest {
 protected:
@@ -44,5 +43,4 @@ TEST_F(Threads, WithoutAWayToDrawSoThereIsNoAnswer) {
     EXPECT_EQ(answer.sentence, "it could not be drawn with one thread: too slow");
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::check_gl_test

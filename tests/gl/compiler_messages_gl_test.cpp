@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::gl {
-namespace {
+namespace tidemark::gl::compiler_messages_gl_test {
 
 using testing::Contains;
 using testing::HasSubstr;
@@ -38,5 +37,4 @@ TEST(CompilerMessages, are_the_compilers_alone_and_only_while_somebody_listens) 
     EXPECT_THAT(others.take(), IsEmpty());
 }
 
-} // namespace
-} // namespace tidemark::gl
+} // namespace tidemark::gl::compiler_messages_gl_test

@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::conformance_gl_test {
 
 const fs::path k_cases = fs::path(TIDEMARK_SOURCE_DIR) / "tests/cases/conformance";
 
@@ -72,5 +71,4 @@ TEST_F(Misjudged, another_pixel_is_named) {
     EXPECT_THAT(judged(R"("frames": [])"), testing::HasSubstr("expects nothing"));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::conformance_gl_test

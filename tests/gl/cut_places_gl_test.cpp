@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::cut_places_gl_test {
 
 constexpr Extent k_extent{64, 36};
 const Goal k_any_error{Measure::rmse, 1.0, {}};
@@ -99,5 +98,4 @@ TEST(CutPlaces, what_is_computed_once_a_pixel_shows_the_same) {
     EXPECT_LT(trial->error, 1e-3) << "drivers may round differently";
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::cut_places_gl_test

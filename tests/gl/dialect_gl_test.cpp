@@ -15,8 +15,7 @@
 #include <filesystem>
 #include <sstream>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::dialect_gl_test {
 
 namespace fs = std::filesystem;
 
@@ -141,5 +140,4 @@ TEST_P(DialectCase, links_and_draws_in_double_precision) {
 INSTANTIATE_TEST_SUITE_P(Text, DialectCase, testing::ValuesIn(case_names(k_folder)),
                          [](const auto& each) { return each.param; });
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::dialect_gl_test

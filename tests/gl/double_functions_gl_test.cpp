@@ -13,8 +13,7 @@
 #include <numbers>
 #include <random>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::double_functions_gl_test {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
@@ -393,5 +392,4 @@ TEST(DoubleFunctions, arguments_below_the_normal_numbers_are_small_or_flushed) {
     }
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::double_functions_gl_test

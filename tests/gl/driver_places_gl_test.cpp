@@ -8,8 +8,7 @@
 
 #include <random>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::driver_places_gl_test {
 
 class Writer {
 public:
@@ -123,5 +122,4 @@ TEST(DriverPlaces, of_texts_with_macros_are_exact_or_none) {
     EXPECT_EQ(found(true, 400), 400) << "the word is there once";
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::driver_places_gl_test

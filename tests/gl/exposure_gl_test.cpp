@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::exposure_gl_test {
 
 using image::Image;
 
@@ -57,5 +56,4 @@ TEST_F(ExposureTest, tiles_do_not_show) {
     EXPECT_EQ(exposed(text, exposure, k_extent), exposed(text, exposure, {4, 2}));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::exposure_gl_test

@@ -4,8 +4,7 @@
 
 #include <functional>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::frame_in_parts_gl_test {
 
 constexpr Extent k_extent{97, 61};
 
@@ -249,5 +248,4 @@ TEST_F(FrameInPartsTest, says_what_each_pass_took) {
     EXPECT_EQ(passes, planned);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::frame_in_parts_gl_test

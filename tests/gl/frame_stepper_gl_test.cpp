@@ -2,8 +2,7 @@
 #include "gl_test.hpp"
 #include "render/frame_stepper.hpp"
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::frame_stepper_gl_test {
 
 class FrameStepperTest : public RenderTest {
 protected:
@@ -96,5 +95,4 @@ TEST_F(FrameStepperTest, without_feedback_it_jumps) {
     EXPECT_EQ(count(drawing), 100);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::frame_stepper_gl_test

@@ -13,8 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace tidemark::platform {
-namespace {
+namespace tidemark::platform::headless_context_gl_test {
 
 using Pixel = std::array<unsigned char, 4>;
 using testing::IsEmpty;
@@ -225,5 +224,4 @@ TEST_F(HeadlessContextDeathTest, auto_needs_no_display) {
     EXPECT_EXIT(without_display(), testing::ExitedWithCode(0), testing::Eq(""));
 }
 
-} // namespace
-} // namespace tidemark::platform
+} // namespace tidemark::platform::headless_context_gl_test

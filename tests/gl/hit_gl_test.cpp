@@ -1,8 +1,7 @@
 #include "gl_test.hpp"
 #include "glsl/hit.hpp"
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::hit_gl_test {
 
 using HitTest = RenderTest;
 
@@ -42,5 +41,4 @@ TEST_F(HitTest, errors_have_the_author_s_lines) {
     EXPECT_EQ(drawing.error().diagnostics[0].where.line, 2);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::hit_gl_test

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::nan_trace_gl_test {
 
 namespace fs = std::filesystem;
 
@@ -170,5 +169,4 @@ TEST_P(SoundShaders, DrawTheSameWhenWatched) {
 
 INSTANTIATE_TEST_SUITE_P(Trace, SoundShaders, testing::ValuesIn(cases("sound")), name_of);
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::nan_trace_gl_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::pass_function_gl_test {
 
 constexpr Extent k_extent{24, 14};
 constexpr float k_rounding = 4e-4f; ///< of asin, which drivers approximate
@@ -207,5 +206,4 @@ TEST(PassFunction, errors_have_the_authors_lines) {
     EXPECT_EQ(refused.error().message, "a.glsl:3: error: 'nothing' : undeclared identifier ");
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::pass_function_gl_test

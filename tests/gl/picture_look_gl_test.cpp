@@ -8,8 +8,7 @@
 #include <limits>
 #include <span>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::picture_look_gl_test {
 
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
@@ -184,5 +183,4 @@ TEST_F(FlatViewTest, a_slice_of_a_volume) {
     }
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::picture_look_gl_test

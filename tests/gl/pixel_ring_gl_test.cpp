@@ -2,8 +2,7 @@
 #include "gl/pixel_ring.hpp"
 #include "gl_test.hpp"
 
-namespace tidemark::gl {
-namespace {
+namespace tidemark::gl::pixel_ring_gl_test {
 
 using render::RenderTest;
 
@@ -76,5 +75,4 @@ TEST_F(PixelRingTest, says_where_there_is_no_memory) {
     EXPECT_TRUE(read(ring, target_, {1, 1}));
 }
 
-} // namespace
-} // namespace tidemark::gl
+} // namespace tidemark::gl::pixel_ring_gl_test

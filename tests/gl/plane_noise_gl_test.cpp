@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::plane_noise_gl_test {
 
 class PlaneNoise : public RenderTest {
 protected:
@@ -74,5 +73,4 @@ TEST_F(PlaneNoise, nearest_cell_is_the_nearest_of_all) {
     EXPECT_GT(farthest, 0.6F);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::plane_noise_gl_test

@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::precision_gl_test {
 
 using glsl::Precision;
 using image::Image;
@@ -195,5 +194,4 @@ TEST_F(PrecisionTest, faults_keep_the_authors_lines) {
     EXPECT_THAT(to_string(made.error()), testing::ContainsRegex("scene\\.glsl:4(:[0-9]+)?: error:"));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::precision_gl_test

@@ -5,8 +5,7 @@
 
 #include <cstdlib>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::program_cache_gl_test {
 
 constexpr const char* k_vertex = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
 constexpr const char* k_fragment =
@@ -129,5 +128,4 @@ TEST_F(ProgramCacheTest, pictures_are_the_same) {
     EXPECT_EQ(frame(recalled, inputs_of_frame(5, 60)), frame(compiled, inputs_of_frame(5, 60)));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::program_cache_gl_test

@@ -7,8 +7,7 @@
 
 #include <numeric>
 
-namespace tidemark::gl {
-namespace {
+namespace tidemark::gl::program_gl_test {
 
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
@@ -230,5 +229,4 @@ TEST(TextureObject, rows_are_tightly_packed) {
     EXPECT_EQ(back, bytes);
 }
 
-} // namespace
-} // namespace tidemark::gl
+} // namespace tidemark::gl::program_gl_test

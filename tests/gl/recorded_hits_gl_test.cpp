@@ -8,8 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::recorded_hits_gl_test {
 
 constexpr Extent k_extent{48, 27};
 
@@ -140,5 +139,4 @@ TEST(RecordedHits, are_refused_where_nobody_is_sure) {
     EXPECT_EQ(refusal_of({.rays = 100, .textured = 100}), "");
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::recorded_hits_gl_test

@@ -7,8 +7,7 @@
 
 #include <limits>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::renderer_gl_test {
 
 using image::Image;
 using image::SampleType;
@@ -267,5 +266,4 @@ TEST_F(RendererTest, channel_that_is_not_read_is_not_made) {
     EXPECT_TRUE(drawing.plan().passes[0].channels.empty());
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::renderer_gl_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::shader_library_gl_test {
 
 class ShaderLibrary : public RenderTest {
 protected:
@@ -200,5 +199,4 @@ TEST_F(ShaderLibrary, PhasesKeepTheirBitsForMonths) {
     }
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::shader_library_gl_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <set>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::shipped_scenes_gl_test {
 
 using ShippedScenes = Waters;
 
@@ -218,5 +217,4 @@ TEST_F(ShippedScenes, ASceneCarriesItsOwnSolverAlone) {
     }
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::shipped_scenes_gl_test

@@ -4,8 +4,7 @@
 
 #include <cstring>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::shown_floats_gl_test {
 
 constexpr Extent k_extent{33, 17};
 constexpr const char* k_text = R"(
@@ -62,5 +61,4 @@ TEST_F(ShownFloatsTest, are_its_bytes_where_pixels_are_left_as_they_were) {
     EXPECT_EQ(shown.draw(bytes, {}, {0, 0, {1, 1}}).id(), bytes.target().texture.id());
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::shown_floats_gl_test

@@ -8,8 +8,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::specialise_gl_test {
 
 using glsl::Specialise;
 
@@ -235,5 +234,4 @@ void mainImage(out vec4 c, vec2 p) {
     EXPECT_TRUE(frame(trial->renderer, plan.last) == frame(plain, plan.last));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::specialise_gl_test

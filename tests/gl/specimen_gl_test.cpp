@@ -2,8 +2,7 @@
 #include "gl_test.hpp"
 #include "lab/study/specimen.hpp"
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::specimen_gl_test {
 
 class SpecimenTest : public render::RenderTest {
 protected:
@@ -52,5 +51,4 @@ TEST_F(SpecimenTest, a_later_moment_lies_in_the_run_of_the_earlier) {
     EXPECT_FALSE(other.is_in_run_of(view.state));
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::specimen_gl_test

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::stylized_waves_gl_test {
 
 using image::Image;
 using scene::Knob;
@@ -197,5 +196,4 @@ TEST_F(StylizedWaves, hits_are_on_the_surface_and_say_what_they_cost) {
     }
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::stylized_waves_gl_test

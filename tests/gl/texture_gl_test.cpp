@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::texture_gl_test {
 
 using image::Image;
 using image::SampleType;
@@ -263,5 +262,4 @@ TEST_F(TextureTest, storage_that_the_driver_does_not_have_is_noticed) {
     EXPECT_EQ(glGetError(), GLenum(GL_OUT_OF_MEMORY));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::texture_gl_test

@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::tiles_gl_test {
 
 using image::Image;
 using image::SampleType;
@@ -171,5 +170,4 @@ TEST_F(TilesTest, a_main_of_the_authors_own_and_an_entry_point_that_is_a_macro) 
         expect_same(scene_of(text), {33, 21}, {8, 8});
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::tiles_gl_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::true_hits_gl_test {
 
 constexpr Extent k_few{24, 14};
 
@@ -106,5 +105,4 @@ TEST_F(BallHits, OfRaysThatBeginNowhereNothingIsProved) {
     }
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::true_hits_gl_test

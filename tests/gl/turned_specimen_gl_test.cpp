@@ -5,8 +5,7 @@
 
 #include <set>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::turned_specimen_gl_test {
 
 using glsl::Precision;
 
@@ -74,5 +73,4 @@ TEST_F(TurnedSpecimenTest, another_precision_is_another_program) {
     }
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::turned_specimen_gl_test

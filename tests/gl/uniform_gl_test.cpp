@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::uniform_gl_test {
 
 using testing::ElementsAre;
 using testing::ElementsAreArray;
@@ -204,5 +203,4 @@ TEST_F(CameraTest, takes_from_camera_to_world) {
     EXPECT_NEAR(at[2], 0, 1e-5);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::uniform_gl_test

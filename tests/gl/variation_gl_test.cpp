@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::variation_gl_test {
 
 using glsl::Variation;
 using Vary = Variation (*)(const glsl::ParsedText& text, const glsl::TreeFacts& facts);
@@ -70,5 +69,4 @@ TEST_F(VariationTest, ASumIsAddedUpFromItsOtherEnd) {
     EXPECT_EQ(found, (std::vector<float>{a + (b + c), a - (b + (c - a)), a - (b - c)}));
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::variation_gl_test

@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::waters_gl_test {
 
 /// What march_field is of the reference's value at this place of the ray.
 double scaled(const Water& water, const fields::Reference& reference, const scene::Scene& scene,
@@ -309,5 +308,4 @@ TEST_F(Waters, NewtonLeavesNothingOfTheMovement) {
     }
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::waters_gl_test

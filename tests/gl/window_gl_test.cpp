@@ -31,7 +31,7 @@ void PrintTo(const InputEvent& event, std::ostream* out) {
         *out << ' ' << resized->extent.width << 'x' << resized->extent.height;
 }
 
-namespace {
+namespace window_gl_test {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -336,6 +336,6 @@ TEST_F(WindowTest, wait_sleeps) {
     EXPECT_LT(double(std::clock() - before) / CLOCKS_PER_SEC, 0.05);
 }
 
-} // namespace
+} // namespace window_gl_test
 } // namespace tidemark::platform
 #endif

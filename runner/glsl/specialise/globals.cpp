@@ -2,6 +2,8 @@
 
 #include "glsl/syntax/tree_facts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <unordered_set>
 
@@ -81,7 +83,104 @@ private:
     std::unordered_set<std::string_view> functions_;
 };
 
+/// Moves the values of global variables into `main`, and writes the words anew.
+class ValueMover {
+public:
+    explicit ValueMover(const ParsedText& text)
+        : text_(text), tree_(text.tree()), inserted_(text.words().size() + 1), gone_(text.words().size()) {}
+
+    std::string run() {
+        size_t body = 0; // the word after the `{` of main
+        for (const NodeId node : tree_.children(0)) {
+            const NodeId last = tree_.children(node).empty() ? k_no_node : tree_.children(node).back();
+            if (tree_[node].kind == NodeKind::declaration)
+                read(tree_.child(node, 0));
+            else if (tree_[node].kind == NodeKind::function && text_.word_of(node) == "main" &&
+                     tree_[last].kind == NodeKind::block)
+                body = tree_[last].begin + 1;
+        }
+        if (assignments_.empty() || body == 0)
+            return text_.source().text();
+        inserted_[body] = fmt::format("{}\n#line {}\n", assignments_, line_of(body - 1));
+        return written();
+    }
+
+private:
+    int line_of(size_t word) const { return text_.tokens()[text_.words()[word].used].line; }
+
+    std::string words(size_t begin, size_t end) const {
+        std::string words;
+        for (size_t i = begin; i < end; ++i)
+            words += fmt::format("{} ", text_.word(i));
+        return words;
+    }
+
+    void read(NodeId type) {
+        if (is_given(text_, type))
+            return;
+        for (NodeId declared = tree_[type].next; declared != k_no_node; declared = tree_[declared].next)
+            for (NodeId part = tree_[declared].first_child; part != k_no_node; part = tree_[part].next)
+                if (!is_bracket(text_, part))
+                    move(type, declared, part);
+    }
+
+    void move(NodeId type, NodeId declared, NodeId value) {
+        const Node& node = tree_[value];
+        const std::string name(text_.word_of(declared)), text = words(node.begin, node.end);
+        std::fill(gone_.begin() + node.begin - 1, gone_.begin() + node.end, true); // the `=` too
+        if (node.kind == NodeKind::braces) // stands in declarations only
+            assignments_ += fmt::format("\n#line {0}\n{{ {1} {2} {3} = {4}; {5} = {2}; }}",
+                                        line_of(node.begin), name_of(type), k_value,
+                                        words(tree_[declared].word + 1, node.begin - 1), text, name);
+        else
+            assignments_ += fmt::format("\n#line {}\n{} = {};", line_of(node.begin), name, text);
+        // An array without a size had it from its value.
+        for (size_t i = tree_[type].begin; i + 1 < node.begin; ++i)
+            if (text_.word(i) == "[" && text_.word(i + 1) == "]" &&
+                (i < tree_[type].end || i > tree_[declared].word))
+                inserted_[i + 1] = node.kind == NodeKind::braces ? std::to_string(tree_.child_count(value))
+                                                                 : fmt::format("({}).length()", text);
+    }
+
+    /// The words of a type less the members of a structure, which are declared where it stands.
+    std::string name_of(NodeId type) const {
+        const NodeId structure = tree_.child(type, 0);
+        return structure == k_no_node ? words(tree_[type].begin, tree_[type].end)
+                                      : std::string(text_.word_of(structure));
+    }
+
+    std::string written() const {
+        std::string result = text_.headers();
+        int line = 1 + int(std::ranges::count(result, '\n'));
+        for (size_t i = 0; i < gone_.size(); ++i) {
+            result += inserted_[i];
+            if (gone_[i])
+                continue;
+            if (line > line_of(i))
+                result += fmt::format("\n#line {}\n", line_of(i));
+            else
+                result.append(size_t(line_of(i) - line), '\n');
+            line = line_of(i);
+            result += text_.word(i);
+            result += ' ';
+        }
+        return result;
+    }
+
+    static constexpr std::string_view k_value = "tidemark_value";
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    std::vector<std::string> inserted_; ///< before each word
+    std::vector<bool> gone_;            ///< words
+    std::string assignments_;
+};
+
 } // namespace
+
+std::string assign_globals_in_main(const ParsedText& text) {
+    return ValueMover(text).run();
+}
 
 std::vector<Global> find_globals(const ParsedText& text) {
     return Finder(text).run();

@@ -4,6 +4,7 @@
 
 #include "glsl/syntax/parsed_text.hpp"
 
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -39,5 +40,10 @@ Variables find_variables(const ParsedText& text, NodeId first, NodeId last);
 
 /// Those of the outermost level, by the last of their declarations there.
 Variables find_global_variables(const ParsedText& text, const std::vector<Global>& globals);
+
+/// The text with the values of global variables assigned at the start of `main`: glslang 12 crashes where it
+/// writes debug information of a value outside of functions. Where there is such a variable, macros are
+/// expanded and #line directives keep the numbers of the lines; otherwise the text is returned as it is.
+std::string assign_globals_in_main(const ParsedText& text);
 
 } // namespace tidemark::glsl

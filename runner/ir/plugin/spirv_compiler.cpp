@@ -1,6 +1,5 @@
 #include "ir/plugin/spirv_compiler.hpp"
 
-#include <glslang/MachineIndependent/localintermediate.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
@@ -15,30 +14,6 @@ namespace {
 
 /// What is larger is not worth waiting for: the passes below take more than linear time.
 constexpr size_t k_most_words = 400'000;
-
-/// The values of global variables move to the head of main, where glslang puts them anyway: outside of a
-/// function its debug information (of 12.0) has a scope that was never set, and it crashes.
-void move_global_initialisers(const glslang::TIntermediate& text) {
-    glslang::TIntermAggregate* root = text.getTreeRoot()->getAsAggregate();
-    if (!root)
-        return;
-    glslang::TIntermSequence& parts = root->getSequence();
-    glslang::TIntermAggregate* body = nullptr; // of main
-    for (const auto& part : parts)
-        if (auto* function = part->getAsAggregate(); function && function->getOp() == glslang::EOpFunction &&
-                                                     function->getName() == "main(" &&
-                                                     function->getSequence().size() > 1)
-            body = function->getSequence()[1]->getAsAggregate();
-    if (!body)
-        return;
-    const auto stays = [](TIntermNode* part) {
-        const auto* all = part->getAsAggregate();
-        return all && (all->getOp() == glslang::EOpFunction || all->getOp() == glslang::EOpLinkerObjects);
-    };
-    const auto first = std::stable_partition(parts.begin(), parts.end(), stays);
-    body->getSequence().insert(body->getSequence().begin(), first, parts.end());
-    parts.erase(first, parts.end());
-}
 
 tl::expected<std::vector<uint32_t>, std::string> front_end(const std::string& text, Names names) {
     static std::once_flag initialised;
@@ -57,8 +32,6 @@ tl::expected<std::vector<uint32_t>, std::string> front_end(const std::string& te
     program.addShader(&shader);
     if (!program.link(EShMsgSpvRules) || !program.mapIO())
         return tl::unexpected(std::string(program.getInfoLog()));
-    if (names == Names::keep)
-        move_global_initialisers(*program.getIntermediate(EShLangFragment));
     glslang::SpvOptions options;
     options.generateDebugInfo = true; // lines
     options.emitNonSemanticShaderDebugInfo = names == Names::keep;

@@ -15,7 +15,8 @@ namespace tidemark::ir {
 using SpirvResult = tl::expected<std::vector<uint32_t>, std::string>;
 
 /// Whether a function knows the variables of its text (source_names.hpp): that makes modules some times
-/// larger.
+/// larger. With `keep` a text has no values of global variables outside of `main` (glslang 12 crashes on
+/// them: glsl::assign_globals_in_main).
 enum class Names { drop, keep };
 
 struct SpirvCompiler {

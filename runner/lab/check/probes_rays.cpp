@@ -122,7 +122,8 @@ Extremes extremes_of(const ProbeBench& bench, const Count& count) {
 
 FrameState with_octaves(const Count& count, double octaves) {
     FrameState state = typical_view();
-    (count.knob ? state.knobs : state.definitions) = {{count.name, fmt::format("{:g}", octaves)}};
+    (count.knob ? state.knobs : state.definitions) =
+        std::vector{scene::Setting{count.name, fmt::format("{:g}", octaves)}};
     return state;
 }
 

@@ -3,6 +3,7 @@
 #include "base/try.hpp"
 #include "glsl/assemble.hpp"
 #include "glsl/driver_load.hpp"
+#include "glsl/specialise/globals.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
@@ -46,6 +47,10 @@ void store(ir::PointEvaluator<Real>& evaluator, const Variable& variable, uint32
                                                          : ir::Point<Real>{0, uint32_t(int64_t(value))};
 }
 
+/// What glslang defines, as far as scenes ask for it.
+constexpr glsl::KnownMacro k_macros[] = {
+    {"__VERSION__", 450}, {"GL_FRAGMENT_PRECISION_HIGH", 1}, {"GL_core_profile", 1}};
+
 /// glslang has `0:LINE: ` where we have the author's file and line.
 std::string first_error(const std::string& log, const text::LineMap& lines) {
     const size_t begin = log.find("ERROR: 0:");
@@ -66,7 +71,10 @@ Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene
     const glsl::ShaderSource source = glsl::assemble(scene, pass);
     if (!glsl::driver_load(source).modest())
         return fail(ErrorCode::load, "its text is too large to be followed");
-    auto function = ir::compile(source.text(), names);
+    std::string text = source.text();
+    if (names == ir::Names::keep)
+        text = glsl::assign_globals_in_main(*TRY(glsl::ParsedText::read(source, k_macros, false)));
+    auto function = ir::compile(text, names);
     if (!function)
         return fail(ErrorCode::load, first_error(function.error().message, source.lines()));
     PassFunction result;

@@ -8,8 +8,7 @@
 #include <limits>
 #include <string>
 
-namespace tidemark::bake {
-namespace {
+namespace tidemark::bake::fast_marching_test {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -250,5 +249,4 @@ TEST(KnownCases, are_continuous) {
     }
 }
 
-} // namespace
-} // namespace tidemark::bake
+} // namespace tidemark::bake::fast_marching_test

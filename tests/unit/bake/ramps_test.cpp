@@ -9,7 +9,7 @@ namespace tidemark::bake {
 
 using image::Image;
 using image::SampleType;
-namespace {
+namespace ramps_test {
 
 struct Texel {
     int r, g, b, a;
@@ -150,5 +150,5 @@ TEST_F(WaveRamps, foam_stands_in_the_order_front_tail_rollback) {
     EXPECT_LT(highest(rollback), highest(tail));
 }
 
-} // namespace
+} // namespace ramps_test
 } // namespace tidemark::bake

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <set>
 
-namespace tidemark::bake {
-namespace {
+namespace tidemark::bake::shore_cells_test {
 
 HeightMap disc_map(int side) {
     HeightMap map(side, 2.0);
@@ -105,5 +104,4 @@ TEST(ShoreCells, opposite_corners_of_water_stay_apart) {
     EXPECT_NE(shore.polygons_at(0)[0], shore.polygons_at(3)[0]);
 }
 
-} // namespace
-} // namespace tidemark::bake
+} // namespace tidemark::bake::shore_cells_test

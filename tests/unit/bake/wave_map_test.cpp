@@ -12,8 +12,7 @@
 #include <filesystem>
 #include <limits>
 
-namespace tidemark::bake {
-namespace {
+namespace tidemark::bake::wave_map_test {
 
 using image::Image;
 using image::SampleType;
@@ -200,5 +199,4 @@ TEST(Island, is_the_file_in_textures) {
         ASSERT_NEAR(kept->f32()[i], baked.f32()[i], std::abs(baked.f32()[i]) / 2048.0F + 1e-7F) << i;
 }
 
-} // namespace
-} // namespace tidemark::bake
+} // namespace tidemark::bake::wave_map_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark {
-namespace {
+namespace tidemark::base64_test {
 
 TEST(Base64, the_vectors_of_rfc_4648) {
     EXPECT_EQ(base64(""), "");
@@ -16,5 +15,4 @@ TEST(Base64, the_vectors_of_rfc_4648) {
     EXPECT_EQ(base64("\xfb\xff\xbf"), "+/+/");
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::base64_test

@@ -13,8 +13,7 @@ extern "C" { // glibc 2.36 leaves it to us
 #include <sys/pidfd.h>
 }
 
-namespace tidemark {
-namespace {
+namespace tidemark::child_process_test {
 
 using namespace std::chrono_literals;
 
@@ -82,5 +81,4 @@ TEST(ChildProcess, what_it_started_ends_with_it) {
     EXPECT_EQ(::poll(&ended, 1, 60000), 1);
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::child_process_test

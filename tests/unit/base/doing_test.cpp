@@ -4,8 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace tidemark {
-namespace {
+namespace tidemark::doing_test {
 
 class DoingTest : public testing::Test {
 protected:
@@ -91,5 +90,4 @@ TEST_F(DoingTest, NowhereToNote) {
     EXPECT_EQ(page_->seen().what, "");
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::doing_test

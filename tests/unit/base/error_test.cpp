@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark {
-namespace {
+namespace tidemark::error_test {
 
 TEST(Diagnostic, prints_as_editors_open_it) {
     EXPECT_EQ(to_string(Diagnostic{{"a.glsl", 12, 5}, Severity::error, "no"}), "a.glsl:12:5: error: no");
@@ -69,5 +68,4 @@ TEST(NearestName, nothing_is_near_when_there_is_nothing) {
     EXPECT_EQ(nearest_name("", {"scale"}), "");
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::error_test

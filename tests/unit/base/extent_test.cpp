@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark {
-namespace {
+namespace tidemark::extent_test {
 
 TEST(Extent, width_and_height_by_an_x) {
     const auto extent = parse_extent("640x360");
@@ -19,5 +18,4 @@ TEST(Extent, nothing_else) {
         EXPECT_FALSE(parse_extent(text)) << text;
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::extent_test

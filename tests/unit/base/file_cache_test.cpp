@@ -12,8 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace tidemark {
-namespace {
+namespace tidemark::file_cache_test {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -258,5 +257,4 @@ TEST_F(UserCache, is_where_the_desktop_wants_it) {
     EXPECT_EQ(folder("on", "/var/cache/me", me), "/var/cache/me/tidemark");
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::file_cache_test

@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace tidemark {
-namespace {
+namespace tidemark::hash_test {
 
 std::string sha256_of(std::string_view text) {
     return sha256(std::as_bytes(std::span(text)));
@@ -26,5 +25,4 @@ TEST(Sha256, nul_bytes_count) {
     EXPECT_NE(sha256_of(std::string_view("a\0b", 3)), sha256_of(std::string_view("a\0c", 3)));
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::hash_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark {
-namespace {
+namespace tidemark::plug_in_test {
 
 PlugIn plug_in(const char* file) {
     return {file, "picture plug-in", "reading and writing pictures", "OpenImageIO 2.4", "tidemark_none", 1};
@@ -40,5 +39,4 @@ TEST(PlugIn, a_library_of_someone_elses_is_refused) {
               "OpenImageIO 2.4 and the plug-in of this build of Tidemark");
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::plug_in_test

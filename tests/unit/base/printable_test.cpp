@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace tidemark {
-namespace {
+namespace tidemark::printable_test {
 
 TEST(Printable, texts_of_all_languages_stay) {
     for (const std::string text :
@@ -48,5 +47,4 @@ TEST(Printable, one_line) {
     EXPECT_FALSE(is_printable_line("a\n"));
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::printable_test

@@ -6,8 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace tidemark {
-namespace {
+namespace tidemark::read_file_test {
 
 namespace fs = std::filesystem;
 
@@ -92,7 +91,7 @@ TEST(ReadFile, what_is_too_large_is_not_read) {
 }
 
 TEST(ReadFile, a_file_without_a_size_is_read) {
-    EXPECT_EQ(read_file("/proc/self/comm"), "unit_base\n");
+    EXPECT_EQ(read_file("/proc/self/comm"), "unit_text\n");
 }
 
 TEST(ReadFile, a_link_that_leads_nowhere_says_where) {
@@ -126,5 +125,4 @@ TEST(ReadTextFile, an_unreadable_file_is_said_as_such) {
     EXPECT_EQ(refusal(read_text_file("no.glsl")), "cannot read 'no.glsl': no such file");
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::read_file_test

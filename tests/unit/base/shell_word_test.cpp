@@ -7,8 +7,7 @@
 #include <array>
 #include <cstdio>
 
-namespace tidemark {
-namespace {
+namespace tidemark::shell_word_test {
 
 std::string through_a_shell(std::string_view word) {
     const TemporaryFolder folder; // /bin/sh is dash here and there, which has no $'…'
@@ -40,5 +39,4 @@ TEST(ShellWord, what_steers_a_terminal_is_spelled_out) {
     EXPECT_EQ(shell_word("é\u202e\xff"), "$'é\\342\\200\\256\\377'");
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::shell_word_test

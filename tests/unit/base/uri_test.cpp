@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark {
-namespace {
+namespace tidemark::uri_test {
 
 TEST(Uri, of_paths) {
     EXPECT_EQ(uri_reference("/a b/w\u00e4ves.glsl"), "file:///a%20b/w%C3%A4ves.glsl");
@@ -24,5 +23,4 @@ TEST(Uri, of_what_is_no_file_of_this_machine) {
         EXPECT_FALSE(path_of_uri(uri)) << uri;
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::uri_test

@@ -13,8 +13,7 @@
 #include <csignal>
 #include <iterator>
 
-namespace tidemark {
-namespace {
+namespace tidemark::write_file_test {
 
 namespace fs = std::filesystem;
 
@@ -411,5 +410,4 @@ TEST(StagedFile, a_signal_takes_it_along) {
         EXPECT_EQ(left_by_child(folder, signal), 0u) << signal;
 }
 
-} // namespace
-} // namespace tidemark
+} // namespace tidemark::write_file_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::changed_files_test {
 
 glsl::Cure around(const std::string& file, int column, const std::string& word) {
     const glsl::WrittenWord there{{file, 1, column}, word};
@@ -53,5 +52,4 @@ TEST(CuredFiles, WordsThatAreNotThereAreRefused) {
     EXPECT_FALSE(CuredFiles().with_last(std::span(&cure, 1)));
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::changed_files_test

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::editor_test {
 
 using testing::ElementsAre;
 
@@ -29,5 +28,4 @@ TEST(Editor, is_none_without_words) {
     EXPECT_THAT(editor_words("  ", k_place), ElementsAre());
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::editor_test

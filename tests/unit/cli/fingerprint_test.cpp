@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::fingerprint_test {
 
 CapturePlan plan_of(const char* text) {
     CapturePlan plan;
@@ -55,5 +54,4 @@ TEST(Fingerprint, of_another_device_differs_in_that_alone) {
     EXPECT_NE(here.on_device_of(there), run_of(plan_of("b"), "two"));
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::fingerprint_test

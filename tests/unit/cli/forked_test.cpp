@@ -7,8 +7,7 @@
 #include <csignal>
 #include <vector>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::forked_test {
 
 Result<ForkedHelper> echo() {
     return ForkedHelper::start([](const std::string& question, const Tell& tell) {
@@ -111,5 +110,4 @@ TEST(Forked, AHelperThatNobodyAskedEnds) {
     ::close(ends[0]);
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::forked_test

@@ -4,8 +4,7 @@
 
 #include <string>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::frame_records_test {
 
 FrameRecord record(int frame, size_t not_finite, size_t no_coverage = 0) {
     return {.frame = frame,
@@ -47,5 +46,4 @@ TEST(FrameRecords, NoneFound) {
     EXPECT_FALSE(records.not_finite().first);
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::frame_records_test

@@ -5,8 +5,7 @@
 
 #include <iterator>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::frame_writer_test {
 
 namespace fs = std::filesystem;
 
@@ -108,5 +107,4 @@ TEST(FrameWriter, the_error_is_that_of_the_earliest_frame) {
               "cannot write '" + (folder / "no/3.png").string() + "': No such file or directory");
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::frame_writer_test

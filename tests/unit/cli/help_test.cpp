@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::help_test {
 
 using testing::ElementsAre;
 using testing::Field;
@@ -49,5 +48,4 @@ TEST(HelpText, the_cells_of_a_wide_table_stand_below_each_other) {
     EXPECT_EQ(plain_text("| " + wide + " | b | c |\n\nd\n"), "  " + wide + "\n      b\n      c\n\nd\n");
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::help_test

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::input_script_test {
 
 using platform::Button;
 using platform::Key;
@@ -130,5 +129,4 @@ TEST(Replay, a_frame_asked_for_alone_equals_the_same_frame_of_a_sequence) {
     }
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::input_script_test

@@ -9,8 +9,7 @@
 #include <functional>
 #include <thread>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::interrupt_test {
 
 bool comes_true(const std::function<bool()>& fact) {
     for (int i = 0; i < 1000 && !fact(); ++i)
@@ -107,5 +106,4 @@ TEST(Interrupt, gives_the_signals_back) {
     }
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::interrupt_test

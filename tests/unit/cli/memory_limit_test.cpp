@@ -9,8 +9,7 @@
 #include <cstring>
 #include <vector>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::memory_limit_test {
 
 constexpr uint64_t k_gibi = uint64_t{1} << 30;
 
@@ -82,5 +81,4 @@ TEST(MemoryLimit, OfAProcessAndThoseThatItStarted) {
     EXPECT_EQ(memory_of(child), 0U);
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::memory_limit_test

@@ -2,9 +2,9 @@
 #include "cli/moment.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::moment_test {
 
 using testing::ElementsAre;
 
@@ -51,5 +51,4 @@ TEST(Merged, newer_settings_of_a_name_stand_alone) {
     EXPECT_THAT(merged({"a=1", "b=2", "a=3"}, {"a=4", "c=5"}), ElementsAre("b=2", "a=4", "c=5"));
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::moment_test

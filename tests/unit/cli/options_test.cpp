@@ -5,8 +5,7 @@
 
 #include <limits>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::options_test {
 
 using testing::ElementsAre;
 
@@ -101,5 +100,4 @@ TEST(Resolve, the_option_at_fault_is_named) {
                                 "degrees, a distance above 0), and behind them x,y,z where it is panned to");
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::options_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::origin_search_test {
 
 TEST(OriginSearch, names_the_operation_to_mend) {
     const Error found =
@@ -25,5 +24,4 @@ TEST(OriginSearch, tells_a_finite_pixel_from_no_answer) {
             << broken;
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::origin_search_test

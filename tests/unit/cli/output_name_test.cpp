@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::output_name_test {
 
 std::string name_of(std::string_view pattern, int frame, size_t frame_count = 1) {
     const auto name = OutputName::parse(pattern, frame_count);
@@ -139,5 +138,4 @@ TEST(OutputName, unknown_formats) {
     }
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::output_name_test

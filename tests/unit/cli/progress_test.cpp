@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::progress_test {
 
 std::string printed(size_t total, size_t done, Progress::Manner manner = {.silent = 0}) {
     testing::internal::CaptureStderr();
@@ -55,5 +54,4 @@ TEST(Progress, one_thing_has_no_progress) {
     EXPECT_EQ(printed(100, 0), "");
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::progress_test

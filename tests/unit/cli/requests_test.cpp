@@ -6,8 +6,7 @@
 
 #include <limits>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::requests_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -196,5 +195,4 @@ TEST(Load, the_first_error_is_the_answer) {
               "tidemark: error: cannot read '" + (folder / "b.glsl").string() + "': no such file");
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::requests_test

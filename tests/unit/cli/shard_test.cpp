@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::shard_test {
 
 std::vector<int> frames_up_to(int count) {
     std::vector<int> frames(size_t(count), 0);
@@ -50,5 +49,4 @@ TEST(Shard, is_read_from_one) {
         EXPECT_FALSE(parse_shard(text)) << text;
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::shard_test

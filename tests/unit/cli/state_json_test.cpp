@@ -4,9 +4,9 @@
 #include "render/frame_fields.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::state_json_test {
 
 using render::FrameState;
 using testing::ElementsAre;
@@ -70,5 +70,4 @@ TEST(OptionWords, of_a_mouse_and_a_date_are_read_as_they_were) {
     EXPECT_EQ(render::parse_date(option_words(FrameState{.date = date}).back()), date);
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::state_json_test

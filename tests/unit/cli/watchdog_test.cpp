@@ -6,8 +6,7 @@
 
 #include <thread>
 
-namespace tidemark::cli {
-namespace {
+namespace tidemark::cli::watchdog_test {
 
 using namespace std::chrono_literals;
 
@@ -35,5 +34,4 @@ TEST(Watchdog, work_in_time_is_left_alone) {
         testing::ExitedWithCode(0), "");
 }
 
-} // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::cli::watchdog_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace tidemark::fields {
-namespace {
+namespace tidemark::fields::certified_march_test {
 
 /// A ball of radius 1 under a lid at y = 1: distance is exact, so is the clearance.
 Field ball(const glm::dvec3& centre) {
@@ -74,5 +73,4 @@ TEST(ClipToSlab, KeepsOnlyWhereAZeroCanBe) {
     EXPECT_GT(above.near, above.far);
 }
 
-} // namespace
-} // namespace tidemark::fields
+} // namespace tidemark::fields::certified_march_test

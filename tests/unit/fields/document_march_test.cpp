@@ -11,8 +11,7 @@
 
 #include <cmath>
 
-namespace tidemark::fields {
-namespace {
+namespace tidemark::fields::document_march_test {
 
 constexpr Extent k_extent{320, 180};
 
@@ -100,5 +99,4 @@ TEST(DocumentMarch, HasTheErrorsOfAnIndependentProgram) {
     EXPECT_NEAR(strict.evaluations / usual.evaluations, 41.0 / 35.7, 0.005);
 }
 
-} // namespace
-} // namespace tidemark::fields
+} // namespace tidemark::fields::document_march_test

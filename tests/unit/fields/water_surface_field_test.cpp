@@ -10,8 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace tidemark::fields {
-namespace {
+namespace tidemark::fields::water_surface_field_test {
 
 class WaterSurfaceField : public testing::Test {
 protected:
@@ -124,5 +123,4 @@ TEST_F(WaterSurfaceField, SaysWhichKnobIsMissing) {
               "with #iUniform as the scene in shaders/ does");
 }
 
-} // namespace
-} // namespace tidemark::fields
+} // namespace tidemark::fields::water_surface_field_test

@@ -13,8 +13,7 @@
 #include <cmath>
 #include <random>
 
-namespace tidemark::fields {
-namespace {
+namespace tidemark::fields::wave_fields_test {
 
 struct Waves {
     const char* scene;
@@ -130,5 +129,4 @@ TEST(GerstnerWavesField, HasTheBoundsThatAreProvedByHand) {
     EXPECT_NEAR(r->field.highest, 0.8515, 1e-4);
 }
 
-} // namespace
-} // namespace tidemark::fields
+} // namespace tidemark::fields::wave_fields_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::assemble_test {
 
 constexpr const char* k_uniforms[] = {
     "vec3 iResolution",
@@ -153,5 +152,4 @@ TEST(Assemble, junk_takes_linear_time) {
     EXPECT_EQ(source_of(text).text().size(), source_of("uniform x").text().size() - 9 + text.size());
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::assemble_test

@@ -8,8 +8,7 @@
 #include <string>
 #include <tuple>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::builtin_functions_test {
 
 std::string type_of(const std::string& name, const std::vector<std::string>& arguments) {
     std::vector<ValueType> types;
@@ -124,5 +123,4 @@ TEST(BuiltinFunctions, what_may_be_left_out_makes_two_overloads) {
     EXPECT_FALSE(takes_constants(*find_builtin("texture")));
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::builtin_functions_test

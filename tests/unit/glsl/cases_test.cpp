@@ -15,8 +15,7 @@
 #include <set>
 #include <sstream>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::cases_test {
 
 namespace fs = std::filesystem;
 
@@ -120,5 +119,4 @@ TEST_P(GlslCase, gives_what_is_expected) {
 INSTANTIATE_TEST_SUITE_P(Text, GlslCase, testing::ValuesIn(case_names(k_folder)),
                          [](const auto& each) { return each.param; });
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::cases_test

@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::cure_test {
 
 /// The text with the first guard of each site; a site without one is left.
 std::string guarded(const std::string& text) {
@@ -118,5 +117,4 @@ TEST(Cure, ATextThatIsAnotherNowIsRefused) {
     EXPECT_EQ(cured("float x +\nz;", "a.glsl", std::span(&cure, 1)), std::nullopt);
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::cure_test

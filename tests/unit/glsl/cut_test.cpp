@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::cut_test {
 
 struct Found {
     std::vector<Cut> cuts;
@@ -261,5 +260,4 @@ TEST(Cut, CutsThatOverlapAreRefused) {
     EXPECT_EQ(with(text, both), "refused") << "something has to stay";
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::cut_test

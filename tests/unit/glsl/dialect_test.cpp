@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::dialect_test {
 
 using scene::TextureKind;
 using testing::IsEmpty;
@@ -165,5 +164,4 @@ TEST(PassReading, a_text_discards_where_a_pixel_may_come_to_it) {
     EXPECT_FALSE(discards("float discarded;\n"));
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::dialect_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::divergence_test {
 
 /// `call@line<line of the condition` or `call@line|line of the exit`, each found one, with ` called` where
 /// that stands before a call of its function; iChannel0 has mipmaps.
@@ -147,5 +146,4 @@ TEST(Divergence, TexturesThatChooseNoMipmapNeedNoNeighbour) {
               "");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::divergence_test

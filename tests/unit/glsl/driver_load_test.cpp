@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::driver_load_test {
 
 DriverLoad load_of(const std::string& text) {
     text::MappedText source;
@@ -136,5 +135,4 @@ TEST(DriverLoad, OfAScene) {
                   Precision::single));
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::driver_load_test

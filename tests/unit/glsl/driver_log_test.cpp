@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::driver_log_test {
 
 std::string lines_of(const std::vector<DriverMessage>& messages) {
     std::string list;
@@ -309,5 +308,4 @@ TEST(DriverLog, empty_lines_and_what_ends_a_line_are_dropped) {
     EXPECT_EQ(read("0:14(5): error: x"), "a.glsl:1:5: error: x\n");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::driver_log_test

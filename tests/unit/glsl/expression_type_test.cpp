@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::expression_type_test {
 
 /// Of what the function g returns; empty: nobody knows.
 std::string type_of(const std::string& expression) {
@@ -50,5 +49,4 @@ TEST(ExpressionType, IsUnknownWhereTheyDoNot) {
     EXPECT_EQ(type_of("missing(p)"), "");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::expression_type_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::half_size_test {
 
 const std::string k_head =
     "uniform vec3 iResolution; uniform sampler2D iChannel0, iChannel1; out vec4 shown;\n";
@@ -104,5 +103,4 @@ TEST(HalfSize, NotOfWhatAsksForItsPixelElsewhere) {
     EXPECT_EQ(halved(k_buffer, reader, false, {}, "a.glsl").buffer, "none") << "one file for both";
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::half_size_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::hit_test {
 
 const std::string k_scene = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1); }\n"
                             "#ifdef TIDEMARK_HIT\n"
@@ -37,5 +36,4 @@ TEST(Hit, it_may_stand_in_common) {
     EXPECT_TRUE(hit_scene(scene));
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::hit_test

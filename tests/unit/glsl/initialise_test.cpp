@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::initialise_test {
 
 text::MappedText mapped(const std::string& text) {
     text::MappedText source;
@@ -205,5 +204,4 @@ TEST(Initialise, JunkTakesLinearTime) {
     }
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::initialise_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::instruction_count_test {
 
 std::string read(std::string_view message) {
     const auto count = read_instruction_count(message);
@@ -47,5 +46,4 @@ TEST(InstructionCount, what_is_no_count) {
         EXPECT_EQ(read(line), "nothing") << line;
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::instruction_count_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::march_record_test {
 
 constexpr const char* k_file = "a.glsl";
 
@@ -105,5 +104,4 @@ TEST(MarchRecord, refuses_what_is_not_certain) {
               "the text discards pixels");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::march_record_test

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::overloads_test {
 
 struct Joined {
     std::string functions;
@@ -64,5 +63,4 @@ TEST(Overloads, most_texts_have_none) {
     EXPECT_EQ(join("float f() { return mix(1.0, 2.0, 0.5); }").functions, "");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::overloads_test

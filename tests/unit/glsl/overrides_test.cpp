@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::overrides_test {
 
 /// `text` with the setting carried out, or why it could not be.
 std::string with(std::string_view setting, std::string_view text) {
@@ -169,5 +168,4 @@ TEST(DefineByVariables, a_const_of_them_is_none_any_more) {
     EXPECT_EQ(scene.image().text.text(), " int A = a, B = b; // why\n#define C c\nconst int D = 3;\n");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::overrides_test

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::parsed_text_test {
 
 Result<std::unique_ptr<const ParsedText>> read(std::string_view text) {
     text::MappedText source;
@@ -174,5 +173,4 @@ TEST(Watch, what_must_stay_as_it_is_stays) {
               "floatf(){returnb&&tmw0_P(c/d,)>1.?tmw0_P(e*2.,):g;}");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::parsed_text_test

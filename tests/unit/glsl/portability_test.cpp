@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::portability_test {
 
 std::string lint(const std::string& image, const std::string& common = {}) {
     scene::Scene scene = scene_of(image);
@@ -103,5 +102,4 @@ TEST(Portability, common_is_compiled_alone) {
         EXPECT_EQ(lint("", common), "") << common;
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::portability_test

@@ -4,8 +4,7 @@
 
 #include <string>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::preprocess_test {
 
 /// How the word `here` fares in the text.
 Activity at_here(const std::string& text) {
@@ -98,5 +97,4 @@ TEST(Preprocess, code_and_macros_are_listed) {
     EXPECT_EQ(preprocessed.directives.size(), 1u);
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::preprocess_test

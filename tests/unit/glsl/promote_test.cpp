@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::promote_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -88,5 +87,4 @@ TEST(Promote, what_is_no_hash_is_not_kept) {
         EXPECT_TRUE(promoted(text).hashes.empty()) << text;
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::promote_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::rewrite_test {
 
 /// The author's part of what the driver gets.
 std::string rewritten(const std::string& text, const Dialect& dialect = {},
@@ -94,5 +93,4 @@ TEST(Rewrite, junk_takes_linear_time) {
     }
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::rewrite_test

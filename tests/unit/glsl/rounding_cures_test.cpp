@@ -12,8 +12,7 @@
 
 #include <cmath>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::rounding_cures_test {
 
 std::string with(const std::string& text, const std::vector<Cure>& cures) {
     return cured(text, "a.glsl", cures).value_or("refused");
@@ -275,5 +274,4 @@ TEST(BaseLevel, TakesThePlaceOfTheNeighbours) {
     EXPECT_EQ(divergent_cured(derivative, base_level), derivative);
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::rounding_cures_test

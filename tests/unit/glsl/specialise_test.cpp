@@ -1,4 +1,5 @@
 // What specialising leaves of a text, class by class, and what it must not touch.
+#include "glsl/specialise/globals.hpp"
 #include "glsl/specialise/specialise.hpp"
 #include "glsl_support.hpp"
 #include "scene/knob.hpp"
@@ -8,8 +9,7 @@
 
 #include <algorithm>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::specialise_test {
 
 scene::Knob knob(std::string name, scene::KnobType type, scene::KnobValue value) {
     scene::Knob knob;
@@ -286,5 +286,39 @@ TEST(Specialise, follows_chains_of_any_length) {
     EXPECT_EQ(count(result.source.text(), "f2999("), 2);
 }
 
-} // namespace
-} // namespace tidemark::glsl
+/// As `assign_globals_in_main` writes it; runs of blanks come down to one.
+std::string with_globals_in_main(const std::string& text) {
+    const std::string written = assign_globals_in_main(*parsed("#version 450\n" + text));
+    std::string squeezed;
+    for (const char c : written)
+        if (c != ' ' || (!squeezed.empty() && squeezed.back() != ' ' && squeezed.back() != '\n'))
+            squeezed += c;
+    return squeezed;
+}
+
+TEST(GlobalValues, are_assigned_at_the_start_of_main_with_their_lines) {
+    EXPECT_EQ(with_globals_in_main("float a = 2.0,\n b = a;\nvoid main() {\n a += b; }"),
+              "#version 450\nfloat a , \nb ; \nvoid main ( ) { "
+              "\n#line 2\na = 2.0 ;\n#line 3\nb = a ;\n#line 4\n\na += b ; } ");
+}
+
+TEST(GlobalValues, of_macros_are_found) {
+    EXPECT_EQ(with_globals_in_main("#define SET(x) float x = 3.0;\nSET(a)\nvoid main() {}"),
+              "#version 450\n\nfloat a ; \nvoid main ( ) { \n#line 3\na = 3.0 ;\n#line 4\n} ");
+}
+
+TEST(GlobalValues, of_arrays_without_a_size_give_them_one) {
+    EXPECT_EQ(with_globals_in_main("float a[] = float[](1.0, 2.0);\nvoid main() {}"),
+              "#version 450\nfloat a [ (float [ ] ( 1.0 , 2.0 ) ).length()] ; \nvoid main ( ) { "
+              "\n#line 2\na = float [ ] ( 1.0 , 2.0 ) ;\n#line 3\n} ");
+    EXPECT_EQ(with_globals_in_main("float a[] = {1.0, 2.0};\nvoid main() {}"),
+              "#version 450\nfloat a [ 2] ; \nvoid main ( ) { "
+              "\n#line 2\n{ float tidemark_value [ ] = { 1.0 , 2.0 } ; a = tidemark_value; }\n#line 3\n} ");
+}
+
+TEST(GlobalValues, of_constants_and_what_the_host_gives_stay) {
+    const std::string text = "const float a = 2.0;\nuniform float u = 1.0;\nfloat b;\nvoid main() {}\n";
+    EXPECT_EQ(assign_globals_in_main(*parsed("#version 450\n" + text)), "#version 450\n" + text);
+}
+
+} // namespace tidemark::glsl::specialise_test

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::unassigned_test {
 
 /// `name:line` of each read, with a `?` where only some way leaves it without a value; `name:-` for an `out`
 /// that is never written, `name:-line` where some `return` (or the body's end) leaves it so, `name()` for a
@@ -165,5 +164,4 @@ TEST(Unassigned, WhatMainNeverComesToIsLeftAlone) {
     EXPECT_EQ(found("float dead() { float a; return a; }\nvoid main() { }\n"), "");
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::unassigned_test

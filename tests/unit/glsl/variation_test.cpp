@@ -9,8 +9,7 @@
 #include <bit>
 #include <tuple>
 
-namespace tidemark::glsl {
-namespace {
+namespace tidemark::glsl::variation_test {
 
 struct Read {
     std::unique_ptr<const ParsedText> text;
@@ -199,5 +198,4 @@ TEST(Domains, AFunctionOfTheAuthorsIsItsOwnAffair) {
     EXPECT_TRUE(watch_domains(*of.text, of.facts, DomainScope::floats).sites.empty());
 }
 
-} // namespace
-} // namespace tidemark::glsl
+} // namespace tidemark::glsl::variation_test

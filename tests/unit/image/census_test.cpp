@@ -8,8 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::census_test {
 
 Image with_bits(Extent extent, int channels, std::initializer_list<std::pair<size_t, uint32_t>> planted) {
     Image image(extent, channels, SampleType::f32);
@@ -94,5 +93,4 @@ TEST(TakeNonFinite, takes_the_mark_from_bytes) {
     EXPECT_EQ(take_non_finite(image), 0U);
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::census_test

@@ -5,8 +5,7 @@
 
 #include <cstdlib>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::codec_loader_test {
 
 using CodecLoaderTest = PictureTest;
 
@@ -35,5 +34,4 @@ TEST_F(CodecLoaderTest, a_process_may_leave_during_the_preload) {
     }
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::codec_loader_test

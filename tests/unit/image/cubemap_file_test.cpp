@@ -12,8 +12,7 @@
 #include <numbers>
 #include <utility>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::cubemap_file_test {
 
 using Vector = std::array<double, 3>;
 
@@ -281,5 +280,4 @@ TEST_F(CubemapFiles, what_is_wrong_is_said) {
               "cannot read '" + in_folder("none.png").string() + "': no such file");
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::cubemap_file_test

@@ -1,8 +1,7 @@
 #include "image/files/file_check.hpp"
 #include "picture_support.hpp"
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::file_check_test {
 
 using namespace std::string_literals;
 
@@ -68,5 +67,4 @@ TEST(FileCheck, sizes_have_a_limit) {
     EXPECT_EQ(size_objection(16385, 2), "it is 16385x2 pixels; the limit is 16384 on a side");
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::file_check_test

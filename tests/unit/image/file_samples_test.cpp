@@ -5,8 +5,7 @@
 #include <cstring>
 #include <limits>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::file_samples_test {
 
 template <class Sample>
 std::vector<Sample> samples_of(const std::vector<std::byte>& bytes) {
@@ -87,5 +86,4 @@ TEST(FileSamples, radiance_gets_three_channels_of_what_it_can_hold) {
             EXPECT_EQ(colours.f32()[3 * pixel + channel], float(image.u8()[4 * pixel + channel]) / 255.0f);
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::file_samples_test

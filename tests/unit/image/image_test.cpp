@@ -3,8 +3,7 @@
 
 #include <cstring>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::image_test {
 
 TEST(Image, flipped_exchanges_rows_and_keeps_their_order_inside) {
     Image image({2, 3}, 1, SampleType::u8);
@@ -65,5 +64,4 @@ TEST(Image, without_alpha_keeps_the_bits_of_a_nan) {
     EXPECT_EQ(bits, signalling);
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::image_test

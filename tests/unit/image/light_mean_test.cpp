@@ -5,8 +5,7 @@
 
 #include <limits>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::light_mean_test {
 
 Image pixel(float r, float g, float b, float a) {
     Image image({1, 1}, 4, SampleType::f32);
@@ -62,5 +61,4 @@ TEST(Transfer, goes_there_and_back) {
     EXPECT_NEAR(light_of_srgb(0.5), 0.214041, 1e-6);
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::light_mean_test

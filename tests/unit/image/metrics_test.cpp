@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::metrics_test {
 
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float k_inf = std::numeric_limits<float>::infinity();
@@ -126,5 +125,4 @@ TEST(Metrics, pictures_of_different_shape_are_not_compared) {
               "the pictures cannot be compared: one is 4x4 with 4 channels, the other 4x4 with 1 channel");
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::metrics_test

@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::noise_kinds_test {
 
 /// A sample in the row order of a file.
 uint8_t in_file(const Image& image, int x, int y, int channel = 0) {
@@ -237,5 +236,4 @@ TEST(NoiseKinds, a_seed_gives_its_bytes_again_and_another_seed_others) {
     EXPECT_NE(make_noise_volume(NoiseVolume::grey_32, 3), make_noise_volume(NoiseVolume::grey_32, 4));
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::noise_kinds_test

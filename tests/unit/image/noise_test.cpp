@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::noise_test {
 
 /// A sample in the row order of a file, with wrap.
 uint8_t in_file(const Image& noise, int x, int y, int channel) {
@@ -83,5 +82,4 @@ TEST(Noise, a_seed_gives_its_bytes_again_and_another_seed_others) {
     EXPECT_NE(make_noise(1), make_noise(2));
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::noise_test

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::perception_test {
 
 /// Slopes, edges and a chequered part, by a rule that other programs can follow.
 int reference_sample(int x, int y, int channel) {
@@ -115,5 +114,4 @@ TEST(Perception, a_tolerance_changes_what_differs_and_nothing_else) {
     EXPECT_EQ(compare(left, right)->rmse, found->rmse);
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::perception_test

@@ -6,8 +6,7 @@
 #include <functional>
 #include <random>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::picture_damage_test {
 
 class PictureDamage : public PictureTest {
 protected:
@@ -246,5 +245,4 @@ TEST_F(PictureDamage, a_png_must_begin_with_a_sound_header_and_have_data) {
               "its PNG header is not valid");
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::picture_damage_test

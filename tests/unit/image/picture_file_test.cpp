@@ -6,8 +6,7 @@
 #include <cstring>
 #include <limits>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::picture_file_test {
 
 using PictureFile = PictureTest;
 
@@ -284,5 +283,4 @@ TEST_F(PictureFile, one_pixel_is_a_picture) {
     }
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::picture_file_test

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::picture_stream_test {
 
 constexpr Extent k_extent{23, 37};
 
@@ -93,5 +92,4 @@ TEST_F(PictureStreamTest, sides_end_where_the_format_does) {
     EXPECT_EQ(refused.error().message, "--size 1x65501: a .jpg has at most 65500 pixels on a side");
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::picture_stream_test

@@ -9,8 +9,7 @@
 #include <map>
 #include <thread>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::picture_write_test {
 
 using PictureWrite = PictureTest;
 
@@ -228,5 +227,4 @@ TEST_F(PictureWrite, many_threads_write_and_read_at_once) {
     EXPECT_EQ(files(), size_t{k_threads * k_rounds});
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::picture_write_test

@@ -8,8 +8,7 @@
 #include <cstdlib>
 #include <span>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::stand_in_test {
 
 TEST(StandIn, has_the_size_and_channels_that_are_asked_for) {
     for (int channels = 1; channels <= 4; ++channels) {
@@ -115,5 +114,4 @@ TEST(StandIn, bytes_are_the_same_on_every_machine) {
     EXPECT_EQ(fingerprint(make_stand_in_volume("cloud.bin", 16, 16, 16, 1).bytes), "d2ed0cb7015ec3ff");
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::stand_in_test

@@ -13,8 +13,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::video_frames_test {
 
 using testing::HasSubstr;
 
@@ -353,5 +352,4 @@ TEST_F(NoVideo, without_ffmpeg_the_package_is_named) {
     EXPECT_FALSE(has_children());
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::video_frames_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::video_note_test {
 
 TEST(VideoNote, comes_back) {
     for (const std::string note : {"", "frame=1", "a\nb\0c"})
@@ -22,5 +21,4 @@ TEST(VideoNote, every_byte_counts) {
     EXPECT_FALSE(note_at_end(file + "x"));
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::video_note_test

@@ -6,8 +6,7 @@
 #include <array>
 #include <limits>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::video_planes_test {
 
 Image row(std::initializer_list<std::array<float, 4>> pixels) {
     Image image({int(pixels.size()), 1}, 4, SampleType::f32);
@@ -63,5 +62,4 @@ TEST(VideoPlanes, tell_more_than_256_levels) {
     EXPECT_EQ(std::unique(luma.begin(), luma.end()) - luma.begin(), 877); // 64 to 940
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::video_planes_test

@@ -6,8 +6,7 @@
 #include <cstring>
 #include <random>
 
-namespace tidemark::image {
-namespace {
+namespace tidemark::image::volume_file_test {
 
 using testing::HasSubstr;
 
@@ -122,5 +121,4 @@ TEST_F(VolumeFileOnDisk, is_read_and_named) {
     EXPECT_EQ(missing.error().message, "cannot read '" + in_folder("b.bin").string() + "': no such file");
 }
 
-} // namespace
-} // namespace tidemark::image
+} // namespace tidemark::image::volume_file_test

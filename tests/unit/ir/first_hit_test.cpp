@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::first_hit_test {
 
 using Verdict = FirstHit::Verdict;
 
@@ -165,5 +164,4 @@ TEST(FirstHit, is_left_open_where_nothing_is_known) {
     EXPECT_EQ(unknown.where.low, 0);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::first_hit_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::interval_test {
 
 constexpr int k_intervals = 10'000; ///< of each function, five numbers in each
 
@@ -273,5 +272,4 @@ TEST(Interval, an_open_end_is_not_beyond_the_step) {
     EXPECT_EQ(modulo({5.5, 6}, {3, 3}).low, 0);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::interval_test

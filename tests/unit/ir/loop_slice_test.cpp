@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::loop_slice_test {
 
 struct Sliced {
     Function function;
@@ -103,5 +102,4 @@ TEST(LoopSlice, of_which_the_text_leaves_the_loop_before_it_measures_has_no_dist
     EXPECT_FALSE(march.distance({1.75, 2.0}, Care::quick));
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::loop_slice_test

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::marching_loop_test {
 
 using Kind = MarchingLoop::Kind;
 
@@ -183,5 +182,4 @@ TEST(MarchingLoop, that_remembers_more_than_its_place_is_not_faithful) {
     }
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::marching_loop_test

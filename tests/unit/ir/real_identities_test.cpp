@@ -2,8 +2,7 @@
 #include "ir/real_identities.hpp"
 #include "ir_support.hpp"
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::real_identities_test {
 
 /// Bounds of an expression in x and y over [0.1, 0.9] and [0.2, 0.8], which intervals see no relation
 /// between.
@@ -60,5 +59,4 @@ TEST(RealIdentities, what_only_looks_like_one_is_none) {
     expect_same("y + x * (2.0 - x)", 0.2 + 0.1 * 1.1, 0.8 + 0.9 * 1.9);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::real_identities_test

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::source_names_test {
 
 using Kind = Assignment::Kind;
 
@@ -97,13 +96,4 @@ TEST(SourceNames, an_inlined_function_knows_its_callers) {
     EXPECT_THAT(lines, testing::ElementsAre(7, 8));
 }
 
-/// glslang 12 reads a scope that is not there.
-TEST(SourceNames, globals_that_are_computed_do_not_crash) {
-    const Function function =
-        named("float twice = 2.0 * iTime, thrice = twice + iTime;", "color = vec4(thrice);");
-    EXPECT_NE(function.find("color"), nullptr);
-    EXPECT_FALSE(function.instructions.empty());
-}
-
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::source_names_test

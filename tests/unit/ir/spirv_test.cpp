@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::spirv_test {
 
 TEST(Spirv, a_text_becomes_one_function_without_calls) {
     const Function function =
@@ -43,5 +42,4 @@ TEST(Spirv, words_that_are_no_module_are_refused) {
     EXPECT_TRUE(read_spirv({}));
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::spirv_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::step_scale_test {
 
 StepScale scale_of(const std::string& field, float x, uint64_t most = 2'000) {
     const Function function = marcher(field, k_sphere_tracing);
@@ -57,5 +56,4 @@ TEST(StepScale, is_not_known_where_the_field_cannot_be_bounded) {
     EXPECT_EQ(scale.safe, 0);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::step_scale_test

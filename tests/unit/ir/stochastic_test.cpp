@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::stochastic_test {
 
 Samples of(float a, float b, float c) {
     return {Point<float>{a, 0}, Point<float>{b, 0}, Point<float>{c, 0}};
@@ -149,5 +148,4 @@ TEST(Lockstep, a_condition_that_double_decides_otherwise_can_be_seen) {
     EXPECT_TRUE(condition.rounding_decides());
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::stochastic_test

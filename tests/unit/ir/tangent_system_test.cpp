@@ -6,8 +6,7 @@
 
 #include <random>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::tangent_system_test {
 
 constexpr int k_pieces = 2'000; ///< of each operation
 
@@ -136,5 +135,4 @@ TEST(TangentSystem, has_the_slopes_beside_the_jumps_if_asked_for) {
     EXPECT_EQ(slope(Op::select, either, three, wide).high, k_infinity);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::tangent_system_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::texels_test {
 
 constexpr int k_width = 7, k_height = 5;
 
@@ -198,5 +197,4 @@ TEST(Texels, that_are_no_numbers_are_not_known) {
     EXPECT_TRUE(look_up({}, {.sampler = "iChannel0"}, std::array<Interval, 2>{{{0, 0}, {0, 0}}}).partial);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::texels_test

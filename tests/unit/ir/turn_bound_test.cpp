@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::turn_bound_test {
 
 const std::string k_long_steps = "for (int i = 0; i < 200; ++i) { float d = map(ro + rd * t); "
                                  "if (d < 0.001 || t > 20.0) break; t += 0.7 * d; }";
@@ -107,5 +106,4 @@ TEST(TurnBound, is_not_known_where_a_ray_of_the_area_may_begin_nowhere) {
     EXPECT_EQ(follow(one, function, loops[0]).turns.size(), 100u);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::turn_bound_test

@@ -2,8 +2,7 @@
 #include "ir/value_ranges.hpp"
 #include "ir_support.hpp"
 
-namespace tidemark::ir {
-namespace {
+namespace tidemark::ir::value_ranges_test {
 
 struct Colour {
     Interval range;
@@ -103,5 +102,4 @@ TEST(ValueRanges, know_of_memory_what_was_ever_in_it) {
                     .doubt);
 }
 
-} // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::ir::value_ranges_test

@@ -7,8 +7,7 @@
 #include <functional>
 #include <numbers>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::convergence_test {
 
 using Series = std::function<double(int n)>;
 
@@ -102,5 +101,4 @@ TEST(Remainder, OfNoChangeIsRounding) {
     EXPECT_EQ(left.error, 1e-8);
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::convergence_test

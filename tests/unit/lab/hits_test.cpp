@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::hits_test {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -117,5 +116,4 @@ TEST(Causes, have_colours_of_their_own) {
     EXPECT_EQ(map.f32()[3], colour_of(Cause::exhaustion)[0]);
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::hits_test

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::picture_gap_test {
 
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
@@ -54,5 +53,4 @@ TEST(Alikeness, TheSameNanInBothIsTheSame) {
     EXPECT_EQ(alikeness(picture({k_nan, 0, 0, 0}), picture({k_nan, 0, 0.2f, 0})), "20.0 dB");
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::picture_gap_test

@@ -10,8 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::report_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -331,5 +330,4 @@ TEST(Clock, without_a_timer_it_is_the_wall) {
     EXPECT_EQ(timed_with(0, asked).circumstances.clock, "wall clock around glFinish");
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::report_test

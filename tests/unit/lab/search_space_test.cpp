@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::search_space_test {
 
 constexpr const char* k_text =
     "#iUniform float level = 0.5 in { 0.0, 2.0 }\n"
@@ -54,5 +53,4 @@ TEST(SearchSpace, WhatASceneDoesNotReadIsNotMoved) {
     EXPECT_EQ(SearchSpace(scene, {}, {}).survey().size(), 1u);
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::search_space_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::statistics_test {
 
 TEST(Statistics, quantiles_are_linear_between_neighbours) {
     EXPECT_EQ(median({3, 1, 2}), 2);
@@ -76,5 +75,4 @@ TEST(Statistics, shuffles_are_whole_repeatable_and_different) {
     EXPECT_THAT(shuffled(6, 1), testing::UnorderedElementsAre(0, 1, 2, 3, 4, 5));
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::statistics_test

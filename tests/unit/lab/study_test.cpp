@@ -10,8 +10,7 @@
 
 #include <filesystem>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::study_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -228,5 +227,4 @@ TEST(Stricter, named_references_go_on_in_the_direction_of_their_axis) {
     EXPECT_EQ(strictest(study, 1), strictest(study, 0));
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::study_test

@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::tune_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -255,5 +254,4 @@ TEST(Blur, is_a_truth_that_cannot_tell) {
     EXPECT_THAT(blur_of(explored.set, Measure::wrong, 0.05), HasSubstr("no truth about where"));
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::tune_test

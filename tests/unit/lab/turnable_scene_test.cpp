@@ -4,8 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::lab {
-namespace {
+namespace tidemark::lab::turnable_scene_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -78,5 +77,4 @@ TEST(TurnableScene, a_name_that_is_not_there_is_an_error) {
     EXPECT_FALSE(TurnableScene::create(scene_of("float f() { return 1.0; }\n"), {{"N", "3"}}));
 }
 
-} // namespace
-} // namespace tidemark::lab
+} // namespace tidemark::lab::turnable_scene_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::live {
-namespace {
+namespace tidemark::live::event_owner_test {
 
 using namespace platform;
 
@@ -42,5 +41,4 @@ TEST(EventOwner, the_window_itself_is_nobodys_panel) {
     EXPECT_FALSE(owner.take(FramebufferResized{{1, 1}}, k_over_a_panel));
 }
 
-} // namespace
-} // namespace tidemark::live
+} // namespace tidemark::live::event_owner_test

@@ -9,8 +9,7 @@
 #include <array>
 #include <limits>
 
-namespace tidemark::live {
-namespace {
+namespace tidemark::live::fields_test {
 
 std::string written(std::string_view text, double value) {
     auto field = definition_field("N", text, false);
@@ -84,5 +83,4 @@ TEST(TimeBar, doubles_as_time_comes_near) {
     EXPECT_EQ(bar_end(looped), 80);
 }
 
-} // namespace
-} // namespace tidemark::live
+} // namespace tidemark::live::fields_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace tidemark::live {
-namespace {
+namespace tidemark::live::knob_field_test {
 
 using scene::Knob;
 using scene::KnobRange;
@@ -56,5 +55,4 @@ TEST(KnobField, is_turned_where_it_differs_from_the_default) {
     EXPECT_FALSE(field.is_turned());
 }
 
-} // namespace
-} // namespace tidemark::live
+} // namespace tidemark::live::knob_field_test

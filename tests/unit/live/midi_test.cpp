@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::live {
-namespace {
+namespace tidemark::live::midi_test {
 
 using namespace std::string_literals;
 using scene::Knob;
@@ -107,5 +106,4 @@ TEST(ControllerMap, of_another_scene_turns_nothing) {
     EXPECT_FALSE(map.turn({k_fader, 1}, k_knobs));
 }
 
-} // namespace
-} // namespace tidemark::live
+} // namespace tidemark::live::midi_test

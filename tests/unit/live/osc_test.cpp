@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::live {
-namespace {
+namespace tidemark::live::osc_test {
 
 using scene::Knob;
 using scene::KnobType;
@@ -122,5 +121,4 @@ TEST(OscAddress, is_of_this_machine_alone_unless_told) {
         EXPECT_FALSE(parse_osc_address(wrong)) << wrong;
 }
 
-} // namespace
-} // namespace tidemark::live
+} // namespace tidemark::live::osc_test

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::lsp {
-namespace {
+namespace tidemark::lsp::outline_test {
 
 using testing::ElementsAre;
 using Kind = Symbol::Kind;
@@ -64,5 +63,4 @@ TEST(Comments, that_a_text_begins_with) {
     EXPECT_EQ(leading_comment("/* a"), "a");
 }
 
-} // namespace
-} // namespace tidemark::lsp
+} // namespace tidemark::lsp::outline_test

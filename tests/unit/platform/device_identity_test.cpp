@@ -6,8 +6,7 @@
 #include <array>
 #include <numeric>
 
-namespace tidemark::platform {
-namespace {
+namespace tidemark::platform::device_identity_test {
 
 namespace fs = std::filesystem;
 
@@ -45,5 +44,4 @@ TEST(UuidName, is_written_as_other_programs_write_it) {
     EXPECT_EQ(uuid_name(bytes), "uuid:f8f9fafb-fcfd-feff-0001-020304050607");
 }
 
-} // namespace
-} // namespace tidemark::platform
+} // namespace tidemark::platform::device_identity_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::platform {
-namespace {
+namespace tidemark::platform::device_order_test {
 
 using Names = std::vector<std::string>;
 
@@ -21,5 +20,4 @@ TEST(DeviceOrder, a_graphics_card_goes_before_a_surfaceless_that_draws_on_the_cp
               (Names{"device:0", "device:2", "surfaceless", "device:1", "display"}));
 }
 
-} // namespace
-} // namespace tidemark::platform
+} // namespace tidemark::platform::device_order_test

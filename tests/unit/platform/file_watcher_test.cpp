@@ -12,8 +12,7 @@
 #include <mutex>
 #include <thread>
 
-namespace tidemark::platform {
-namespace {
+namespace tidemark::platform::file_watcher_test {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -468,5 +467,4 @@ TEST_F(FileWatcherTest, latency) {
     EXPECT_LT(milliseconds.back(), 1000);
 }
 
-} // namespace
-} // namespace tidemark::platform
+} // namespace tidemark::platform::file_watcher_test

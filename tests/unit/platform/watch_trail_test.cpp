@@ -12,7 +12,7 @@ void PrintTo(const Waypoint& waypoint, std::ostream* out) {
     *out << waypoint.folder << ' ' << waypoint.name;
 }
 
-namespace {
+namespace watch_trail_test {
 
 using Trail = std::vector<Waypoint>;
 
@@ -80,5 +80,5 @@ TEST(WatchTrail, a_circle_of_links_ends) {
     EXPECT_EQ(trail_of(folder / "a").size(), 41u);
 }
 
-} // namespace
+} // namespace watch_trail_test
 } // namespace tidemark::platform

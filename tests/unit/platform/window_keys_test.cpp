@@ -4,8 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::platform {
-namespace {
+namespace tidemark::platform::window_keys_test {
 
 int code(int glfw_key, const char* name = nullptr) {
     return js_key_code(key_from_glfw(glfw_key, name));
@@ -67,6 +66,5 @@ TEST(WindowKeys, every_key_of_glfw_but_f25_has_a_code_in_shadertoys_texture) {
     EXPECT_EQ(code(GLFW_KEY_UNKNOWN), 0);
 }
 
-} // namespace
-} // namespace tidemark::platform
+} // namespace tidemark::platform::window_keys_test
 #endif

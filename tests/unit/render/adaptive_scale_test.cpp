@@ -6,8 +6,7 @@
 #include <functional>
 #include <random>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::adaptive_scale_test {
 
 /// Milliseconds of a frame in a scale, `frame` frames after the start.
 using Cost = std::function<double(RenderScale scale, int frame)>;
@@ -100,5 +99,4 @@ TEST(AdaptiveScale, tries_again_after_forgetting) {
     EXPECT_EQ(run(adaptive, scale_of("1/2"), 500, cost_of(11)).scale.name(), "1");
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::adaptive_scale_test

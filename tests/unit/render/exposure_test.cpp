@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::exposure_test {
 
 TEST(Expose, one_sample_is_the_frame_itself) {
     const ExposedFrame frame = expose({}, FrameState{.frame = 30});
@@ -50,5 +49,4 @@ TEST(Expose, the_shutter_is_open_from_the_frames_own_time_on) {
     EXPECT_EQ(frame.samples.back().inputs.frame, 10);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::exposure_test

@@ -4,8 +4,7 @@
 
 #include <ctime>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::frame_inputs_test {
 
 TEST(ParseDate, a_day_begins_at_midnight) {
     EXPECT_EQ(parse_date("2024-12-31"), (Date{2024, 11, 31, 0}));
@@ -120,5 +119,4 @@ TEST(FrameInputs, deterministic_by_default) {
     EXPECT_EQ(k_sample_rate, 44100);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::frame_inputs_test

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::frame_pace_test {
 
 using Way = FramePace::Way;
 constexpr Extent k_extent{100, 100};
@@ -46,5 +45,4 @@ TEST(FramePaceTest, more_pixels_take_longer) {
     EXPECT_EQ(pace.way(k_extent), Way::whole) << "nothing is known of a picture without pixels";
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::frame_pace_test

@@ -4,8 +4,7 @@
 
 #include <optional>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::frame_plan_test {
 
 using testing::ElementsAre;
 
@@ -171,5 +170,4 @@ TEST(PlanFrame, what_a_pass_discards_is_of_an_earlier_frame) {
     EXPECT_FALSE(plan_frame(scene_of(2), programs, 1, {}, {0}).feedback) << "nobody reads it";
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::frame_plan_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::last_drawing_test {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -64,5 +63,4 @@ TEST(LastDrawing, numbers_are_compared_one_by_one) {
     EXPECT_FALSE(drawn_from(two, 1).holds({{UniformNumbers{1}, UniformNumbers{2}}, {}}, 1));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::last_drawing_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::live_clock_test {
 
 constexpr double k_delta = 1 / 60.0;
 
@@ -212,5 +211,4 @@ TEST(LiveClockTest, a_frame_that_is_given_back_was_none) {
     EXPECT_EQ(counted.next_frame(0).seconds(), 0);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::live_clock_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::mouse_test {
 
 TEST(Mouse, starts_at_zero) {
     const glm::vec4 mouse = Mouse().uniform();
@@ -104,5 +103,4 @@ TEST(Mouse, a_press_at_pixel_zero_is_never_a_negative_zero) {
     }
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::mouse_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::orbit_camera_test {
 
 OrbitCamera camera(double azimuth, double elevation, double distance, glm::dvec3 target = glm::dvec3(0)) {
     return {azimuth, elevation, distance, target};
@@ -222,5 +221,4 @@ TEST(ParseCamera, its_numbers_are_floats) {
     EXPECT_TRUE(std::isfinite(column(*parse_camera("0,0,1e6,0,0,3.4028234e38"), 3).z));
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::orbit_camera_test

@@ -4,8 +4,7 @@
 
 #include <map>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::part_cursor_test {
 
 /// How often each pixel of a pass's face was taken.
 using Counts = std::map<std::pair<size_t, int>, std::vector<int>>;
@@ -117,5 +116,4 @@ TEST(PartCursorTest, a_frame_of_nothing_is_whole) {
     EXPECT_EQ(cursor.share(), 1);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::part_cursor_test

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::part_size_test {
 
 constexpr Extent k_extent{640, 360};
 
@@ -101,5 +100,4 @@ TEST(PartSizeTest, another_height_forgets_no_more_than_it_must) {
     EXPECT_LE(size.pixels({0, 0, {0, 8, {320, 42}}}), 320u) << "the rows that both have";
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::part_size_test

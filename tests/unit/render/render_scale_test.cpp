@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::render_scale_test {
 
 TEST(RenderScale, is_known_by_its_name) {
     std::vector<std::string> names;
@@ -30,5 +29,4 @@ TEST(RenderScale, steps_end_where_there_are_no_more) {
     EXPECT_EQ(RenderScale().stepped(1).steps_from(RenderScale().stepped(-3)), 4);
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::render_scale_test

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-namespace tidemark::render {
-namespace {
+namespace tidemark::render::tile_grid_test {
 
 constexpr int k_limit = 16384;
 
@@ -80,5 +79,4 @@ TEST(TileGridTest, sides_that_are_asked_for_are_even_and_within_the_limit) {
               "--tile 7: give an even number of pixels from 2 to 16384");
 }
 
-} // namespace
-} // namespace tidemark::render
+} // namespace tidemark::render::tile_grid_test

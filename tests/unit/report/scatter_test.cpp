@@ -9,8 +9,7 @@
 
 #include <set>
 
-namespace tidemark::report {
-namespace {
+namespace tidemark::report::scatter_test {
 
 using testing::DoubleEq;
 using testing::ElementsAre;
@@ -104,5 +103,4 @@ TEST(Page, fills_in_each_part_once_and_data_end_no_script) {
     EXPECT_EQ(escaped_lines("a\nb\t<"), "a\nb &lt;");
 }
 
-} // namespace
-} // namespace tidemark::report
+} // namespace tidemark::report::scatter_test

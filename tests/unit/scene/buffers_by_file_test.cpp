@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::buffers_by_file_test {
 
 using testing::ElementsAre;
 using testing::SizeIs;
@@ -145,5 +144,4 @@ TEST_F(BuffersByFile, each_says_for_itself_that_it_wants_keys) {
     EXPECT_FALSE(scene.passes[1].keyboard_helpers);
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::buffers_by_file_test

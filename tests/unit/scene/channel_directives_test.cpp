@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::channel_directives_test {
 
 constexpr Sampling k_extension{Filter::linear, Filter::linear, Mipmaps::none, Wrap::repeat, true};
 
@@ -176,5 +175,4 @@ TEST(ChannelDirectives, what_is_missing_is_said) {
     EXPECT_EQ(refusal("#iChannel0 \"\""), "dir/a.glsl:1: error: the name of the picture is empty");
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::channel_directives_test

@@ -5,8 +5,7 @@
 
 #include <set>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::channel_input_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -41,5 +40,4 @@ TEST(ChannelInput, a_pass_is_read_by_its_number_which_may_change) {
     EXPECT_EQ(source_pass(ChannelInput(Keyboard{})), nullptr);
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::channel_input_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::directives_test {
 
 std::string rest(std::string_view text) {
     text::MappedText mapped;
@@ -106,5 +105,4 @@ TEST(Directives, of_an_included_file_are_placed_there) {
     EXPECT_EQ(read->channels[0].where, (SourceLocation{"lib/b.glsl", 6, 0}));
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::directives_test

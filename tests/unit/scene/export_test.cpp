@@ -6,8 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::export_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -181,5 +180,4 @@ TEST_F(Export, more_buffers_than_shadertoy_has) {
               "tidemark: error: '0.glsl' has more than 4 buffers, which is all that ShaderToy has");
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::export_test

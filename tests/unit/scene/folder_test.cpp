@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::folder_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -185,5 +184,4 @@ TEST_F(Folder, textures_and_lib_beside_it_are_open_and_a_scene_may_be_a_link) {
     EXPECT_EQ(refusal("s/b.glsl"), "it was loaded");
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::folder_test

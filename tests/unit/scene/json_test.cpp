@@ -1,12 +1,12 @@
 // ShaderToy's JSON in all its forms becomes a Scene.
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
+#include "scene_support.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::json_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -41,13 +41,6 @@ protected:
 
     TemporaryFolder folder_;
 };
-
-std::vector<std::string> names_of(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const Pass& pass : scene.passes)
-        names.push_back(pass.name);
-    return names;
-}
 
 /// A project of the given passes, as the API wraps it.
 std::string project(std::string_view passes) {
@@ -268,5 +261,4 @@ TEST_F(Json, every_missing_file_is_one_warning) {
     EXPECT_EQ(scene->image().channels[2].input, ChannelInput(Music{}));
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::json_test

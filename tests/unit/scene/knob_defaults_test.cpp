@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::knob_defaults_test {
 
 std::string written(std::string_view text, KnobType type, const KnobValue& value) {
     const auto changed = with_defaults(text, {Knob{.name = "k", .type = type, .value = value}});
@@ -37,5 +36,4 @@ TEST(KnobDefaults, say_what_is_not_there) {
     EXPECT_EQ(written("#iUniform float", KnobType::float1, {9}), "no line '#iUniform … k' is in it");
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::knob_defaults_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::knob_directives_test {
 
 Knob knob(std::string_view text) {
     const auto directives = read(text);
@@ -201,5 +200,4 @@ TEST(KnobDirectives, what_is_missing_is_said) {
               "dir/a.glsl:1:20: error: expected a number but found the end of the line");
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::knob_directives_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::knob_test {
 
 std::string parsed(KnobType type, std::string_view text) {
     Knob knob;
@@ -127,5 +126,4 @@ TEST(FindKnob, by_name_or_with_a_hint) {
     EXPECT_EQ(find_knob(knobs, "fog").error().code, ErrorCode::usage);
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::knob_test

@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::media_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -116,5 +115,4 @@ TEST_F(MediaFiles, have_the_channels_that_the_site_gives_them) {
     EXPECT_EQ(input(load("x.json", options), 0, 0), ChannelInput(Picture{path() / "m/ad56fba9.jpg", true}));
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::media_test

@@ -6,8 +6,7 @@
 
 #include <string>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::saved_project_test {
 
 using testing::ElementsAre;
 
@@ -99,5 +98,4 @@ TEST(SavedProject, an_address_has_the_id_at_its_end) {
         EXPECT_FALSE(project_id(address)) << address;
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::saved_project_test

@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::scene {
-namespace {
+namespace tidemark::scene::scene_test {
 
 using testing::ElementsAre;
 
@@ -209,5 +208,4 @@ TEST_F(Overrides, channels_that_there_are_not) {
     EXPECT_EQ(message(override_channel(scene, "noise")), "--channel noise: give it as 0=noise");
 }
 
-} // namespace
-} // namespace tidemark::scene
+} // namespace tidemark::scene::scene_test

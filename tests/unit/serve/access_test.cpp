@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::serve {
-namespace {
+namespace tidemark::serve::access_test {
 
 constexpr std::string_view k_token = "0123456789abcdef";
 constexpr std::string_view k_socket = "/socket?token=0123456789abcdef";
@@ -77,5 +76,4 @@ TEST(Access, wants_tokens_that_nobody_guesses) {
         "the token has 6 characters: give 16 to 128 letters, digits, - or _, as in `openssl rand -hex 16`");
 }
 
-} // namespace
-} // namespace tidemark::serve
+} // namespace tidemark::serve::access_test

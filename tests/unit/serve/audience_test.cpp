@@ -10,8 +10,7 @@
 #include <latch>
 #include <mutex>
 
-namespace tidemark::serve {
-namespace {
+namespace tidemark::serve::audience_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -304,5 +303,4 @@ TEST(StateText, has_what_the_page_shows) {
         R"("line":"int x = y;","mark":"    ^"}]}})");
 }
 
-} // namespace
-} // namespace tidemark::serve
+} // namespace tidemark::serve::audience_test

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::serve {
-namespace {
+namespace tidemark::serve::request_test {
 
 using platform::InputEvent;
 
@@ -103,5 +102,4 @@ TEST(Request, that_is_damaged_is_refused) {
     EXPECT_NE(refusal(R"({"do":")" + std::string(1000, 'a') + R"("})"), "taken");
 }
 
-} // namespace
-} // namespace tidemark::serve
+} // namespace tidemark::serve::request_test

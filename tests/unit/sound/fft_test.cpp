@@ -7,8 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace tidemark::sound {
-namespace {
+namespace tidemark::sound::fft_test {
 
 using Complex = std::complex<double>;
 
@@ -47,5 +46,4 @@ TEST(Fft, of_one_impulse_is_flat_and_of_a_turn_one_line) {
         EXPECT_NEAR(std::abs(x[k]), k == 5 ? 64.0 : 0.0, 1e-12);
 }
 
-} // namespace
-} // namespace tidemark::sound
+} // namespace tidemark::sound::fft_test

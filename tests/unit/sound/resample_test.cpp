@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-namespace tidemark::sound {
-namespace {
+namespace tidemark::sound::resample_test {
 
 TEST(Resample, keeps_samples_of_the_same_rate) {
     const SoundData sound = sine(440.0, 0.5, 0.1);
@@ -38,5 +37,4 @@ TEST(Resample, a_constant_stays_and_nothing_stays_nothing) {
     EXPECT_TRUE(resampled({}, 48000, 44100).empty());
 }
 
-} // namespace
-} // namespace tidemark::sound
+} // namespace tidemark::sound::resample_test

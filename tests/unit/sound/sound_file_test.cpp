@@ -8,8 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace tidemark::sound {
-namespace {
+namespace tidemark::sound::sound_file_test {
 
 using testing::HasSubstr;
 
@@ -150,5 +149,4 @@ TEST_F(SoundFile, what_is_wrong_is_said) {
     EXPECT_EQ(message_of(lengthy), "cannot read " + in("l.wav") + ": it is longer than 20 minutes");
 }
 
-} // namespace
-} // namespace tidemark::sound
+} // namespace tidemark::sound::sound_file_test

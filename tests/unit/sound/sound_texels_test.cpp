@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace tidemark::sound {
-namespace {
+namespace tidemark::sound::sound_texels_test {
 
 TEST(SoundTexels, low_byte_first_left_before_right) {
     const std::vector<uint8_t> rgba = {0, 0, 255, 255, 0, 255, 255, 0};
@@ -33,5 +32,4 @@ TEST(SoundTexels, nothing_is_nothing) {
     EXPECT_TRUE(decode_sound_texels({}).empty());
 }
 
-} // namespace
-} // namespace tidemark::sound
+} // namespace tidemark::sound::sound_texels_test

@@ -6,8 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace tidemark::sound {
-namespace {
+namespace tidemark::sound::spectrum_test {
 
 constexpr double k_bin = 44100.0 / 2048.0;
 
@@ -173,5 +172,4 @@ TEST(SilentSignal, is_the_site_s) {
     }
 }
 
-} // namespace
-} // namespace tidemark::sound
+} // namespace tidemark::sound::spectrum_test

@@ -5,8 +5,7 @@
 
 #include <map>
 
-namespace tidemark::text {
-namespace {
+namespace tidemark::text::includes_test {
 
 using testing::ElementsAre;
 using Files = std::map<std::string, std::string>;
@@ -217,5 +216,4 @@ TEST(Includes, that_add_up_to_too_much_are_stopped) {
               "main.glsl: error: the includes add up to more than 16 MiB");
 }
 
-} // namespace
-} // namespace tidemark::text
+} // namespace tidemark::text::includes_test

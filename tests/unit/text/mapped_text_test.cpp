@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace tidemark::text {
-namespace {
+namespace tidemark::text::mapped_text_test {
 
 std::string at(const LineMap& lines, int line) {
     const SourceLocation where = lines.locate(line);
@@ -175,5 +174,4 @@ TEST(MappedText, columns_behind_an_edit_over_lines) {
     EXPECT_EQ(text.lines().locate(2, 2).column, 4);
 }
 
-} // namespace
-} // namespace tidemark::text
+} // namespace tidemark::text::mapped_text_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::text {
-namespace {
+namespace tidemark::text::token_at_test {
 
 TEST(TokenAt, lines_count_from_1) {
     EXPECT_EQ(line_of("a\nbc\n", 1), "a");
@@ -25,5 +24,4 @@ TEST(TokenAt, no_token_has_no_end) {
     EXPECT_EQ(end_of_token("// a", 1), 0);
 }
 
-} // namespace
-} // namespace tidemark::text
+} // namespace tidemark::text::token_at_test

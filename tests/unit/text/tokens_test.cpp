@@ -4,8 +4,7 @@
 
 #include <string>
 
-namespace tidemark::text {
-namespace {
+namespace tidemark::text::tokens_test {
 
 using testing::ElementsAre;
 
@@ -189,5 +188,4 @@ TEST(Tokens, long_texts_take_linear_time) {
     EXPECT_EQ(tokenize(repeated("#")).size(), 1'400'000u);
 }
 
-} // namespace
-} // namespace tidemark::text
+} // namespace tidemark::text::tokens_test

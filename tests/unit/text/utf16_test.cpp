@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::text {
-namespace {
+namespace tidemark::text::utf16_test {
 
 struct Case {
     std::string_view text;
@@ -40,5 +39,4 @@ TEST(Utf16, a_character_is_not_cut) {
     EXPECT_EQ(bytes_of_utf16("\U0001F30Ab", 2), 4u);
 }
 
-} // namespace
-} // namespace tidemark::text
+} // namespace tidemark::text::utf16_test
