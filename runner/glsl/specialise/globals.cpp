@@ -90,19 +90,27 @@ public:
         : text_(text), tree_(text.tree()), inserted_(text.words().size() + 1), gone_(text.words().size()) {}
 
     std::string run() {
-        size_t body = 0; // the word after the `{` of main
+        NodeId main = k_no_node;
+        size_t body = 0; // the word after its `{`
         for (const NodeId node : tree_.children(0)) {
             const NodeId last = tree_.children(node).empty() ? k_no_node : tree_.children(node).back();
             if (tree_[node].kind == NodeKind::declaration)
                 read(tree_.child(node, 0));
             else if (tree_[node].kind == NodeKind::function && text_.word_of(node) == "main" &&
-                     tree_[last].kind == NodeKind::block)
+                     tree_[last].kind == NodeKind::block) {
+                main = node;
                 body = tree_[last].begin + 1;
+            }
         }
         if (assignments_.empty() || body == 0)
             return text_.source().text();
         inserted_[body] = fmt::format("{}\n#line {}\n", assignments_, line_of(body - 1));
-        return written();
+        // The host's main may stand before the author's variables: it moves to the end.
+        Writer writer{*this, text_.headers()};
+        writer.write(0, tree_[main].begin);
+        writer.write(tree_[main].end, gone_.size());
+        writer.write(tree_[main].begin, tree_[main].end);
+        return std::move(writer.result);
     }
 
 private:
@@ -149,23 +157,27 @@ private:
                                       : std::string(text_.word_of(structure));
     }
 
-    std::string written() const {
-        std::string result = text_.headers();
+    /// Writes words on the lines that they stand on in the text.
+    struct Writer {
+        const ValueMover& mover;
+        std::string result;
         int line = 1 + int(std::ranges::count(result, '\n'));
-        for (size_t i = 0; i < gone_.size(); ++i) {
-            result += inserted_[i];
-            if (gone_[i])
-                continue;
-            if (line > line_of(i))
-                result += fmt::format("\n#line {}\n", line_of(i));
-            else
-                result.append(size_t(line_of(i) - line), '\n');
-            line = line_of(i);
-            result += text_.word(i);
-            result += ' ';
+
+        void write(size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                result += mover.inserted_[i];
+                if (mover.gone_[i])
+                    continue;
+                const int its_line = mover.line_of(i);
+                if (line > its_line)
+                    result += fmt::format("\n#line {}\n", its_line);
+                else
+                    result.append(size_t(its_line - line), '\n');
+                line = its_line;
+                result.append(mover.text_.word(i)) += ' ';
+            }
         }
-        return result;
-    }
+    };
 
     static constexpr std::string_view k_value = "tidemark_value";
 
