@@ -2,6 +2,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/help/help_formatter.hpp"
 #include "cli/last_resort.hpp"
 #include "cli/limits.hpp"
 #include "cli/supervisor.hpp"
@@ -9,8 +10,10 @@
 #include "platform/driver_cache.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -164,6 +167,7 @@ int run_or_throw(int argc, const char* const* argv) {
         "Tidemark runs ShaderToy shaders: live in a window, or into deterministic frames with no display.");
     app.name("tidemark");
     app.set_version_flag("--version", std::string("tidemark ") + k_version);
+    app.formatter(std::make_shared<HelpFormatter>());
     app.footer(k_footer);
     app.require_subcommand(1);
     // An alias may bring an option along that the line gives again.
@@ -205,9 +209,18 @@ int run_or_throw(int argc, const char* const* argv) {
     return code;
 }
 
+/// Keeps the number of a standard descriptor that the caller has closed: the next file that a library opens (Mesa's
+/// cache, say) would get it, and would be written to as standard output. Writing to this one fails.
+void occupy_standard_descriptors() {
+    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
+        if (::fcntl(descriptor, F_GETFD) < 0)
+            (void)::open("/dev/null", O_RDONLY); // the lowest number that is free
+}
+
 } // namespace
 
 int run(int argc, const char* const* argv) {
+    occupy_standard_descriptors();
     end_by_last_resort();
     try {
         return run_or_throw(argc, argv);

@@ -135,6 +135,8 @@ bool is_pass(const Json& json) {
 } // namespace
 
 Result<Json> parse_json(std::string_view text, const std::string& file) {
+    if (text.find_first_not_of(" \t\r\n") == text.npos)
+        return fail(error_at({file}, "this is no JSON: there is nothing in it"));
     Survey survey(text, file);
     TRY(survey.run());
     std::string mended;

@@ -61,7 +61,8 @@ class Video(ProgramTest):
                 self.assertIn(f"--codec {codec}: this ffmpeg has no ", done.stderr)
                 continue
             for name in names:
-                for size in ((64, 36), (33, 17)):  # of the second SVT-AV1 takes nothing
+                # The second is too small for SVT-AV1; x265 4.1 (Debian 13) crashes on pictures narrower than 64.
+                for size in ((64, 36), (33, 17) if codec == "av1" else (65, 17)):
                     self.succeed("capture", "a.glsl", "--size", f"{size[0]}x{size[1]}", "--fps", "25", "--frames", "3-12",
                                  "--codec", codec, "-o", name)
                     video = self.facts(name)["video"]

@@ -17,6 +17,10 @@ bool contains(const std::vector<NodeId>& ids, NodeId id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
+/// Of all loops of a pixel, where values are repaired: a loop that a NaN or an infinity has ended may not end without
+/// it, and not every driver cuts it off.
+constexpr int k_most_iterations = 1'000'000;
+
 class Watcher {
 public:
     Watcher(const ParsedText& text, const TreeFacts& facts, const WatchRequest& request)
@@ -221,13 +225,15 @@ private:
 
     void loop(NodeId id) {
         children(id, Cover::open);
+        const NodeId body = tree_[id].kind == NodeKind::loop_do    ? tree_.child(id, 0)
+                            : tree_[id].kind == NodeKind::loop_for ? tree_.child(id, 3)
+                                                                   : tree_.child(id, 1);
+        if (!request_.repaired.empty())
+            edits_.wrap(body, fmt::format("{{if(++{}iterations>{})break;", prefix_, k_most_iterations), "}");
         const auto counted = std::ranges::find(result_.loops, id);
         if (counted == result_.loops.end())
             return;
         const auto index = counted - result_.loops.begin();
-        const NodeId body = tree_[id].kind == NodeKind::loop_do    ? tree_.child(id, 0)
-                            : tree_[id].kind == NodeKind::loop_for ? tree_.child(id, 3)
-                                                                   : tree_.child(id, 1);
         edits_.wrap(body, fmt::format("{{if({0}h==0)++{0}L{1};", prefix_, index), "}");
         edits_.wrap(id, fmt::format("{{if({0}h==0){0}L{1}=0;", prefix_, index), "}");
     }

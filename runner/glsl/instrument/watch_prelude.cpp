@@ -74,6 +74,8 @@ public:
 
     std::string run() {
         add("layout(std430,binding=0) buffer $Buffer{uint $out[];};\nint $h=0;\n", {});
+        if (options_.repair)
+            add("int $iterations=0;\n", {});
         add(options_.nan_only ? k_nan_bad : k_any_bad, {});
         add(k_bad_vectors, {});
         for_each_matrix([&](int c, int r) { text_ += matrix_functions(options_.prefix, c, r); });

@@ -15,8 +15,13 @@ namespace {
 using Words = std::vector<std::string>;
 
 /// The filter that makes rows go from the top down and says by which matrix colours were coded.
-constexpr const char* k_upright_bt709 = "vflip,scale=out_color_matrix=bt709:out_range=tv";
-constexpr const char* k_bt709 = "scale=out_color_matrix=bt709:out_range=tv";
+// ffmpeg 7 takes the tags of a video from its frames, ffmpeg 5 from the options in `colour_words`.
+#define TIDEMARK_BT709                                                                                       \
+    "scale=out_color_matrix=bt709:out_range=tv,"                                                             \
+    "setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=iec61966-2-1"
+constexpr const char* k_upright_bt709 = "vflip," TIDEMARK_BT709;
+constexpr const char* k_bt709 = TIDEMARK_BT709;
+#undef TIDEMARK_BT709
 constexpr const char* k_palettes = "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
 
 Words with(Words words, std::initializer_list<const char*> more) {

@@ -2,6 +2,7 @@
 #include "image/plugin/picture_codec.hpp"
 #include "image/plugin/webp_colours.hpp"
 
+#include <dlfcn.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <sys/mman.h>
@@ -374,6 +375,15 @@ TextsResult texts(FileFormat format, std::span<const std::byte> file) noexcept {
     return guarded<TextsResult>([&] { return texts_or_throw(format, file); });
 }
 
+/// Sets no handlers of libtiff's messages: OpenImageIO 2.5 keeps a message, and lets libtiff print it as well.
+void silence_libtiff() {
+    using SetHandler = void* (*)(void*);
+    if (void* library = ::dlopen("libtiff.so.6", RTLD_LAZY | RTLD_NOLOAD))
+        for (const char* name : {"TIFFSetErrorHandler", "TIFFSetWarningHandler"})
+            if (const auto set = reinterpret_cast<SetHandler>(::dlsym(library, name)))
+                set(nullptr);
+}
+
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* tidemark_picture_codec() {
@@ -383,6 +393,7 @@ extern "C" __attribute__((visibility("default"))) const void* tidemark_picture_c
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", -1);
         OIIO::attribute("debug", 0); // Debian's build talks on stderr otherwise
+        silence_libtiff();
         return PictureCodec{k_picture_codec_version, encode, decode, texts, encode_rows, encode_parts};
     }();
     return &codec;
