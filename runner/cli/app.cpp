@@ -2,7 +2,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
-#include "cli/help/help_formatter.hpp"
+#include "cli/help_formatter.hpp"
 #include "cli/last_resort.hpp"
 #include "cli/limits.hpp"
 #include "cli/supervisor.hpp"

@@ -1,5 +1,7 @@
 #include "cli/command_line.hpp"
 
+#include "cli/help_formatter.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <cassert>
@@ -16,6 +18,30 @@ ValueCheck check_of(const CLI::Validator& validator) {
 }
 
 } // namespace
+
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+    std::string text;
+    if (option->get_type_size() != 0) {
+        if (!option->get_type_name().empty())
+            text += " " + option->get_type_name();
+        if (!option->get_default_str().empty())
+            text += "=" + option->get_default_str();
+        if (option->get_expected_max() == CLI::detail::expected_max_vector_size)
+            text += " ...";
+        else if (option->get_expected_min() > 1)
+            text += " x " + std::to_string(option->get_expected());
+        if (option->get_required())
+            text += " REQUIRED";
+    }
+    for (const auto& [heading, others] :
+         {std::pair{" Needs:", option->get_needs()}, std::pair{" Excludes:", option->get_excludes()}}) {
+        if (!others.empty())
+            text += heading;
+        for (const CLI::Option* other : others)
+            text += " " + other->get_name();
+    }
+    return text;
+}
 
 ValueCheck one_of(std::vector<std::string> words) {
     return [words = std::move(words)](const std::string& text) {
@@ -51,8 +77,8 @@ Option Option::capture_default_str() const {
     return Option(option_->capture_default_str());
 }
 Option Option::check(const ValueCheck& check) const {
-    return Option(option_->check(CLI::Validator(
-        [check](std::string& text) { return check(text); }, std::string())));
+    return Option(
+        option_->check(CLI::Validator([check](std::string& text) { return check(text); }, std::string())));
 }
 Option Option::required(bool required) const {
     return Option(option_->required(required));
@@ -120,7 +146,8 @@ template Option Command::add_option(const std::string&, std::filesystem::path&, 
 template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::optional<int>&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::optional<std::string>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::optional<std::string>&,
+                                    const std::string&) const;
 
 Option Command::add_option(const std::string& names, std::function<void(const std::string&)> function,
                            const std::string& description) const {

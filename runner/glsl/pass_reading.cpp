@@ -185,6 +185,11 @@ std::vector<Diagnostic> PassReading::entry_point_problems() const {
         return {{pass_.text.lines().locate(1), Severity::error,
                  fmt::format("{} has no {}", pass_.name.empty() ? "the text" : pass_.name, entry)}};
     }
+    // Mesa 25 links a call of the other form, which nothing defines, and draws black.
+    if (facts_.entry_takes_one && facts_.entries.size() == 1 &&
+        (pass_.kind == scene::PassKind::image || pass_.kind == scene::PassKind::buffer))
+        return {{place(facts_.entries[0]), Severity::error,
+                 fmt::format("{} takes two parameters: (out vec4 fragColor, in vec2 fragCoord)", entry)}};
     return {};
 }
 

@@ -209,6 +209,7 @@ private:
                 ++i;
             plain = plain && (peek(i + 1).is(",") || peek(i + 1).is(")"));
         }
+        result_.entry_takes_one = types.size() == 1 && types[0].starts_with("vec");
         const auto wanted = plain_parameters(kind_);
         if (kind_ == scene::PassKind::sound && types.size() == 1)
             result_.sound_takes_time_alone = types[0] == "float";

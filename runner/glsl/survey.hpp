@@ -49,6 +49,7 @@ struct Survey {
     bool entry_is_macro = false; ///< golf: `#define mainImage(O,U) …`
     bool entry_is_plain = false; ///< the definition has the parameters that our prototype has
     bool entry_reads_colour = false;     ///< its colour is `inout`
+    bool entry_takes_one = false;        ///< its only parameter is a vector
     bool entry_in_macro = false;         ///< `#define main() mainImage(out vec4 …)`
     bool sound_takes_time_alone = false; ///< `mainSound(float time)`
     std::vector<size_t> mains;           ///< the name of each `void main()` of the author's own

@@ -176,6 +176,12 @@ protected:
             write(pointer(each.at(5)), whole);
             return build_.difference(a(), whole);
         }
+        case GLSLstd450ModfStruct: { // glslang 15's form: a structure of both parts
+            const Values whole = build_.each(Op::truncate, Scalar::real, {a()});
+            Values parts = build_.difference(a(), whole);
+            parts.insert(parts.end(), whole.begin(), whole.end());
+            return parts;
+        }
         default: cannot(fmt::format("the built-in function number {}", uint32_t(function_id)));
         }
     }

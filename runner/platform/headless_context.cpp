@@ -265,6 +265,9 @@ HeadlessDevice describe(const Place& place) {
         device.kind = kind_of_display((*context)->display);
     device.renderer = gl_string(GL_RENDERER);
     device.version = gl_string(GL_VERSION);
+    // The renderer's name decides: with a display, Mesa 25 calls llvmpipe's surfaceless device hardware.
+    if (is_software_renderer(device.renderer))
+        device.kind = DeviceKind::software;
     return device;
 }
 

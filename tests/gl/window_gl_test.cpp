@@ -76,8 +76,12 @@ TEST(WindowWithoutDisplay, says_what_the_window_system_says) {
         const auto window = Window::create({64, 64}, "t");
         ASSERT_FALSE(window);
         EXPECT_EQ(window.error().code, ErrorCode::no_context);
-        EXPECT_EQ(window.error().message, "cannot open a window: X11: Failed to open display :4711; "
-                                          "`tidemark capture` draws without one");
+        // GLFW 3.3 names the display, 3.4 tries every platform first.
+        EXPECT_THAT(window.error().message,
+                    testing::AnyOf("cannot open a window: X11: Failed to open display :4711; "
+                                   "`tidemark capture` draws without one",
+                                   "cannot open a window: Failed to detect any supported platform; "
+                                   "`tidemark capture` draws without one"));
     }
 }
 

@@ -1,9 +1,8 @@
 #include "cli/help/man_page.hpp"
 
-#include "cli/help/help_formatter.hpp"
-
 #include "cli/help/pages.hpp"
 #include "cli/help/topics.hpp"
+#include "cli/help_formatter.hpp"
 #include "cli/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -121,30 +120,6 @@ std::string examples(const CLI::App& command) {
 }
 
 } // namespace
-
-std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
-    std::string text;
-    if (option->get_type_size() != 0) {
-        if (!option->get_type_name().empty())
-            text += " " + option->get_type_name();
-        if (!option->get_default_str().empty())
-            text += "=" + option->get_default_str();
-        if (option->get_expected_max() == CLI::detail::expected_max_vector_size)
-            text += " ...";
-        else if (option->get_expected_min() > 1)
-            text += " x " + std::to_string(option->get_expected());
-        if (option->get_required())
-            text += " REQUIRED";
-    }
-    for (const auto& [heading, others] : {std::pair{" Needs:", option->get_needs()},
-                                          std::pair{" Excludes:", option->get_excludes()}}) {
-        if (!others.empty())
-            text += heading;
-        for (const CLI::Option* other : others)
-            text += " " + other->get_name();
-    }
-    return text;
-}
 
 ManPage man_page(const CLI::App& command) {
     const bool whole = command.get_parent() == nullptr;

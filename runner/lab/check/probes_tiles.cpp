@@ -30,7 +30,13 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, "a pass reads the picture, which is drawn whole at any size"};
     const image::Image tiled = render::draw_in_tiles(cut, inputs);
     const auto whole = TRY(drawn(std::nullopt));
-    if (const size_t different = different_pixels(tiled, whole.read_back()))
+    const image::Image uncut = whole.read_back();
+    const size_t different = different_pixels(tiled, uncut);
+    // Mesa 25 reads the levels of a texture a little otherwise in each tile.
+    if (different > 0 && p99_difference(uncut, tiled) <= k_visible_gap)
+        return Answer{Verdict::pass, fmt::format("{} of {} pixels differ in {} tiles, by less than shows",
+                                                 different, tiled.extent.pixels(), cut.tiles()->count())};
+    if (different > 0)
         return Answer{Verdict::fail,
                       fmt::format("{} of {} pixels differ when drawn in {}x{} tiles{}", different,
                                   tiled.extent.pixels(), k_tile.width, k_tile.height, bench.see_bounds()),
