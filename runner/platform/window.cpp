@@ -164,6 +164,9 @@ Result<Window> Window::create(Extent logical_size, const std::string& title, con
         return cannot_open("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
     if (library_runs())
         return cannot_open("this process has one already");
+#ifdef GLFW_PLATFORM // GLFW 3.4 tries Wayland first, whose library complains on standard error
+    glfwInitHint(GLFW_PLATFORM, is_set("WAYLAND_DISPLAY") ? GLFW_ANY_PLATFORM : GLFW_PLATFORM_X11);
+#endif
     if (!glfwInit())
         return cannot_open(last_glfw_error());
     auto state = std::make_unique<State>();

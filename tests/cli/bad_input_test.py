@@ -125,7 +125,7 @@ class DoesNotCompile(ProgramTest):
 
     def test_main_image_of_another_shape(self):
         self.write("a.glsl", "vec4 mainImage(vec2 p) { return vec4(p, 0.0, 1.0); }\n")
-        self.expect_refusal("a.glsl", r"a\.glsl:1:6: error: mainImage takes two parameters: "
+        self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:1:6: error: mainImage takes two parameters: "
                                       r"\(out vec4 fragColor, in vec2 fragCoord\)")
 
 

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, let_it_crash, main
+from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, has_mesa_22, let_it_crash, main
 
 MAIN = "void mainImage(out vec4 c, in vec2 p) { %s }\n"
 PLAIN = MAIN % "c = vec4(p.x / 640.0, 0.0, 0.0, 1.0);"
@@ -61,6 +61,11 @@ def children(process: int) -> list[int]:
 
 
 class Crash(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        if not has_mesa_22():
+            self.skipTest("this driver compiles the sum")
+
     def test_is_said_with_what_the_driver_was_at(self):
         self.write("sum.glsl", sum_of(20000))
         for command in (["capture", "sum.glsl"], ["inspect", "sum.glsl"]):
@@ -204,7 +209,7 @@ class FullDisk(ProgramTest):
         self.write("plain.glsl", PLAIN)
         folder = self.mount("16m")
         self.capture(MESA_SHADER_CACHE_DIR=str(folder))
-        self.assertIn("cache/mesa_shader_cache/index", self.files())
+        self.assertTrue([name for name in self.files() if name.startswith("cache/mesa_shader_cache")])
 
     def test_no_home(self):
         self.write("plain.glsl", PLAIN)

@@ -2,7 +2,7 @@
 import json
 
 from support import png
-from support.program import ProgramTest, environment, main
+from support.program import ProgramTest, environment, has_mesa_22, main
 
 SCENE = """#include "lib.glsl"
 #iChannel1 "noise"
@@ -286,8 +286,11 @@ class SelfTest(ProgramTest):
             for name in ("read-back", "read-ahead", "bytes", "arithmetic", "repeatability", "tiles", "doubles", "conformance"):
                 self.assertEqual(verdicts[name]["verdict"], "pass", verdicts[name])
             if "llvmpipe" in device["renderer"]:
-                self.assertEqual(verdicts["loops"]["verdict"], "warn")
-                self.assertIn("65535 of 1000000 turns", verdicts["loops"]["says"])
+                if has_mesa_22():
+                    self.assertEqual(verdicts["loops"]["verdict"], "warn")
+                    self.assertIn("65535 of 1000000 turns", verdicts["loops"]["says"])
+                else:
+                    self.assertEqual(verdicts["loops"]["verdict"], "pass")
 
     def test_a_processor_is_no_gpu(self):
         devices = json.loads(self.succeed("inspect", "--devices", "--json").stdout)["devices"]

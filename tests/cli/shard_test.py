@@ -146,7 +146,7 @@ class Shards(ProgramTest):
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_ten_bits_and_alpha_of_a_video_of_them(self):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / 97.0, sin(iTime * 31.0), 0.7 + p.x / 999.0); }\n")
-        frames = ("capture", "a.glsl", "--size", "48x20", "--frames", "0-5,9", "--fps", "25")
+        frames = ("capture", "a.glsl", "--size", "64x20", "--frames", "0-5,9", "--fps", "25")
         for folder, name, options in (("plain", "%d.png", ("--depth", "16")),
                                       ("straight", "%d.png", ("--depth", "16", "--alpha", "keep")),
                                       ("multiplied", "%d.tif", ("--depth", "16", "--alpha", "premultiplied"))):
@@ -157,7 +157,7 @@ class Shards(ProgramTest):
             alpha = () if folder == "plain" else options[2:]
             self.succeed(*frames, *alpha, "-o", "whole.mov")
             theirs, ours = (self.luma(name) for name in (f"{folder}.mov", "whole.mov"))
-            self.assertEqual(len(theirs), 48 * 20 * 10)  # frame 5 is shown for four ticks
+            self.assertEqual(len(theirs), 64 * 20 * 10)  # frame 5 is shown for four ticks
             # Multiplied colours are rounded to 16 bits in the file, before they are to 10.
             self.assertLessEqual(max(abs(a - b) for a, b in zip(theirs, ours)), 16 if folder == "multiplied" else 0, folder)
         self.expect_failure_like(["gather", "plain", "--sample", "0", "-o", "a.mp4", "--codec", "vp9"], 2,

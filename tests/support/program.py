@@ -1,6 +1,7 @@
 """Runs the program under test and says what it did. The program is $TIDEMARK, else the release build."""
 from __future__ import annotations
 
+import functools
 import json
 import os
 import pathlib
@@ -46,6 +47,14 @@ def is_sanitized() -> bool:
 def not_sanitized(test):
     """For tests of how much memory the program takes, or does with: a sanitizer needs some terabytes of addresses itself."""
     return unittest.skipIf(is_sanitized(), "the program is sanitized")(test)
+
+
+@functools.cache
+def has_mesa_22() -> bool:
+    """Mesa 22.3 (Debian 12) crashes on some texts that 25.0 (Debian 13) compiles, and cuts loops off at 65,535 turns."""
+    listed = subprocess.run([PROGRAM, "inspect", "--devices"], stdout=subprocess.PIPE, text=True,
+                            env=environment(), timeout=TIME_LIMIT, check=True)
+    return "Mesa 22." in listed.stdout
 
 
 def has_context() -> bool:

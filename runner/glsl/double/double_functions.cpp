@@ -50,7 +50,14 @@ std::string in_floats(std::string_view name, const BuiltinOverload& overload) {
     const auto passed = [](auto type, size_t i) {
         return is_float_type(type) ? fmt::format("{}(a{})", type, i) : fmt::format("a{}", i);
     };
-    return definition(name, overload, fmt::format("{}({})", name, listed(overload, passed)));
+    if (!name.starts_with("floatBitsTo"))
+        return definition(name, overload, fmt::format("{}({})", name, listed(overload, passed)));
+    // Hashes take their bits from a float. Mesa 25 takes double(float(a)) for a, unless the float is
+    // `precise`.
+    const std::string type =
+        listed(overload, [](auto name_of_type, size_t) { return std::string(name_of_type); });
+    std::string text = definition(name, overload, fmt::format("{}(rounded)", name));
+    return text.insert(text.find('{') + 1, fmt::format(" precise {0} rounded = {0}(a0);", type));
 }
 
 std::string by_component(std::string_view name, const BuiltinOverload& overload) {
