@@ -169,6 +169,11 @@ std::optional<Diagnostic> PassReading::shut_out(std::string_view entry) const {
     return std::nullopt;
 }
 
+bool PassReading::entry_lacks_parameters() const {
+    return facts_.entry_takes_one && facts_.entries.size() == 1 &&
+           (pass_.kind == scene::PassKind::image || pass_.kind == scene::PassKind::buffer);
+}
+
 std::vector<Diagnostic> PassReading::entry_point_problems() const {
     const std::string_view entry = entry_point(pass_.kind);
     const auto place = [&](size_t token) {
@@ -185,9 +190,7 @@ std::vector<Diagnostic> PassReading::entry_point_problems() const {
         return {{pass_.text.lines().locate(1), Severity::error,
                  fmt::format("{} has no {}", pass_.name.empty() ? "the text" : pass_.name, entry)}};
     }
-    // Mesa 25 links a call of the other form, which nothing defines, and draws black.
-    if (facts_.entry_takes_one && facts_.entries.size() == 1 &&
-        (pass_.kind == scene::PassKind::image || pass_.kind == scene::PassKind::buffer))
+    if (entry_lacks_parameters())
         return {{place(facts_.entries[0]), Severity::error,
                  fmt::format("{} takes two parameters: (out vec4 fragColor, in vec2 fragCoord)", entry)}};
     return {};

@@ -34,6 +34,8 @@ public:
     Result<Assembly> assemble(const Dialect& dialect) const;
     /// What no dialect can cure: no entry point, or several (tabs pasted into one file), each with its place.
     std::vector<Diagnostic> entry_point_problems() const;
+    /// Whether mainImage takes a vector alone. Mesa 25 links the call of ours all the same, and draws black.
+    bool entry_lacks_parameters() const;
     /// Where a name of the text stands first.
     std::optional<SourceLocation> place_of(std::string_view name) const;
     /// What the site would compile of it: GLSL ES 3.00, and nothing of the text changed. Knobs are the

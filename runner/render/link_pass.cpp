@@ -37,6 +37,8 @@ public:
     /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
     /// dialect fails, the driver's words tell which kinds are worth trying.
     Result<LinkedPass> link() {
+        if (reading_.entry_lacks_parameters())
+            return fail(error());
         const std::vector<glsl::Dialect> dialects = reading_.dialects(options_.precision);
         if (auto linked = first_that_links(dialects))
             return *std::move(linked);
