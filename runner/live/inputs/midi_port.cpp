@@ -33,14 +33,14 @@ struct MidiLibrary {
 
 Result<MidiLibrary> load_rtmidi() {
     MidiLibrary functions;
-    SharedLibrary library("librtmidi.so.6");
+    SharedLibrary library("librtmidi.so." TIDEMARK_RTMIDI_NUMBER);
     library.find("rtmidi_in_create", functions.create)
         .find("rtmidi_in_free", functions.free)
         .find("rtmidi_get_port_count", functions.port_count)
         .find("rtmidi_get_port_name", functions.port_name)
         .find("rtmidi_open_port", functions.open_port)
         .find("rtmidi_in_set_callback", functions.set_callback);
-    TRY(library.complete("librtmidi, which listens to MIDI", "librtmidi6"));
+    TRY(library.complete("librtmidi, which listens to MIDI", "librtmidi" TIDEMARK_RTMIDI_NUMBER));
     return functions;
 }
 
