@@ -1,5 +1,5 @@
-// Compiled once for all modules: the headers that most of them include. A file still includes what it uses; the
-// preset `dev` compiles without this one and finds what is missing.
+// Compiled once for all modules: the headers that most of them include. A file still includes what it uses;
+// the preset `dev` compiles without this one and finds what is missing.
 #pragma once
 
 #include <fmt/format.h>

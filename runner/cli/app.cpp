@@ -209,8 +209,8 @@ int run_or_throw(int argc, const char* const* argv) {
     return code;
 }
 
-/// Keeps the number of a standard descriptor that the caller has closed: the next file that a library opens (Mesa's
-/// cache, say) would get it, and would be written to as standard output. Writing to this one fails.
+/// Keeps the number of a standard descriptor that the caller has closed: the next file that a library opens
+/// (Mesa's cache, say) would get it, and would be written to as standard output. Writing to this one fails.
 void occupy_standard_descriptors() {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
         if (::fcntl(descriptor, F_GETFD) < 0)

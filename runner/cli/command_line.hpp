@@ -1,5 +1,5 @@
-// The command line as the commands declare it. CLI11 parses it; only command_line.cpp, app.cpp and the pages made
-// from the options (help/) include CLI11, which takes seconds to compile.
+// The command line as the commands declare it. CLI11 parses it; only command_line.cpp, app.cpp and the pages
+// made from the options (help/) include CLI11, which takes seconds to compile.
 #pragma once
 
 #include "base/result.hpp"

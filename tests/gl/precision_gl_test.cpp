@@ -35,12 +35,14 @@ protected:
     /// The first red of a promoted shader, with what it lost as a float in green.
     double told_in_double(const std::string& expression, const FrameInputs& inputs = {},
                           const std::string& before = {}) const {
-        const auto less = [&](double by) { // a driver may take double(float(v)) for v: the float comes back as a constant
-            const std::string text = fmt::format("{}\nvoid mainImage(out vec4 c, in vec2 p) {{ float v = {};"
-                                                 " c = vec4(v - ({:.17e}), 0, 0, 1); }}\n",
-                                                 before, expression, by);
-            return double(floats_at(picture(text, Precision::promoted, inputs, {1, 1}), 0, 0)[0]);
-        };
+        const auto less =
+            [&](double by) { // a driver may take double(float(v)) for v: the float comes back as a constant
+                const std::string text =
+                    fmt::format("{}\nvoid mainImage(out vec4 c, in vec2 p) {{ float v = {};"
+                                " c = vec4(v - ({:.17e}), 0, 0, 1); }}\n",
+                                before, expression, by);
+                return double(floats_at(picture(text, Precision::promoted, inputs, {1, 1}), 0, 0)[0]);
+            };
         const double high = less(0);
         return high + less(high);
     }

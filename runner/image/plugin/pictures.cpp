@@ -2,9 +2,9 @@
 #include "image/plugin/picture_codec.hpp"
 #include "image/plugin/webp_colours.hpp"
 
-#include <dlfcn.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -375,7 +375,8 @@ TextsResult texts(FileFormat format, std::span<const std::byte> file) noexcept {
     return guarded<TextsResult>([&] { return texts_or_throw(format, file); });
 }
 
-/// Sets no handlers of libtiff's messages: OpenImageIO 2.5 keeps a message, and lets libtiff print it as well.
+/// Sets no handlers of libtiff's messages: OpenImageIO 2.5 keeps a message, and lets libtiff print it as
+/// well.
 void silence_libtiff() {
     using SetHandler = void* (*)(void*);
     if (void* library = ::dlopen("libtiff.so.6", RTLD_LAZY | RTLD_NOLOAD))

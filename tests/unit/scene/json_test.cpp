@@ -168,8 +168,7 @@ TEST_F(Json, samplers_are_texts_and_may_be_missing) {
 
 TEST_F(Json, what_is_no_project_is_told_so) {
     EXPECT_EQ(error_of("<html>"), "x.json:1:1: error: this is no JSON: invalid literal");
-    EXPECT_EQ(error_of(""),
-              "x.json: error: this is no JSON: there is nothing in it");
+    EXPECT_EQ(error_of(""), "x.json: error: this is no JSON: there is nothing in it");
     EXPECT_EQ(error_of("{\n \"Shader\": {,}}"),
               "x.json:2:13: error: this is no JSON: unexpected ','; expected string literal");
     EXPECT_EQ(error_of(R"({"Error":"Shader not found"})"),
