@@ -17,8 +17,8 @@ bool contains(const std::vector<NodeId>& ids, NodeId id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-/// Of all loops of a pixel, where values are repaired: a loop that a NaN or an infinity has ended may not end
-/// without it, and not every driver cuts it off.
+/// Limit of the iterations of all loops of a pixel where values are repaired: a loop that a NaN or an
+/// infinity has ended may not end without it, and not every driver cuts it off.
 constexpr int k_most_iterations = 1'000'000;
 
 class Watcher {

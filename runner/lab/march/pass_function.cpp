@@ -47,7 +47,7 @@ void store(ir::PointEvaluator<Real>& evaluator, const Variable& variable, uint32
                                                          : ir::Point<Real>{0, uint32_t(int64_t(value))};
 }
 
-/// What glslang defines, as far as scenes ask for it.
+/// The macros of glslang that scenes test.
 constexpr glsl::KnownMacro k_macros[] = {
     {"__VERSION__", 450}, {"GL_FRAGMENT_PRECISION_HIGH", 1}, {"GL_core_profile", 1}};
 

@@ -286,7 +286,7 @@ TEST(Specialise, follows_chains_of_any_length) {
     EXPECT_EQ(count(result.source.text(), "f2999("), 2);
 }
 
-/// As `assign_globals_in_main` writes it; runs of blanks come down to one.
+/// Returns the text of `assign_globals_in_main` with runs of blanks as one blank.
 std::string with_globals_in_main(const std::string& text) {
     const std::string written = assign_globals_in_main(*parsed("#version 450\n" + text));
     std::string squeezed;
