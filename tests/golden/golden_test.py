@@ -34,10 +34,10 @@ SCENES = {
 RENDERER = "llvmpipe"
 STEP = str(16.5 / 255)
 LIMITS = ["--min-psnr", "40", "--tolerance", STEP, "--max-differing", "1"]
-# Of another one: what a person sees who flips between the two pictures. Here 0.0095 at most, by llvmpipe of 2026-11-23.
+# Of another one: what a person sees who flips between the two pictures. 0.033 at most by an NVIDIA H100.
 # A picture that is moved by a row has 0.05 to 0.20, one that is darker by a twentieth 0.16 or more. FLIP is a mean:
 # pixels that are quite different are counted apart.
-LIMITS_ELSEWHERE = ["--max-flip", "0.03", "--tolerance", STEP, "--max-differing", "2"]
+LIMITS_ELSEWHERE = ["--max-flip", "0.04", "--tolerance", STEP, "--max-differing", "2"]
 
 
 def limits_of(driver: str) -> list[str]:

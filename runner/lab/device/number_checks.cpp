@@ -120,8 +120,10 @@ Result<DeviceAnswer> ask_contraction() {
 Result<DeviceAnswer> ask_doubles() {
     const double quotient = TRY(largest_double_error("1.0lf / x", [](double x) { return 1.0 / x; }));
     const double root = TRY(largest_double_error("sqrt(x)", [](double x) { return std::sqrt(x); }));
+    // GLSL asks nothing of them. Four units are far below any error that is told of a picture.
+    constexpr double k_harmless = 4;
     return DeviceAnswer{
-        quotient <= 1 && root <= 1 ? Verdict::pass : Verdict::fail,
+        quotient <= k_harmless && root <= k_harmless ? Verdict::pass : Verdict::fail,
         fmt::format("1 / x is off by {:.3g} ulp of a double at most, sqrt by {:.3g}", quotient, root)};
 }
 
