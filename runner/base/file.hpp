@@ -71,6 +71,11 @@ private:
 Result<void> write_file(const OutputPath& output, std::span<const std::byte> bytes);
 Result<void> write_file(const OutputPath& output, std::string_view text);
 
+/// Puts a text in the place of the one that a file of a person's has, which keeps its mode, its owner and its
+/// names. Fails (ErrorCode::write) and changes nothing where its bytes are not `before` any more, and where
+/// it is read-only.
+Result<void> replace_text(const OutputPath& output, std::string_view before, std::string_view after);
+
 /// Whether `write_file` would come to writing (ErrorCode::write as there): asked before long work. Leaves
 /// nothing behind.
 Result<void> check_writable(const OutputPath& output);

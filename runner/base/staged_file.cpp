@@ -277,6 +277,45 @@ Result<void> write_file(const OutputPath& output, std::string_view text) {
     return write_file(output, std::as_bytes(std::span(text)));
 }
 
+namespace {
+
+/// A file with several names stays one file: its bytes are written over, not replaced.
+Result<void> write_over(const OutputPath& output, const fs::path& path, std::span<const std::byte> bytes) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
+    if (file.get() < 0)
+        return cannot_write(output, errno);
+    if (const int error = write_all(file.get(), bytes))
+        return cannot_write(output, error);
+    if (::ftruncate(file.get(), off_t(bytes.size())) != 0)
+        return cannot_write(output, errno);
+    const int error = file.close();
+    return error ? cannot_write(output, error) : Result<void>();
+}
+
+} // namespace
+
+Result<void> replace_text(const OutputPath& output, std::string_view before, std::string_view after) {
+    const auto place = TRY(output.place());
+    struct stat facts {};
+    if (::stat(place.path.c_str(), &facts) != 0)
+        return cannot_write(output, errno);
+    constexpr mode_t k_anybody_writes = 0222;
+    if ((facts.st_mode & k_anybody_writes) == 0) // also for root, who may write everything
+        return cannot_write(output, "it is read-only");
+    if (::access(place.path.c_str(), W_OK) != 0)
+        return cannot_write(output, errno);
+    auto staged = TRY(StagedFile::create(output)); // written first: a disk that is full is known before
+    TRY(staged.write(std::as_bytes(std::span(after))));
+    const bool same_owner = ::fchown(staged.descriptor(), facts.st_uid, facts.st_gid) == 0;
+    const bool same_mode = ::fchmod(staged.descriptor(), facts.st_mode & ~mode_t(S_IFMT)) == 0;
+    if (const auto now = read_file(place.path); !now || *now != before)
+        return fail(ErrorCode::write,
+                    fmt::format("'{}' was changed meanwhile: nothing is written", output.string()));
+    if (same_owner && same_mode && facts.st_nlink == 1)
+        return staged.commit();
+    return write_over(output, place.path, std::as_bytes(std::span(after)));
+}
+
 Result<void> check_writable(const OutputPath& output) {
     auto place = TRY(output.place());
     if (place.stream)

@@ -7,6 +7,7 @@
 #include "scene/knob_defaults.hpp"
 #include "scene/overrides.hpp"
 #include "text/lines.hpp"
+#include "text/mapped_text.hpp"
 
 #include <fmt/format.h>
 
@@ -106,7 +107,9 @@ Result<std::vector<ChangedFile>> CuredFiles::with_last(std::span<const glsl::Cur
 
 std::string difference(const ChangedFile& file) {
     std::string text = fmt::format("--- {}\n+++ {}\n", file.file, file.file);
-    const auto before = text::lines_of(file.before), after = text::lines_of(file.after);
+    const std::string texts[] = {text::with_plain_line_ends(file.before),
+                                 text::with_plain_line_ends(file.after)};
+    const auto before = text::lines_of(texts[0]), after = text::lines_of(texts[1]);
     for (size_t i = 0; i < std::min(before.size(), after.size()); ++i)
         if (before[i] != after[i])
             text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", i + 1, before[i], after[i]);
@@ -119,7 +122,7 @@ Result<void> write_files(const std::vector<ChangedFile>& files) {
             return fail(ErrorCode::write,
                         fmt::format("'{}' was changed meanwhile: nothing is written", file.file));
     for (const ChangedFile& file : files)
-        TRY(write_file(OutputPath::typed(file.file), file.after));
+        TRY(replace_text(OutputPath::typed(file.file), file.before, file.after));
     return {};
 }
 

@@ -90,6 +90,11 @@ OutputName OutputName::of_scene(const fs::path& scene, size_t frame_count) {
     return name;
 }
 
+void OutputName::came_from_a_file() {
+    const size_t slash = before_.rfind('/');
+    chosen_from_ = std::min(chosen_from_, slash == std::string::npos ? 0 : slash + 1);
+}
+
 /// A link may stand where a person typed a name, in folders in front of it too, but not where we chose one.
 OutputPath OutputName::output_of(const std::string& name) const {
     if (chosen_from_ == std::string::npos)

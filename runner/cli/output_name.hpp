@@ -40,6 +40,9 @@ public:
     const std::filesystem::path& pattern() const { return pattern_; }
     /// Files that are read and must not be replaced.
     void spare(std::vector<std::filesystem::path> files) { spared_ = std::move(files); }
+    /// The name was read from a file: a person typed its folder at most, and a link under the name is not
+    /// followed.
+    void came_from_a_file();
 
 private:
     OutputPath output_of(const std::string& name) const;

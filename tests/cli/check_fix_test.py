@@ -121,6 +121,28 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
             pairs = sum((a - mean) * (b - mean) for a, b in zip(values, values[step:]))
             self.assertLess(abs(pairs / variance), 4 / 128)
 
+    def test_a_file_of_another_encoding_keeps_its_bytes(self):
+        """Latin-1 in a comment, lines that end in CR alone or in CR and LF, the mode of the file."""
+        fault, mended = "c = vec4(sqrt(uv.x - 0.5));", "c = vec4(sqrt(max(uv.x - 0.5, 0.0)));"
+        for end in (b"\n", b"\r", b"\r\n"):
+            with self.subTest(end):
+                text = (b"// h\xf6he \xb5\n" + BODY.encode()).replace(b"\n", end)
+                scene = self.folder / "a.glsl"
+                scene.write_bytes(text % fault.encode())
+                scene.chmod(0o640)
+                self.fix("a.glsl", "--write")
+                self.assertEqual(scene.read_bytes(), text % mended.encode())
+                self.assertEqual(scene.stat().st_mode & 0o777, 0o640)
+
+    def test_a_read_only_file_stays(self):
+        scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
+        scene.chmod(0o444)
+        before = scene.read_text()
+        done = self.run_program("check", "--fix", "a.glsl", "--write", *BUDGET)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("cannot write 'a.glsl': it is read-only", done.stderr)
+        self.assertEqual((scene.read_text(), scene.stat().st_mode & 0o777), (before, 0o444))
+
     def test_without_write_the_file_stays(self):
         scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
         before = scene.read_text()

@@ -117,6 +117,18 @@ class Shards(ProgramTest):
                     path.unlink()
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_a_link_under_the_name_of_the_video_is_not_followed(self):
+        """The name stands in shards.json, and the folder may be a stranger's."""
+        self.write("mine.txt", "mine")
+        for k in (1, 2):
+            self.succeed("capture", "a.glsl", "--size", "64x36", "--frames", "0-9", "--state-every", "5",
+                         "--shard", f"{k}/2", "-o", "out/x.mp4")
+        (self.folder / "out" / "x.mp4").symlink_to(self.folder / "mine.txt")
+        done = self.run_program("gather", "out")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("x.mp4", done.stderr)
+        self.assertEqual((self.folder / "mine.txt").read_text(), "mine")
+
     def test_segments_of_a_video_with_feedback(self):
         self.write_feedback()
         run = ("capture", "fb", *SEQUENCE[2:-1], *self.FILM)

@@ -52,6 +52,7 @@ Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& n
         return fail(ErrorCode::usage,
                     fmt::format("'{}' was written for '{}': run gather where the shards were run",
                                 file.string(), plan.output.pattern().string()));
+    plan.output.came_from_a_file();
     plan.trial.reset(); // shards make none
     return plan;
 }

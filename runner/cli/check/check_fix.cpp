@@ -22,18 +22,45 @@
 namespace tidemark::cli {
 namespace {
 
+/// Each byte as the character of its number: JSON's texts hold UTF-8 alone, and files hold any bytes.
+std::string characters_of(std::string_view bytes) {
+    std::string text;
+    for (const char c : bytes) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80)
+            text += c;
+        else
+            text += {char(0xC0 | byte >> 6), char(0x80 | (byte & 0x3F))};
+    }
+    return text;
+}
+
+std::string bytes_of(std::string_view characters) {
+    std::string bytes;
+    for (size_t i = 0; i < characters.size(); ++i) {
+        const auto first = static_cast<unsigned char>(characters[i]);
+        bytes += first < 0x80 || i + 1 == characters.size()
+                     ? characters[i]
+                     : char((first & 0x03) << 6 | (static_cast<unsigned char>(characters[++i]) & 0x3F));
+    }
+    return bytes;
+}
+
 Json files_json(const std::vector<ChangedFile>& files) {
     Json json = Json::array();
     for (const ChangedFile& file : files)
-        json.push_back({{"file", file.file}, {"before", file.before}, {"after", file.after}});
+        json.push_back({{"file", characters_of(file.file)},
+                        {"before", characters_of(file.before)},
+                        {"after", characters_of(file.after)}});
     return json;
 }
 
 std::vector<ChangedFile> files_of(const Json& json) {
     std::vector<ChangedFile> files;
     for (const Json& file : json)
-        files.push_back({file.at("file").get<std::string>(), file.at("before").get<std::string>(),
-                         file.at("after").get<std::string>()});
+        files.push_back({bytes_of(file.at("file").get<std::string>()),
+                         bytes_of(file.at("before").get<std::string>()),
+                         bytes_of(file.at("after").get<std::string>())});
     return files;
 }
 

@@ -17,7 +17,7 @@ Result<std::string> write_into(const std::string& file, const std::vector<scene:
     if (!changed)
         return fail(ErrorCode::write,
                     fmt::format("cannot write knobs into '{}': {}", file, changed.error().message));
-    TRY(write_file(OutputPath::typed(file), *changed));
+    TRY(replace_text(OutputPath::typed(file), text, *changed));
     std::string line = fmt::format("{}:", file);
     for (const scene::Knob& knob : knobs)
         line += fmt::format(" {} = {}", knob.name, to_string(knob));

@@ -120,17 +120,44 @@ std::optional<std::vector<Placed>> placed(const Lines& lines, std::span<const Cu
     return all;
 }
 
+/// Lines that end in CR alone, as ours, which end in LF.
+std::string with_line_feeds(std::string_view text) {
+    std::string result(text);
+    for (size_t i = 0; i < result.size(); ++i)
+        if (result[i] == '\r' && (i + 1 == result.size() || result[i + 1] != '\n'))
+            result[i] = '\n';
+    return result;
+}
+
+/// The ends of lines that the original has: of as many lines.
+void restore_line_ends(std::string& text, std::string_view original) {
+    size_t i = 0;
+    for (char& c : text) {
+        if (c != '\n')
+            continue;
+        i = original.find_first_of("\r\n", i);
+        if (i == original.npos)
+            return;
+        if (original.substr(i).starts_with("\r\n"))
+            ++i; // the CR before it is in the text
+        c = original[i++];
+    }
+}
+
 } // namespace
 
 std::optional<std::string> cured(std::string_view text, std::string_view file, std::span<const Cure> cures) {
     text::MappedText whole;
-    whole.append(text, file, 1);
-    const bool has_end = text.ends_with('\n');
+    const std::string plain = with_line_feeds(text);
+    whole.append(plain, file, 1);
+    const bool has_end = plain.ends_with('\n');
     if (!apply(whole, cures))
         return std::nullopt;
     std::string result = whole.text();
     if (!has_end && result.ends_with('\n'))
         result.pop_back();
+    if (plain != text)
+        restore_line_ends(result, text);
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "support/temporary_folder.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -59,6 +60,42 @@ TEST(WriteFile, a_place_that_cannot_hold_it) {
     const std::string taken = folder / "d.txt";
     EXPECT_EQ(refusal(write_file(taken, "x")), "cannot write '" + taken + "': Is a directory");
     EXPECT_EQ(files_in(folder), 2u);
+}
+
+TEST(ReplaceText, mode_and_names_stay) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "a.glsl";
+    ASSERT_TRUE(write_file(path, "before"));
+    for (const mode_t mode : {0600, 0640, 0755}) {
+        ASSERT_EQ(::chmod(path.c_str(), mode), 0);
+        ASSERT_TRUE(replace_text(OutputPath::typed(path), *read_file(path), fmt::format("mode {:o}", mode)));
+        struct stat facts {};
+        ASSERT_EQ(::stat(path.c_str(), &facts), 0);
+        EXPECT_EQ(facts.st_mode & 07777, mode);
+        EXPECT_EQ(read_file(path), fmt::format("mode {:o}", mode));
+    }
+    const std::string other = folder / "b.glsl";
+    fs::create_hard_link(path, other);
+    ASSERT_TRUE(replace_text(OutputPath::typed(path), "mode 755", "short"));
+    EXPECT_EQ(read_file(other), "short");
+    EXPECT_EQ(fs::hard_link_count(path), 2u);
+    EXPECT_EQ(files_in(folder), 2u);
+}
+
+TEST(ReplaceText, what_was_changed_or_is_read_only_stays) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "a.glsl";
+    ASSERT_TRUE(write_file(path, "edited"));
+    EXPECT_EQ(refusal(replace_text(OutputPath::typed(path), "before", "after")),
+              "'" + path + "' was changed meanwhile: nothing is written");
+    ASSERT_EQ(::chmod(path.c_str(), 0444), 0);
+    EXPECT_EQ(refusal(replace_text(OutputPath::typed(path), "edited", "after")),
+              "cannot write '" + path + "': it is read-only");
+    EXPECT_EQ(read_file(path), "edited");
+    fs::remove(path);
+    EXPECT_EQ(refusal(replace_text(OutputPath::typed(path), "edited", "after")),
+              "cannot write '" + path + "': No such file or directory");
+    EXPECT_EQ(files_in(folder), 0u) << "what was deleted does not come back";
 }
 
 TEST(WriteFile, unwritable_folder) {
