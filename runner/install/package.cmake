@@ -32,7 +32,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 # What program and plug-ins are linked with is found by dpkg-shlibdeps; the rest they load when it is needed.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libasound2, libgl1-mesa-dri, liblo7, librtmidi${rtmidi_number}, libsndfile1")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libasound2, libgl1, libgl1-mesa-dri, liblo7, librtmidi${rtmidi_number}, libsndfile1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox")
 include(CPack)
