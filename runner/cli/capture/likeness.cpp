@@ -9,6 +9,7 @@
 #include "scene/sources.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 

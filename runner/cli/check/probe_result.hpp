@@ -5,6 +5,8 @@
 #include "cli/error_json.hpp"
 #include "lab/check/probe.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <string>
 

@@ -7,6 +7,8 @@
 #include "platform/device_choice.hpp"
 #include "scene/scene.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 
 namespace tidemark::cli {
