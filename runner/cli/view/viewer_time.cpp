@@ -68,13 +68,13 @@ void Viewer::step_there() {
 
 /// While nobody looks for long no frame is drawn, which is no frame's iTimeDelta.
 void Viewer::rest_unwatched(double now) {
-    constexpr double k_long_seconds = 1;
+    constexpr double k_unwatched_seconds = 1;
     if (!screen_->is_watched()) {
         unwatched_since_ = unwatched_since_.value_or(now);
         return;
     }
     if (const auto since = std::exchange(unwatched_since_, std::nullopt);
-        since && now - *since > k_long_seconds)
+        since && now - *since > k_unwatched_seconds)
         clock_.rest();
 }
 
