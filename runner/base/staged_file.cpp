@@ -178,6 +178,19 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+/// A file with several names stays one file: its bytes are written over, not replaced.
+Result<void> write_over(const OutputPath& output, const fs::path& path, std::span<const std::byte> bytes) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
+    if (file.get() < 0)
+        return cannot_write(output, errno);
+    if (const int error = write_all(file.get(), bytes))
+        return cannot_write(output, error);
+    if (::ftruncate(file.get(), off_t(bytes.size())) != 0)
+        return cannot_write(output, errno);
+    const int error = file.close();
+    return error ? cannot_write(output, error) : Result<void>();
+}
+
 } // namespace
 
 void StagedFile::remove_abandoned(const OutputPath& output, Machines machines) {
@@ -276,23 +289,6 @@ Result<void> write_file(const OutputPath& output, std::span<const std::byte> byt
 Result<void> write_file(const OutputPath& output, std::string_view text) {
     return write_file(output, std::as_bytes(std::span(text)));
 }
-
-namespace {
-
-/// A file with several names stays one file: its bytes are written over, not replaced.
-Result<void> write_over(const OutputPath& output, const fs::path& path, std::span<const std::byte> bytes) {
-    Descriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
-    if (file.get() < 0)
-        return cannot_write(output, errno);
-    if (const int error = write_all(file.get(), bytes))
-        return cannot_write(output, error);
-    if (::ftruncate(file.get(), off_t(bytes.size())) != 0)
-        return cannot_write(output, errno);
-    const int error = file.close();
-    return error ? cannot_write(output, error) : Result<void>();
-}
-
-} // namespace
 
 Result<void> replace_text(const OutputPath& output, std::string_view before, std::string_view after) {
     const auto place = TRY(output.place());

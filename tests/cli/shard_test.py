@@ -129,6 +129,7 @@ class Shards(ProgramTest):
         self.assertIn("x.mp4", done.stderr)
         self.assertEqual((self.folder / "mine.txt").read_text(), "mine")
 
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_segments_of_a_video_with_feedback(self):
         self.write_feedback()
         run = ("capture", "fb", *SEQUENCE[2:-1], *self.FILM)

@@ -34,7 +34,8 @@ SCENES = {
 RENDERER = "llvmpipe"
 STEP = str(16.5 / 255)
 LIMITS = ["--min-psnr", "40", "--tolerance", STEP, "--max-differing", "1"]
-# Of another one: what a person sees who flips between the two pictures. 0.033 at most by an NVIDIA H100.
+# For any other renderer FLIP is limited: it models what a person sees who flips between two pictures. The largest that an
+# NVIDIA H100 had is 0.033.
 # A picture that is moved by a row has 0.05 to 0.20, one that is darker by a twentieth 0.16 or more. FLIP is a mean:
 # pixels that are quite different are counted apart.
 LIMITS_ELSEWHERE = ["--max-flip", "0.04", "--tolerance", STEP, "--max-differing", "2"]

@@ -313,8 +313,8 @@ TEST_F(Video, a_file_that_was_cut_is_no_video) {
     for (const auto& [name, encoder] : kinds) {
         const std::string whole = bytes_of(make(name, encoder, 20));
         EXPECT_TRUE(VideoFrames::open(put(name, whole))) << name;
-        for (const size_t length :
-             {whole.size() / 10, whole.size() / 2, whole.size() * 9 / 10, whole.size() - 1}) {
+        for (size_t i = 0; i < 10; ++i) {
+            const size_t length = i < 9 ? whole.size() * (i + 1) / 10 : whole.size() - 1;
             EXPECT_FALSE(VideoFrames::open(put(name, whole.substr(0, length))))
                 << name << " cut to " << length;
         }
