@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace tidemark {
@@ -67,6 +68,17 @@ std::string valid_utf8(std::string_view text) {
         text.remove_prefix(length);
     }
     return result;
+}
+
+std::string cut_text(std::string_view text, size_t most) {
+    constexpr std::string_view k_rest = "...";
+    if (text.size() <= most)
+        return std::string(text);
+    const auto continues = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80; };
+    size_t end = most - std::min(most, k_rest.size());
+    while (end > 0 && continues(text[end]))
+        --end;
+    return std::string(text.substr(0, end)).append(k_rest);
 }
 
 bool is_printable_line(std::string_view text) {

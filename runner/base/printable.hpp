@@ -20,6 +20,9 @@ bool is_printable_line(std::string_view text);
 /// The text with U+FFFD for every byte that is no UTF-8.
 std::string valid_utf8(std::string_view text);
 
+/// The text where it has no more than `most` bytes, else what of it ends with a whole character, and `...`.
+std::string cut_text(std::string_view text, size_t most);
+
 /// The length of the first character of `text` where it is UTF-8 and its code point, else 1 and -1. `text` is
 /// not empty.
 struct Character {

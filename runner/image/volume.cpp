@@ -1,11 +1,14 @@
 #include "image/volume.hpp"
 
 #include "base/file.hpp"
+#include "base/try.hpp"
 #include "image/byte_order.hpp"
 
 #include <fmt/format.h>
 
-#include <cstring>
+#include <array>
+#include <fstream>
+#include <span>
 
 namespace tidemark::image {
 namespace {
@@ -15,9 +18,8 @@ using namespace std::string_view_literals;
 constexpr std::string_view k_signature = "BIN\0"sv;
 constexpr size_t k_header = 20;
 
-} // namespace
-
-Result<VolumeData> volume_of(std::string_view file, const std::string& name) {
+/// What a file of so many bytes that begins so holds, without its samples.
+Result<VolumeData> described(std::string_view file, size_t file_size, const std::string& name) {
     const auto refuse = [&](std::string_view why) {
         return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", name, why));
     };
@@ -44,20 +46,35 @@ Result<VolumeData> volume_of(std::string_view file, const std::string& name) {
     VolumeData volume{int(width), int(height), int(depth), int(channels),
                       format == 0 ? SampleType::u8 : SampleType::f32};
     const size_t wanted = volume.samples() * size_of(volume.type);
-    const std::string_view samples = file.substr(k_header);
     if (wanted > k_largest_volume)
         return refuse(
             fmt::format("it has {} bytes of samples; the limit is {} MiB", wanted, k_largest_volume >> 20));
-    if (samples.size() != wanted)
+    if (file_size - k_header != wanted)
         return refuse(fmt::format("{}x{}x{} texels of {} channel{} are {} bytes of samples, and it has {}",
                                   width, height, depth, channels, channels == 1 ? "" : "s", wanted,
-                                  samples.size()));
-    volume.bytes.resize(wanted);
-    std::memcpy(volume.bytes.data(), samples.data(), wanted);
+                                  file_size - k_header));
     return volume;
 }
 
+} // namespace
+
+Result<VolumeData> volume_of(std::string_view file, const std::string& name) {
+    VolumeData volume = TRY(described(file, file.size(), name));
+    const auto samples = std::as_bytes(std::span(file.substr(k_header)));
+    volume.bytes.assign(samples.begin(), samples.end());
+    return volume;
+}
+
+/// Its first bytes say whether it is worth reading all of it.
 Result<VolumeData> read_volume(const std::filesystem::path& path) {
+    std::error_code error;
+    if (const auto size = std::filesystem::file_size(path, error);
+        !error && std::filesystem::is_regular_file(path, error)) {
+        std::array<char, k_header> head{};
+        std::ifstream file(path, std::ios::binary);
+        file.read(head.data(), head.size());
+        TRY(described({head.data(), size_t(file.gcount())}, size, path.string()));
+    }
     return read_file(path, k_largest_volume + k_header).and_then([&](const std::string& file) {
         return volume_of(file, path.string());
     });

@@ -34,22 +34,29 @@ std::string joined(const Range& lines) {
 } // namespace
 
 std::string comment_above(std::string_view text, size_t offset) {
-    const size_t line_begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
-    const auto lines = text::lines_of(text.substr(0, line_begin));
-    auto first = lines.end();
-    if (first == lines.begin())
+    size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
+    std::vector<std::string_view> lines; // upwards, no farther than the comment reaches
+    const auto take_line = [&] {
+        const size_t end = begin - 1;
+        begin = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
+        lines.push_back(text.substr(begin, end - begin));
+        return lines.back();
+    };
+    if (begin == 0)
         return {};
-    if (trimmed(*(first - 1)).ends_with("*/")) {
-        do
-            --first;
-        while (first != lines.begin() && first->find("/*") == first->npos);
-        if (!trimmed(*first).starts_with("/*")) // it stands behind code
+    if (trimmed(take_line()).ends_with("*/")) {
+        while (begin > 0 && lines.back().find("/*") == lines.back().npos)
+            take_line();
+        if (!trimmed(lines.back()).starts_with("/*")) // it stands behind code
             return {};
     } else {
-        while (first != lines.begin() && is_line_comment(*(first - 1)))
-            --first;
+        while (is_line_comment(lines.back()) && begin > 0)
+            take_line();
+        if (!is_line_comment(lines.back()))
+            lines.pop_back();
     }
-    return joined(std::vector(first, lines.end()));
+    std::ranges::reverse(lines);
+    return joined(lines);
 }
 
 std::string leading_comment(std::string_view text) {

@@ -106,7 +106,9 @@ std::string of_host(std::string_view name) {
 std::string hover_text(const Workspace& workspace, size_t offset, const Documents& documents) {
     if (const auto included = included_at(workspace, offset); !included.empty()) {
         const auto text = documents.text_of(included);
-        return text ? fmt::format("`{}`\n\n{}\n", included.string(), leading_comment(*text)) : "";
+        return text && workspace.may_read(included)
+                   ? fmt::format("`{}`\n\n{}\n", included.string(), leading_comment(*text))
+                   : "";
     }
     const auto tokens = text::tokenize(workspace.files.front().text);
     const auto word = word_at(tokens, offset);

@@ -29,6 +29,9 @@ std::vector<const Token*> uses_of(const std::vector<Token>& tokens, std::string_
     return uses;
 }
 
+constexpr std::string_view k_entry_points[] = {"main",        "mainImage", "mainSound",
+                                               "mainCubemap", "mainHit",   "mainVR"};
+
 /// Why a knob cannot be called so; empty: it can.
 std::string why_not(const Workspace& workspace, const std::string& name) {
     const auto tokens = text::tokenize(name);
@@ -37,7 +40,8 @@ std::string why_not(const Workspace& workspace, const std::string& name) {
         return "it is no name of GLSL";
     if (name.starts_with("gl_") || name.find("__") != name.npos || glsl::find_builtin(name) ||
         glsl::is_keyword(name) || glsl::is_one_of(name, glsl::k_reserved_words) || glsl::value_type(name) ||
-        scene::is_host_uniform(name))
+        scene::is_host_uniform(name) || name.starts_with("tidemark_") ||
+        glsl::is_one_of(name, k_entry_points))
         return "the name is GLSL's or the host's";
     for (const SourceFile& file : workspace.files)
         if (!uses_of(text::tokenize(file.text), name).empty())

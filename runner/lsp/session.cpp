@@ -171,6 +171,7 @@ std::string Session::close(const Json& params) {
 }
 
 void Session::saved() {
+    files_of_.clear();
     for (const auto& [file, scene] : scenes_)
         stale_.insert(scene);
 }
@@ -182,10 +183,19 @@ std::string Session::take_up(const fs::path& file) {
     const fs::path before = std::exchange(scenes_[file], scene.value_or(scenes_[file]));
     if (scenes_[file].empty())
         scenes_.erase(file);
-    for (const auto& [open, its_scene] : scenes_)
-        if (open == file || look_around(open, its_scene, documents_).has(file))
-            stale_.insert(its_scene);
+    note_files(file);
     return before.empty() || !scene || *scene == before ? "" : leave(before);
+}
+
+/// Scenes that read the file, or may now: only those are loaded again, for hundreds may be open.
+void Session::note_files(const fs::path& file) {
+    for (const auto& [open, scene] : scenes_) {
+        std::set<fs::path>& files = files_of_[scene];
+        if (open == file || files.empty() || files.contains(file))
+            files = files_of(scene, documents_);
+        if (open == file || files.contains(file))
+            stale_.insert(scene);
+    }
 }
 
 /// A file of that scene is not open any more: where others are, its text on disk counts again.
@@ -195,6 +205,7 @@ std::string Session::leave(const fs::path& scene) {
         return "";
     }
     stale_.erase(scene);
+    files_of_.erase(scene);
     return joined(board_.forget(scene, documents_));
 }
 

@@ -46,6 +46,7 @@ private:
     std::string close(const Json& params);
     void saved();
     std::string take_up(const std::filesystem::path& file);
+    void note_files(const std::filesystem::path& file);
     std::string leave(const std::filesystem::path& scene);
 
     tl::expected<Workspace, Refusal> workspace_of(const Json& params) const;
@@ -56,6 +57,8 @@ private:
     Documents documents_;
     DiagnosticBoard board_;
     std::map<std::filesystem::path, std::filesystem::path> scenes_; ///< of open files, where there is one
+    /// Of each scene that is open: its files as they were loaded last; none: it does not load.
+    std::map<std::filesystem::path, std::set<std::filesystem::path>> files_of_;
     std::set<std::filesystem::path> stale_;
     int edits_ = 0;
     std::optional<int> exit_code_;

@@ -29,10 +29,6 @@ const scene::Knob* Workspace::knob(std::string_view name) const {
     return found == knobs.end() ? nullptr : &*found;
 }
 
-bool Workspace::has(const fs::path& file) const {
-    return std::ranges::find(files, file, &SourceFile::path) != files.end();
-}
-
 Workspace look_around(const fs::path& file, const std::optional<fs::path>& scene,
                       const Documents& documents) {
     Workspace workspace{.files = {}, .knobs = {}, .library = library_folder()};
@@ -47,6 +43,24 @@ Workspace look_around(const fs::path& file, const std::optional<fs::path>& scene
             add_file(workspace, each, documents);
     workspace.knobs = std::move(loaded->knobs);
     return workspace;
+}
+
+bool Workspace::may_read(const fs::path& file) const {
+    const fs::path wanted = canonical_name(file);
+    const auto lies_in = [&](const fs::path& folder) {
+        const fs::path inside = wanted.lexically_relative(canonical_name(folder));
+        return !folder.empty() && !inside.empty() && *inside.begin() != "..";
+    };
+    return std::ranges::find(files, wanted, &SourceFile::path) != files.end() || lies_in(library) ||
+           lies_in(files.front().path.parent_path());
+}
+
+std::set<fs::path> files_of(const fs::path& scene, const Documents& documents) {
+    std::set<fs::path> files;
+    if (const auto loaded = scene::load_scene(scene, {.media = {}, .unsaved = documents.texts()}))
+        for (const fs::path& each : loaded->files)
+            files.insert(canonical_name(each));
+    return files;
 }
 
 std::optional<text::Token> word_at(const std::vector<text::Token>& tokens, size_t offset) {

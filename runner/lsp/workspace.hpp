@@ -8,6 +8,7 @@
 #include "text/tokens.hpp"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,16 @@ struct Workspace {
     std::filesystem::path library; ///< of `#include <tidemark/…>`
 
     const scene::Knob* knob(std::string_view name) const;
-    bool has(const std::filesystem::path& file) const;
+    /// A file of the scene, of its folder, or of the library: what lies elsewhere is not shown.
+    bool may_read(const std::filesystem::path& file) const;
 };
 
 /// Around `file`. Where its scene does not load, the file alone.
 Workspace look_around(const std::filesystem::path& file, const std::optional<std::filesystem::path>& scene,
                       const Documents& documents);
+
+/// All that the scene is made of; nothing where it does not load.
+std::set<std::filesystem::path> files_of(const std::filesystem::path& scene, const Documents& documents);
 
 /// The word at an offset, or that ends there; nothing between words.
 std::optional<text::Token> word_at(const std::vector<text::Token>& tokens, size_t offset);

@@ -245,7 +245,8 @@ void Window::swap() {
 }
 
 void Window::set_title(const std::string& title) {
-    glfwSetWindowTitle(state_->window.get(), printable_line(title).c_str());
+    constexpr size_t k_most_bytes = 1000; // more than any bar shows, and less than what X11 takes at once
+    glfwSetWindowTitle(state_->window.get(), cut_text(printable_line(title), k_most_bytes).c_str());
 }
 
 void Window::toggle_full_screen() {

@@ -53,6 +53,8 @@ void Audience::left(ViewerId viewer) {
 
 void Audience::handle(ViewerId viewer, const PictureSeen& seen) {
     Viewer& who = viewers_[viewer];
+    if (who.on_the_way.empty() || seen.number > who.on_the_way.back())
+        return; // it was sent none of that number
     std::erase_if(who.on_the_way, [&](uint32_t number) { return number <= seen.number; });
     send_newest(viewer, who);
     inbox_.wake();
@@ -96,6 +98,16 @@ void Audience::send_newest(ViewerId id, Viewer& viewer) {
     viewer.sent = newest_.number;
     viewer.on_the_way.push_back(newest_.number);
     settings_.send(id, message);
+}
+
+/// Each change of hands is told to everybody: not more often than people can follow.
+void Audience::handle(ViewerId viewer, SteeringWanted) {
+    constexpr std::chrono::milliseconds k_shortest_turn(100);
+    const auto now = std::chrono::steady_clock::now();
+    if (viewer == steering_ || now - steering_since_ < k_shortest_turn)
+        return;
+    steering_since_ = now;
+    steer(viewer);
 }
 
 void Audience::steer(ViewerId viewer) {

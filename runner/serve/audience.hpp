@@ -7,6 +7,7 @@
 #include "serve/plugin/server.hpp"
 #include "serve/request.hpp"
 
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <map>
@@ -72,7 +73,7 @@ private:
     };
 
     void handle(ViewerId viewer, const PictureSeen& seen);
-    void handle(ViewerId viewer, SteeringWanted) { steer(viewer); }
+    void handle(ViewerId viewer, SteeringWanted);
     void handle(ViewerId viewer, const FilmShown& shown);
     void handle(ViewerId viewer, const platform::InputEvent& event);
     void handle(ViewerId viewer, const live::Command& command);
@@ -87,6 +88,7 @@ private:
     mutable std::mutex mutex_;           ///< of what follows
     std::map<ViewerId, Viewer> viewers_; ///< in the order in which they came
     ViewerId steering_ = 0;
+    std::chrono::steady_clock::time_point steering_since_{}; ///< asked for, not inherited
     Hands hands_;
     NumberedPicture newest_;
     uint32_t newest_film_ = 0; ///< number of the film's last picture

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -53,6 +54,16 @@ Result<std::string> name_in(const Json& message, const char* name) {
     return found->get<std::string>();
 }
 
+/// A word of GLSL: it is written into commands, and looked for in files.
+Result<std::string> identifier_in(const Json& message) {
+    const std::string name = TRY(name_in(message, "name"));
+    const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) ||
+        !std::ranges::all_of(name, is_letter))
+        return refused("name", "a name of letters, digits and _");
+    return name;
+}
+
 Result<platform::PointerPosition> place(const Json& message) {
     const double x = TRY(number(message, "x", k_farthest_pixel));
     return platform::PointerPosition{x, TRY(number(message, "y", k_farthest_pixel))};
@@ -84,7 +95,7 @@ Request command(T wanted) {
 }
 
 Result<Request> turn_knob(const Json& message) {
-    live::TurnKnob turn{TRY(name_in(message, "name"))};
+    live::TurnKnob turn{TRY(identifier_in(message))};
     const auto values = message.find("value");
     if (values == message.end() || !values->is_array() || values->empty() ||
         values->size() > turn.value.size() ||
@@ -97,7 +108,7 @@ Result<Request> turn_knob(const Json& message) {
 
 /// A number alone: whatever else stands there would become part of a shader's text.
 Result<Request> define(const Json& message) {
-    live::Define define{TRY(name_in(message, "name")), {}};
+    live::Define define{TRY(identifier_in(message)), {}};
     define.value = TRY(name_in(message, "value"));
     if (!live::definition_field(define.name, define.value, true))
         return refused("value", "a decimal number");
@@ -152,12 +163,12 @@ constexpr Verb k_events[] = {
 constexpr Verb k_commands[] = {
     {"turn", turn_knob},
     {"reset",
-     [](const Json& m) -> Result<Request> { return command(live::ResetKnob{TRY(name_in(m, "name"))}); }},
+     [](const Json& m) -> Result<Request> { return command(live::ResetKnob{TRY(identifier_in(m))}); }},
     {"reset all", [](const Json&) -> Result<Request> { return command(live::ResetKnobs{}); }},
     {"copy knobs", [](const Json&) -> Result<Request> { return command(live::CopyKnobs{}); }},
     {"define", define},
     {"undefine",
-     [](const Json& m) -> Result<Request> { return command(live::Undefine{TRY(name_in(m, "name"))}); }},
+     [](const Json& m) -> Result<Request> { return command(live::Undefine{TRY(identifier_in(m))}); }},
     {"show", show_picture},
     {"pause", [](const Json&) -> Result<Request> { return command(live::TogglePause{}); }},
     {"restart", [](const Json&) -> Result<Request> { return command(live::Restart{}); }},

@@ -1,5 +1,6 @@
 """tidemark lsp: each capability, by a scripted editor."""
 import pathlib
+import re
 import shutil
 import subprocess
 import unittest
@@ -219,6 +220,14 @@ class Questions(Lsp):
     def test_hover_on_an_include(self) -> None:
         self.assertIn("Shapes with soft edges.", self.hover("#include"))
 
+    def test_hover_shows_nothing_from_outside_of_the_scenes_folder(self) -> None:
+        self.write("outside.txt", "// the secret of another\n")
+        (self.folder / "inner").mkdir()
+        scene = self.write("inner/a.glsl", '#include "../outside.txt"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n')
+        client = self.client()
+        client.open(scene)
+        self.assertIsNone(self.at(client, "hover", scene, scene.read_text(), "outside")["result"])
+
     def test_hover_on_the_hosts_uniform_and_on_nothing(self) -> None:
         self.assertIn("uniform vec3 iResolution", self.hover("iResolution"))
         self.assertEqual(self.hover("{ 0.0, 2.0"), "")
@@ -282,10 +291,27 @@ class Questions(Lsp):
         client, scene, _ = self.scene()
         for word, name, why in (("paint(p /", "x", "only knobs"), ("bright *", "paint", "has that name already"),
                                 ("bright *", "disc", "has that name already"), ("bright *", "2x", "no name of GLSL"),
-                                ("bright *", "vec3", "GLSL's or the host's"), ("bright *", "while", "GLSL's or the host's")):
+                                ("bright *", "vec3", "GLSL's or the host's"), ("bright *", "while", "GLSL's or the host's"),
+                                ("bright *", "main", "GLSL's or the host's"), ("bright *", "mainImage", "GLSL's or the host's")):
             with self.subTest(name):
                 self.assertIn(why, self.at(client, "rename", scene, GOOD, word, newName=name)["error"]["message"])
         self.assertIsNone(self.at(client, "prepareRename", scene, GOOD, "paint(p /")["result"])
+
+    def test_work_grows_with_the_documents_that_are_open_and_no_faster(self) -> None:
+        """By what the server reads: each scene's include is read once when its document is opened."""
+        self.write("shared.glsl", "float shared(vec2 p) { return p.x; }\n")
+        counts = []
+        for count in (40, 80):
+            client = self.client()
+            scenes = [self.write(f"{i}.glsl", f'#include "shared.glsl"\nvoid mainImage(out vec4 c, in vec2 p) {{ c = vec4(shared(p) * {i}.0); }}\n')
+                      for i in range(count)]
+            for scene in scenes:
+                client.open(scene)
+            self.assertIn("shared(vec2 p)", self.at(client, "hover", scenes[0], scenes[0].read_text(), "shared(p)")["result"]["contents"]["value"])
+            with open(f"/proc/{client.process.pid}/io", encoding="ascii") as file:
+                counts.append(int(re.search(r"rchar: (\d+)", file.read())[1]))
+            client.process.kill()
+        self.assertLess(counts[1], 2.5 * counts[0], "twice as many documents")
 
 
 class Protocol(Lsp):

@@ -227,6 +227,45 @@ class Hands(Serve):
         self.assertRegex((self.folder / "hands.txt").read_text(), r"(?m)^\d+ press left 10 20$")
 
 
+ARRAY = """\
+const int A = 4;
+void mainImage(out vec4 c, in vec2 p) {
+    float values[A];
+    values[0] = float((-2147483647 - 1) / A);
+    c = vec4(values[0] < 0.0 ? 1.0 : 0.0);
+}
+"""
+
+
+def nested(depth: int) -> str:
+    """A structure of 2^depth numbers: the time of drivers doubles with each step."""
+    return "struct S0 { float a; };\n" + "".join(f"struct S{i} {{ S{i - 1} a; S{i - 1} b; }};\n" for i in range(1, depth + 1)) + (
+        f"void mainImage(out vec4 c, in vec2 p) {{ S{depth} s; c = vec4(0.5); }}\n")
+
+
+class Crashes(Serve):
+    def test_a_definition_is_tried_apart(self):
+        """The driver divides by zero at compile time, or takes all memory: in a process of its own."""
+        viewer = self.viewer(self.serve("a.glsl", "--memory", "1G", text=ARRAY))
+        viewer.picture()
+        for value, wrong in (("-1", "the driver crashed"), ("100000000", "takes more than 1 GiB of memory|no memory|too large|crashed")):
+            with self.subTest(value):
+                viewer.send("define", name="A", value=value)
+                errors = viewer.text("state", lambda state: state["errors"])["errors"]
+                self.assertRegex(errors[0]["text"], wrong)
+                viewer.send("define", name="A", value="2")
+                viewer.text("state", lambda state: not state["errors"])
+
+    def test_a_text_that_never_compiles_is_given_up_for_the_next(self):
+        viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
+        viewer.picture()
+        for depth in (40, 41, 42, 43):
+            self.write("a.glsl", nested(depth))
+            time.sleep(0.3)
+        self.write("a.glsl", GRADIENT.replace("uv.x", "1.0"))
+        self.seen_until(viewer, lambda r, g, b: r > 240)
+
+
 class Viewers(Serve):
     def test_one_steers(self):
         service = self.serve("a.glsl", text=GRADIENT)
@@ -340,6 +379,16 @@ class Access(Serve):
                     pass
         self.viewer(service).picture()
 
+    def test_mute_connections_keep_nobody_out(self):
+        service = self.serve("a.glsl", text=GRADIENT)
+        at = service.address.split("/")[2].split(":")
+        mute = [socket.create_connection((at[0], int(at[1]))) for _ in range(100)]
+        self.viewer(service).picture()
+        for connection in mute:
+            connection.settimeout(60)
+            self.assertEqual(connection.recv(1), b"", "closed without a word")
+            connection.close()
+
     def test_token(self):
         self.write("token", "0123456789abcdef\n")
         service = self.serve("a.glsl", "--token-file", "token", text=GRADIENT)
@@ -358,6 +407,8 @@ class Access(Serve):
                             "Address already in use")
         self.expect_failure(["serve", "a.glsl", "--port", "65536"], 2, "tidemark: error: --port: give a whole number from 0 to 65535, "
                             "not '65536'")
+        self.expect_failure(["serve", "a.glsl", "--host", ""], 2, "tidemark: error: --host '': give an address or a name of this "
+                            "machine, as in --host 127.0.0.1; 0.0.0.0 is every address of it")
         everywhere = self.serve("a.glsl", "--host", "0.0.0.0")
         self.assertTrue(everywhere.address.startswith(f"http://{socket.gethostname()}:"))
         everywhere.process.send_signal(signal.SIGTERM)

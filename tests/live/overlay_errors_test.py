@@ -45,6 +45,17 @@ class Errors(OverlayTest):
         wait_for(lambda: view.place()["WIDTH"] == 1280, "the full screen")
         wait_for(lambda: has_errors(view), "the panel of errors")
 
+    def test_texts_of_any_length_are_shown(self):
+        """Dear ImGui ends the program at 16,384 characters in one call."""
+        view = self.open_bad()
+        name = "n" * 20000
+        for text in (BAD.replace("missing", name), f"#error {name}\n{GOOD}", GOOD + f"#iUniform float {name} = 1.0 in {{ 0.0, 2.0 }}\n"):
+            self.write("a.glsl", text)
+            view.key("Tab")
+            wait_for(lambda: name[:100] in view.title() or text.startswith(GOOD), "the long word in the title")
+            self.write("a.glsl", BAD)
+            view.wait_for_title("missing")
+
     def click_the_place(self, view: OverlayView) -> None:
         """It stands under the first error's large letters."""
         rows = [y for y, row in enumerate(view.picture()) if RED in row]

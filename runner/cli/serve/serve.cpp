@@ -52,6 +52,10 @@ Result<void> announce(const RemoteScreen& screen) {
 }
 
 Result<int> serve_scene(const ServeOptions& options) {
+    if (options.host.empty())
+        return fail(ErrorCode::usage,
+                    "--host '': give an address or a name of this machine, as in --host 127.0.0.1; 0.0.0.0 "
+                    "is every address of it");
     auto frames = TRY(resolve(sized(options.frames, options.scene)));
     const Extent size = frames.state.extent;
     if (std::max(size.width, size.height) > k_largest_picture)

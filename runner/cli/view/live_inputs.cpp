@@ -14,6 +14,16 @@
 namespace tidemark::cli {
 namespace {
 
+/// Each sets something: what is set many times between two frames has the last value.
+void add(live::Commands& commands, live::Command command) {
+    std::erase_if(commands, [&](const live::Command& earlier) {
+        const auto* turned = std::get_if<live::TurnKnob>(&command);
+        return earlier.index() == command.index() &&
+               (!turned || turned->name == std::get<live::TurnKnob>(earlier).name);
+    });
+    commands.push_back(std::move(command));
+}
+
 /// What follows in the same call sees it so.
 void note(const live::Command& command, std::vector<scene::Knob>& knobs) {
     const auto* turned = std::get_if<live::TurnKnob>(&command);
@@ -96,7 +106,7 @@ void LiveInputs::take_osc(live::Commands& commands, std::vector<scene::Knob>& kn
                 continue;
             }
             note(*command, knobs);
-            commands.push_back(*std::move(command));
+            add(commands, *std::move(command));
         }
     }
 }
@@ -117,7 +127,7 @@ void LiveInputs::take_midi(live::Commands& commands, std::vector<scene::Knob>& k
             if (learned)
                 say(fmt::format("MIDI: {} turns {}", to_string(change.controller), turned->name));
             note(*turned, knobs);
-            commands.emplace_back(*std::move(turned));
+            add(commands, *std::move(turned));
         }
 }
 

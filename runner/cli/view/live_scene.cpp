@@ -146,8 +146,8 @@ Result<void> LiveScene::build(scene::Scene scene, const View& view, Settle settl
     auto context = TRY(view.make_context());
     building_since_ = now_seconds();
     settling_ = settle == Settle::yes;
-    builder_.start(
-        {std::move(context), std::move(scene), view.options, view.inputs, settling_, view.rehearsal});
+    builder_.start({std::move(context), std::move(scene), view.options, view.inputs, settling_,
+                    view.rehearsal, HeldTexts{request_.sets, request_.defines}});
     return {};
 }
 
@@ -238,7 +238,7 @@ void LiveScene::hold(std::vector<std::string> defines, const View& view) {
     request_.defines = std::move(defines);
     saved_ = true;
     const double now = now_seconds();
-    times_ = ReloadTimes{file_clock_seconds(), now};
+    times_ = ReloadTimes{now, now};
     reload(view);
 }
 

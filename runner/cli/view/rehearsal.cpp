@@ -18,15 +18,38 @@
 #include <csignal>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace tidemark::cli {
 namespace {
 
 constexpr int k_look_ms = 50;
-/// One message is one answer.
-constexpr size_t k_longest_answer = 1 << 16;
-/// What the window asks for, what it does not want any more, and that all is well.
+/// One message is one question, or one answer.
+constexpr size_t k_longest_message = 1 << 16;
+/// How the window's question begins, what it says where it wants no answer any more, and that all is well.
 constexpr char k_try = '?', k_enough = '!', k_well = '\n';
+/// Behind a question: the texts that are held, each with a mark in front and a zero behind.
+constexpr char k_set = 's', k_define = 'd';
+
+std::string question(const HeldTexts& held) {
+    std::string text(1, k_try);
+    for (const auto& [mark, texts] : {std::pair(k_set, &held.sets), std::pair(k_define, &held.defines)})
+        for (const std::string& each : *texts)
+            text.append(1, mark).append(each).append(1, '\0');
+    return text;
+}
+
+HeldTexts held_in(std::string_view question) {
+    HeldTexts held;
+    for (question.remove_prefix(1); !question.empty();) {
+        const size_t end = std::min(question.find('\0'), question.size() - 1);
+        auto& texts = question.front() == k_set ? held.sets : held.defines;
+        texts.emplace_back(question.substr(1, end - 1));
+        question.remove_prefix(end + 1);
+    }
+    return held;
+}
 
 /// A driver has its own words on standard error, and warnings were said by the window's own load.
 void be_quiet() {
@@ -41,13 +64,13 @@ bool has_word(int socket) {
 }
 
 /// What is wrong, if anything.
-std::string tried(const Rehearsal::Play& play, uint64_t memory, int socket) {
+std::string tried(const Rehearsal::Play& play, const HeldTexts& held, uint64_t memory, int socket) {
     ForkedLimits limits{.seconds = std::numeric_limits<double>::infinity(), .memory = memory};
     limits.unwanted = [socket] { return has_word(socket); };
     const auto run = run_forked(
         [&](const Tell&) {
             be_quiet();
-            play();
+            play(held);
         },
         limits);
     if (!run)
@@ -65,14 +88,16 @@ std::string tried(const Rehearsal::Play& play, uint64_t memory, int socket) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) // the window decides when it ends
         std::signal(signal, SIG_IGN);
     Doing::note_on(DoingPage::make());
-    for (char word = 0;;) {
-        const ssize_t count = ::read(socket, &word, 1);
+    while (true) {
+        std::string message(k_longest_message, '\0');
+        const ssize_t count = ::recv(socket, message.data(), message.size(), 0);
         if (count == 0 || (count < 0 && errno != EINTR))
             ::_exit(0);
-        if (count < 0 || word != k_try) // it came when the answer was on its way
+        if (count < 0 || message.front() != k_try) // it came when the answer was on its way
             continue;
-        std::string answer = tried(play, memory, socket);
-        answer.resize(std::min(answer.size(), k_longest_answer));
+        message.resize(size_t(count));
+        std::string answer = tried(play, held_in(message), memory, socket);
+        answer.resize(std::min(answer.size(), k_longest_message));
         if (answer.empty())
             answer = k_well;
         if (::send(socket, answer.data(), answer.size(), MSG_NOSIGNAL) < 0)
@@ -107,10 +132,16 @@ Rehearsal::~Rehearsal() {
     }
 }
 
-Result<void> Rehearsal::try_out(const std::function<bool()>& unwanted) {
+Result<void> Rehearsal::try_out(const HeldTexts& held, const std::function<bool()>& unwanted) {
     const std::lock_guard lock(one_);
+    const std::string asked = question(held);
+    if (asked.size() > k_longest_message)
+        return fail(ErrorCode::load,
+                    fmt::format("the values given for knobs and definitions have {} bytes: {} at most "
+                                "can be tried out",
+                                asked.size(), k_longest_message));
     const auto gone = [] { return fail(ErrorCode::load, "the process that tries scenes out is gone"); };
-    if (::send(socket_, &k_try, 1, MSG_NOSIGNAL) < 0)
+    if (::send(socket_, asked.data(), asked.size(), MSG_NOSIGNAL) < 0)
         return gone();
     for (bool told = false;;) { // that it is enough
         pollfd wait{socket_, POLLIN, 0};
@@ -118,7 +149,7 @@ Result<void> Rehearsal::try_out(const std::function<bool()>& unwanted) {
             told = told || (unwanted() && ::send(socket_, &k_enough, 1, MSG_NOSIGNAL) > 0);
             continue;
         }
-        std::string answer(k_longest_answer, '\0');
+        std::string answer(k_longest_message, '\0');
         const ssize_t count = ::recv(socket_, answer.data(), answer.size(), 0);
         if (count < 0 && errno == EINTR)
             continue;

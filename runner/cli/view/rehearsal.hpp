@@ -8,12 +8,20 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <vector>
 
 namespace tidemark::cli {
 
+/// What the window's request holds against the files at the moment: `NAME=VALUE` each.
+struct HeldTexts {
+    std::vector<std::string> sets;
+    std::vector<std::string> defines;
+};
+
 class Rehearsal {
 public:
-    using Play = std::function<void()>;
+    using Play = std::function<void(const HeldTexts& held)>;
     /// To be called before this process has an OpenGL context or threads. `play` is what each try does, in a
     /// process that shares nothing with this one; `memory` in bytes, 0: no limit. nullptr where no process
     /// can be had.
@@ -25,7 +33,7 @@ public:
 
     /// Waits for one try; fails (ErrorCode::load) where it crashed or took too much. Ends early, with any
     /// outcome, once `unwanted` says so. From any thread, one after the other.
-    Result<void> try_out(const std::function<bool()>& unwanted);
+    Result<void> try_out(const HeldTexts& held, const std::function<bool()>& unwanted);
 
 private:
     Rehearsal(int child, int socket) : child_(child), socket_(socket) {}

@@ -27,7 +27,9 @@ constexpr size_t k_most_at_once = 3;
 
 Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
     if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
-        TRY(order.rehearsal->try_out(unwanted));
+        TRY(order.rehearsal->try_out(order.held, unwanted));
+    if (unwanted()) // what was tried out in vain must not reach the driver here
+        return fail(ErrorCode::load, "the scene is not wanted any more");
     if (order.settle && !compiles_on_threads())
         return fail(ErrorCode::check_failed, "the window would stand still for a trial");
     if (order.settle)

@@ -23,6 +23,7 @@ public:
         render::FrameInputs first;              ///< inputs of its first frame
         bool settle = false;                    ///< Stage::settle instead of Stage::create
         std::shared_ptr<Rehearsal> rehearsal{}; ///< of what is no modest scene; none: nothing is tried out
+        HeldTexts held{};                       ///< that are in the scene
     };
 
     /// `wake` is called on another thread when there is something to `take`.

@@ -23,7 +23,10 @@ constexpr double k_shortest_life = 5;
 
 /// In a process of its own: all that the screen will have its driver do, once, small and unseen. What
 /// is wrong otherwise, the screen's own driver says.
-void play(const SceneRequest& request, const std::string& pass) {
+void play(SceneRequest request, const HeldTexts& held, const std::string& pass) {
+    request.sets = held.sets;
+    request.defines = held.defines;
+    request.knobs_may_go = true;
     const auto context = platform::HeadlessContext::create();
     if (!context)
         return;
@@ -74,7 +77,8 @@ void add_viewer_options(Command command, ViewerOptions& options) {
 Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence frames) {
     const auto limits = TRY(resolve(options.limits));
     Viewer::Settings settings{options.scene, std::move(frames)};
-    settings.rehearsal = Rehearsal::start([&] { play(options.scene, options.frames.pass); }, limits.memory);
+    settings.rehearsal = Rehearsal::start(
+        [&](const HeldTexts& held) { play(options.scene, held, options.frames.pass); }, limits.memory);
     settings.record = OutputPath::typed(options.record);
     // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
     if (options.frames.date || options.by_frames())
@@ -88,7 +92,11 @@ Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
     Interrupt interrupt;
     while (true) {
         const double opened = now_seconds();
-        auto viewer = TRY(Viewer::open(settings, open_screen));
+        auto opened_viewer = [&] { // a camera may keep one waiting: Ctrl-C ends it
+            const Interrupt::Immediate immediate(interrupt);
+            return Viewer::open(settings, open_screen);
+        }();
+        auto viewer = TRY(std::move(opened_viewer));
         const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
         auto outcome = viewer.run(interrupt);
         if (viewer.busy()) {

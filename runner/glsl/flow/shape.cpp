@@ -13,22 +13,14 @@ namespace {
 constexpr size_t k_most_numbers = 1u << 20;
 /// An array's elements are told apart up to that many.
 constexpr long k_most_elements = 16;
+/// Structures of two structures each need twice as many statements with each step: no text is that long.
+constexpr size_t k_most_statements = 512;
 
 size_t times(size_t a, size_t b) {
     return a == 0 || b == 0 || a > k_most_numbers / b ? 0 : a * b;
 }
 
 } // namespace
-
-bool Shape::can_be_zero() const {
-    switch (kind) {
-    case Kind::unknown: return false;
-    case Kind::array: return part->can_be_zero();
-    case Kind::structure:
-        return std::ranges::all_of(members, [](const Member& member) { return member.shape->can_be_zero(); });
-    default: return true;
-    }
-}
 
 Shapes::Shapes(const ParsedText& text) : text_(text), tree_(text.tree()) {
     for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
@@ -73,6 +65,7 @@ const Shape& Shapes::plain(std::string_view type) {
     Shape shape;
     shape.type = type;
     shape.numbers = 1;
+    shape.statements = 1;
     shape.kind = known.scalar()   ? Shape::Kind::scalar
                  : known.vector() ? Shape::Kind::vector
                                   : Shape::Kind::matrix;
@@ -93,6 +86,7 @@ const Shape& Shapes::structure(NodeId structure) {
     shape.slots = 0;
     shape.numbers = shape.type.empty() ? 0 : 1;
     size_t numbers = 0;
+    bool can_be_zero = true;
     for (const NodeId declaration : tree_.children(structure)) {
         const NodeId type = tree_.child(declaration, 0);
         for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next) {
@@ -101,9 +95,13 @@ const Shape& Shapes::structure(NodeId structure) {
             shape.slots += member.slots;
             shape.numbers = member.numbers == 0 ? 0 : shape.numbers;
             numbers = std::min(numbers + member.numbers, k_most_numbers);
+            shape.statements = std::min(shape.statements + member.statements, k_most_statements + 1);
+            can_be_zero = can_be_zero && member.can_be_zero();
         }
     }
     shape.numbers = shape.numbers == 0 ? 0 : numbers;
+    if (!can_be_zero || shape.statements > k_most_statements)
+        shape.statements = 0;
     if (shape.slots > k_most_slots || shape.slots == 0) {
         shape.slots = 1;
         shape.whole = true;
@@ -116,6 +114,7 @@ const Shape& Shapes::array_of(const Shape& element, std::optional<long> length) 
     shape.kind = Shape::Kind::array;
     shape.type = element.type;
     shape.part = &element;
+    shape.statements = element.statements;
     shape.length = length && *length > 0 ? size_t(*length) : 0;
     shape.numbers = times(shape.length, element.numbers);
     shape.slots = shape.length > 0 && shape.length <= k_most_elements && !element.whole

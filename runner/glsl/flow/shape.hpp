@@ -26,9 +26,11 @@ struct Shape {
         1; ///< numbers that are told apart; where they would be too many, the whole counts as one
     bool whole = false; ///< its parts are not told apart
     size_t numbers = 0; ///< values that a constructor of it takes in all; 0: not known, or no constructor
+    size_t statements =
+        0; ///< that set it to zero one by one; 0: it holds a sampler, or they would be too many
 
-    /// Made of numbers alone, with no sampler in it.
-    bool can_be_zero() const;
+    /// Made of numbers alone, and of few enough to write a statement for each.
+    bool can_be_zero() const { return statements > 0; }
     /// A word and `(0)` make a zero of it.
     bool is_plain() const { return kind == Kind::scalar || kind == Kind::vector || kind == Kind::matrix; }
 };

@@ -10,8 +10,11 @@ void Inbox::put(std::string_view packet) {
         const std::lock_guard lock(mutex_);
         first = packets_.empty();
         packets_.emplace_back(packet);
-        if (packets_.size() > k_most)
+        bytes_ += packet.size();
+        while (packets_.size() > 1 && (packets_.size() > k_most_packets || bytes_ > k_most_bytes)) {
+            bytes_ -= packets_.front().size();
             packets_.pop_front();
+        }
     }
     if (first)
         wake_();
@@ -27,6 +30,7 @@ std::vector<std::string> Inbox::take() {
     std::vector<std::string> taken(std::make_move_iterator(packets_.begin()),
                                    std::make_move_iterator(packets_.end()));
     packets_.clear();
+    bytes_ = 0;
     return taken;
 }
 

@@ -24,11 +24,13 @@ public:
     std::vector<std::string> take();
 
 private:
-    static constexpr size_t k_most = 4096; ///< packets
+    static constexpr size_t k_most_packets = 4096;
+    static constexpr size_t k_most_bytes = 1 << 20; ///< read in some 20 ms
 
     std::function<void()> wake_;
     std::mutex mutex_;
     std::deque<std::string> packets_; ///< under the mutex
+    size_t bytes_ = 0;                ///< of them, likewise
 };
 
 } // namespace tidemark::live

@@ -1,5 +1,7 @@
 #include "live/plugin/clock_panel.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <imgui.h>
 
 namespace tidemark::live {
@@ -10,7 +12,7 @@ void draw_clock(const std::string& text, const Surface& surface) {
     constexpr auto k_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
     if (ImGui::Begin("Clock", nullptr, k_flags))
-        ImGui::TextUnformatted(text.c_str());
+        draw_text(text);
     ImGui::End();
 }
 

@@ -1,5 +1,7 @@
 #include "live/plugin/definition_widgets.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -23,7 +25,7 @@ void draw_row(DefinitionField& field, Commands& commands) {
             commands.emplace_back(Define{field.name, text_of(field)});
     }
     ImGui::SameLine();
-    ImGui::TextUnformatted(field.name.c_str());
+    draw_text(field.name);
     if (field.held) {
         ImGui::SameLine();
         if (ImGui::SmallButton("reset"))

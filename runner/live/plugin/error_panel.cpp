@@ -1,5 +1,7 @@
 #include "live/plugin/error_panel.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -11,12 +13,6 @@ namespace {
 const ImVec4 k_red{1, 0.45F, 0.4F, 1};
 const ImVec4 k_grey{0.7F, 0.7F, 0.7F, 1};
 
-void draw_wrapped(const std::string& text) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-}
-
 /// The place as a link, the line, a mark under what is meant.
 void draw_place(const ErrorField& error, Commands& commands) {
     const SourceLocation& where = error.diagnostic.where;
@@ -26,7 +22,7 @@ void draw_place(const ErrorField& error, Commands& commands) {
     for (const int number : {where.line, where.column})
         if (number > 0)
             place += fmt::format(":{}", number);
-    if (ImGui::SmallButton(place.c_str()))
+    if (ImGui::SmallButton(shown(place).c_str()))
         commands.emplace_back(OpenEditor{where});
     if (error.line.empty())
         return;
@@ -34,8 +30,8 @@ void draw_place(const ErrorField& error, Commands& commands) {
     const Excerpt excerpt = excerpt_of(error.line, where.column,
                                        size_t(std::max(ImGui::GetContentRegionAvail().x / character, 1.0F)));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-    ImGui::TextUnformatted(excerpt.text.c_str());
-    ImGui::TextColored(k_red, "%s", excerpt.mark.c_str());
+    draw_text(excerpt.text);
+    draw_coloured(k_red, excerpt.mark);
     ImGui::PopStyleVar();
 }
 

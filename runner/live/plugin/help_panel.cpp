@@ -1,5 +1,7 @@
 #include "live/plugin/help_panel.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -20,13 +22,13 @@ void draw_help(const Model& model, const Surface& surface) {
             ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
             for (const HelpRow& row : model.help) {
                 ImGui::TableNextColumn();
-                ImGui::TextUnformatted(row.keys.c_str());
+                draw_text(row.keys);
                 ImGui::TableNextColumn();
-                ImGui::TextWrapped("%s", row.meaning.c_str());
+                draw_wrapped(row.meaning);
             }
             ImGui::EndTable();
         }
-        ImGui::TextWrapped("%s", model.help_footer.c_str());
+        draw_wrapped(model.help_footer);
     }
     ImGui::End();
 }

@@ -1,5 +1,7 @@
 #include "live/plugin/knob_widgets.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -82,9 +84,10 @@ void draw_controllers(const KnobField& field, Commands& commands) {
         return;
     for (size_t i = 0; i < field.controllers.size(); ++i) {
         const ControllerField& part = field.controllers[i];
-        if (ImGui::MenuItem((part.part + ": move a controller").c_str(), nullptr, part.learning))
+        if (ImGui::MenuItem((shown(part.part) + ": move a controller").c_str(), nullptr, part.learning))
             commands.emplace_back(LearnController{field.knob.name, i});
-        if (!part.controller.empty() && ImGui::MenuItem((part.part + ": forget " + part.controller).c_str()))
+        if (!part.controller.empty() &&
+            ImGui::MenuItem(shown(part.part + ": forget " + part.controller).c_str()))
             commands.emplace_back(ForgetController{field.knob.name, i});
     }
     ImGui::EndPopup();
@@ -94,9 +97,9 @@ void draw_controllers(const KnobField& field, Commands& commands) {
 void draw_name(const KnobField& field) {
     const ImVec4 bright{1, 0.8F, 0.2F, 1};
     if (std::ranges::any_of(field.controllers, &ControllerField::learning))
-        ImGui::TextColored(bright, "%s", field.knob.name.c_str());
+        draw_coloured(bright, field.knob.name);
     else
-        ImGui::TextUnformatted(field.knob.name.c_str());
+        draw_text(field.knob.name);
 }
 
 void draw_row(KnobField& field, Commands& commands) {
@@ -120,8 +123,8 @@ void draw_row(KnobField& field, Commands& commands) {
 
 void draw_knobs(std::vector<KnobField>& fields, Commands& commands) {
     if (fields.empty())
-        return ImGui::TextWrapped("%s", "The scene has no knobs: it declares one with a line like\n"
-                                        "#iUniform float height = 0.5 in { 0.0, 2.0 }");
+        return draw_wrapped("The scene has no knobs: it declares one with a line like\n"
+                            "#iUniform float height = 0.5 in { 0.0, 2.0 }");
     if (ImGui::Button("Reset all"))
         commands.emplace_back(ResetKnobs{});
     ImGui::SameLine();

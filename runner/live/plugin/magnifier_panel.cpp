@@ -1,5 +1,7 @@
 #include "live/plugin/magnifier_panel.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -31,7 +33,7 @@ void draw_cells(const MagnifierField& magnifier, float cell) {
 }
 
 void draw_value(const PixelValue& value, float column) {
-    ImGui::TextUnformatted(value.pass.c_str());
+    draw_text(value.pass);
     const auto row = [&](std::string (*text)(float)) {
         for (size_t i = 0; i < value.channels.size(); ++i) {
             if (i > 0)

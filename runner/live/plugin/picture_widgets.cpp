@@ -1,6 +1,7 @@
 #include "live/plugin/picture_widgets.hpp"
 
 #include "live/plugin/look_widgets.hpp"
+#include "live/plugin/text.hpp"
 
 #include <GL/gl.h>
 #include <fmt/format.h>
@@ -38,8 +39,7 @@ void draw_thumbnail(const Model& model, size_t i, float width, Commands& command
     ImGui::PopID();
     draw_opaque(*ImGui::GetWindowDrawList(), picture, from, {from.x + size.x, from.y + size.y});
     ImGui::SameLine();
-    const std::string text = fmt::format("{} {}\n{}", i + 1, picture.name, picture.size);
-    ImGui::TextUnformatted(text.c_str());
+    draw_text(fmt::format("{} {}\n{}", i + 1, picture.name, picture.size));
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "live/plugin/time_bar.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -96,7 +98,7 @@ void draw_status(const Model& model) {
             total += *picture.milliseconds;
         }
     text += fmt::format("  all {:.2f} ms", total);
-    ImGui::TextUnformatted(text.c_str());
+    draw_text(text);
 }
 
 } // namespace

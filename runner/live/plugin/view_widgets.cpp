@@ -1,5 +1,7 @@
 #include "live/plugin/view_widgets.hpp"
 
+#include "live/plugin/text.hpp"
+
 #include <imgui.h>
 
 namespace tidemark::live {
@@ -14,7 +16,7 @@ void draw_views(const std::vector<std::string>& views, Commands& commands) {
         if (ImGui::Button("x"))
             commands.emplace_back(ForgetView{i});
         ImGui::SameLine();
-        if (ImGui::Button(views[i].c_str()))
+        if (ImGui::Button(shown(views[i]).c_str()))
             commands.emplace_back(GoToView{i});
         ImGui::PopID();
     }

@@ -16,9 +16,13 @@ namespace websocket = beast::websocket;
 namespace {
 
 constexpr std::chrono::seconds k_patience{10};
+/// Of whoever has not shown the token yet.
+constexpr std::chrono::seconds k_patience_with_strangers{1};
 constexpr size_t k_longest_header = 16384;
 /// So many messages nobody who reads has waiting.
 constexpr size_t k_most_waiting = 256;
+/// Two pictures of 4K in the best quality have less.
+constexpr size_t k_most_bytes_waiting = 64 << 20;
 /// RFC 6455 leaves room for 123 bytes.
 constexpr size_t k_longest_reason = 120;
 
@@ -50,7 +54,7 @@ Connection::~Connection() {
 void Connection::start() {
     boost::system::error_code ignored;
     beast::get_lowest_layer(socket_).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
-    beast::get_lowest_layer(socket_).expires_after(k_patience);
+    beast::get_lowest_layer(socket_).expires_after(k_patience_with_strangers);
     request_.emplace();
     request_->header_limit(k_longest_header);
     request_->body_limit(0);
@@ -81,6 +85,7 @@ void Connection::answer() {
 }
 
 void Connection::respond(http::status status, std::string text, const char* type) {
+    beast::get_lowest_layer(socket_).expires_after(k_patience); // to read what is answered
     auto response = std::make_shared<http::response<http::string_body>>(status, request_->get().version());
     response->set(http::field::content_type, type);
     shut_in(*response);
@@ -134,8 +139,10 @@ void Connection::hear(const std::string& message) {
 void Connection::send(SharedMessage message) {
     if (closing_)
         return;
-    if (waiting_.size() >= k_most_waiting)
+    if (waiting_.size() >= k_most_waiting ||
+        (!waiting_.empty() && waiting_bytes_ + message->bytes.size() > k_most_bytes_waiting))
         return close();
+    waiting_bytes_ += message->bytes.size();
     waiting_.push_back(std::move(message));
     if (waiting_.size() == 1)
         write_next();
@@ -147,6 +154,7 @@ void Connection::write_next() {
     socket_.async_write(asio::buffer(message.bytes), [self = shared_from_this()](Error error, size_t) {
         if (error)
             return self->close();
+        self->waiting_bytes_ -= self->waiting_.front()->bytes.size();
         self->waiting_.pop_front();
         if (!self->waiting_.empty() && !self->closing_)
             self->write_next();

@@ -37,6 +37,8 @@ public:
     void start();
     void send(SharedMessage message);
     void close();
+    /// It showed the token, and watches.
+    bool is_guest() const { return is_guest_; }
     /// The server ends: nobody is told any more.
     void part() { is_guest_ = false; }
 
@@ -60,6 +62,7 @@ private:
     boost::beast::flat_buffer buffer_;
     std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> request_;
     std::deque<SharedMessage> waiting_; ///< the first is under way
+    size_t waiting_bytes_ = 0;
 };
 
 } // namespace tidemark::serve

@@ -21,7 +21,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using ErrorWord = boost::system::error_code;
 
-/// Viewers, and those who have only asked yet.
+/// Viewers, and those who have only asked yet: more than there can be viewers.
 constexpr size_t k_most_connections = 64;
 
 tl::unexpected<Error> cannot_listen(const ServerSettings& settings, const std::string& why) {
@@ -118,13 +118,25 @@ private:
             if (error == asio::error::operation_aborted)
                 return;
             std::erase_if(connections_, [](const auto& known) { return known.second.expired(); });
-            if (!error && connections_.size() < k_most_connections) {
+            if (connections_.size() >= k_most_connections)
+                close_oldest_stranger();
+            if (!error) {
                 const auto connection = std::make_shared<Connection>(std::move(socket), ++last_id_, *this);
                 connections_[last_id_] = connection;
                 connection->start();
             }
             accept();
         });
+    }
+
+    /// Mute connections keep nobody out.
+    void close_oldest_stranger() {
+        for (const auto& [id, known] : connections_) // in the order in which they came
+            if (const auto connection = known.lock(); connection && !connection->is_guest()) {
+                connection->close();
+                connections_.erase(id);
+                return;
+            }
     }
 
     ServerSettings settings_;

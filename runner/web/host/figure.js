@@ -2,12 +2,18 @@
 // ---- The figure: a scene on a page
 
 const FPS = 60; // of a moment that is asked for
+const LAST_FRAME = 2 ** 31 - 2; // iFrame is an int, and one more must follow
 
 // `time=2.5&frame=3&size=640x360&paused`: where to begin, and whether to stay there.
 function readMoment(text) {
-    const words = new URLSearchParams(text), number = name => words.has(name) ? Number(words.get(name)) : undefined;
-    const time = number("time"), size = /^(\d+)x(\d+)$/.exec(words.get("size") ?? "");
-    const frame = number("frame") ?? (time === undefined ? undefined : Math.max(0, Math.floor(time * FPS)));
+    const words = new URLSearchParams(text);
+    const number = (name, most) => {
+        const value = words.has(name) ? Number(words.get(name)) : NaN;
+        return Number.isFinite(value) ? Math.max(-most, Math.min(value, most)) : undefined;
+    };
+    const time = number("time", LAST_FRAME / FPS), size = /^(\d+)x(\d+)$/.exec(words.get("size") ?? "");
+    const frameAt = value => value === undefined ? undefined : Math.max(0, Math.floor(value));
+    const frame = frameAt(number("frame", LAST_FRAME) ?? (time === undefined ? undefined : time * FPS));
     return {frame, time: time ?? (frame === undefined ? undefined : frame / FPS), paused: words.has("paused"),
             size: size && [Number(size[1]), Number(size[2])]};
 }

@@ -41,6 +41,13 @@ TEST(Printable, bytes_that_are_no_utf8_are_replaced) {
     EXPECT_EQ(valid_utf8("a\x1b\xc3\xa9\xff\xe2\x82"), "a\x1b\xc3\xa9\ufffd\ufffd\ufffd");
 }
 
+TEST(Printable, a_long_text_is_cut_between_characters) {
+    EXPECT_EQ(cut_text("seven b", 7), "seven b");
+    EXPECT_EQ(cut_text("eight by", 7), "eigh...");
+    EXPECT_EQ(cut_text("\u00e9\u00e9\u00e9\u00e9", 6), "\u00e9...");
+    EXPECT_EQ(cut_text(std::string(10, '\x80'), 6), "...");
+}
+
 TEST(Printable, one_line) {
     EXPECT_EQ(printable_line("two\nlines\t"), "two\\x0alines\\x09");
     EXPECT_TRUE(is_printable_line("é"));

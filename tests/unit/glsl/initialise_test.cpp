@@ -2,6 +2,7 @@
 #include "glsl/initialise.hpp"
 #include "glsl_support.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace tidemark::glsl::initialise_test {
@@ -70,6 +71,14 @@ TEST(Initialise, StructuresAndArrays) {
     // A variable hides the structure's name.
     EXPECT_EQ(zeroed("struct Ray{float t;};void main(){Ray Ray; Ray.t;}\n"),
               "struct Ray{float t;};void main(){Ray Ray;Ray.t=0.0; Ray.t;}\n");
+}
+
+TEST(Initialise, structures_whose_numbers_double_with_each_step_are_left_as_they_are) {
+    std::string text = "struct S0{float a;};";
+    for (int i = 1; i <= 60; ++i)
+        text += fmt::format("struct S{0}{{S{1} a;S{1} b;}};", i, i - 1);
+    text += "uniform float u;void main(){S60 s;if(s.a.a.a.a.a.a==u)discard;}\n";
+    EXPECT_EQ(zeroed(text), text);
 }
 
 TEST(Initialise, ParametersThatGoOut) {

@@ -53,6 +53,10 @@ TEST(Comments, above_a_place) {
     EXPECT_EQ(comment_above(text, text.find("int c")), "");
     EXPECT_EQ(comment_above(text, text.find("int d")), "");
     EXPECT_EQ(comment_above(text, 0), "");
+    EXPECT_EQ(comment_above("// first\nint a;", 10), "first");
+    EXPECT_EQ(comment_above("\nint a;", 2), "");
+    EXPECT_EQ(comment_above("/* a\nb */\nint a;", 11), "a\nb");
+    EXPECT_EQ(comment_above("int a; /* a\nb */\nint b;", 17), "");
 }
 
 TEST(Comments, that_a_text_begins_with) {

@@ -115,6 +115,26 @@ TEST_F(AudienceTest, whoever_missed_a_part_of_the_film_waits_for_one_that_needs_
     EXPECT_FALSE(audience.said(1, R"({"do":"film","can":2})"));
 }
 
+TEST_F(AudienceTest, a_picture_that_was_not_sent_is_not_seen) {
+    audience.came(1);
+    for (uint32_t number = 1; number <= 5; ++number) {
+        show(number);
+        seen(1, 2147483647);
+    }
+    EXPECT_THAT(pictures(1), ElementsAre("picture 1", "picture 2"));
+    seen(1, 2);
+    EXPECT_THAT(pictures(1).back(), "picture 5");
+}
+
+TEST_F(AudienceTest, those_who_wrestle_for_the_helm_drown_nobody) {
+    for (ViewerId viewer = 1; viewer <= 3; ++viewer)
+        audience.came(viewer);
+    sent.clear();
+    for (int i = 0; i < 10000; ++i)
+        EXPECT_TRUE(audience.said(ViewerId(1 + i % 2), R"({"do":"steer"})"));
+    EXPECT_THAT(sent[3].size(), testing::AllOf(testing::Ge(1u), testing::Lt(256u))) << "what a connection holds";
+}
+
 TEST_F(AudienceTest, waits_while_somebody_is_ready) {
     EXPECT_FALSE(audience.is_waiting());
     audience.came(1);

@@ -48,6 +48,11 @@ TEST(Request, is_a_command_of_the_overlay) {
     EXPECT_EQ(turn->name, "height");
     EXPECT_EQ(turn->value, (scene::KnobValue{1, 2}));
     EXPECT_EQ(read<live::Define>(R"({"do":"define","name":"STEPS","value":"12"})")->value, "12");
+    for (const char* verb : {"define", "undefine", "turn", "reset"})
+        for (const char* name : {R"(A\n#error)", "A=1;", "", "9", R"(A\u0000)"})
+            EXPECT_EQ(refusal(fmt::format(R"({{"do":"{}","name":"{}","value":"1"}})", verb, name)),
+                      R"("name": give a name of letters, digits and _)")
+                << verb << " " << name;
     EXPECT_EQ(read<live::ShowPicture>(R"({"do":"show","picture":2})")->index, 2u);
     EXPECT_FALSE(read<live::ShowPicture>(R"({"do":"show","picture":null})")->index);
     EXPECT_EQ(read<live::Seek>(R"({"do":"seek","seconds":2.5})")->seconds, 2.5);
