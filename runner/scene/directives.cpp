@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <unordered_map>
 
 namespace tidemark::scene {
 namespace fs = std::filesystem;
@@ -92,6 +93,7 @@ private:
     size_t position_ = 0;
     int brackets_ = 0; ///< open
     Directives directives_;
+    std::unordered_map<std::string, size_t> knob_of_name_;
     std::array<SamplingWishes, k_channel_count> wishes_;
     std::vector<text::Edit> edits_;
 };
@@ -352,6 +354,7 @@ Result<void> DirectiveReader::read_knob(const SourceLocation& where) {
         return free;
     if (auto values = read_knob_values(knob); !values)
         return values;
+    knob_of_name_.emplace(knob.name, directives_.knobs.size());
     directives_.knobs.push_back(std::move(knob));
     return {};
 }
@@ -361,13 +364,12 @@ Result<void> DirectiveReader::check_name_is_free(const Knob& knob) const {
         return fail(error_at(
             knob.where,
             fmt::format("'{}' is a uniform of the host's own: give the knob another name", knob.name)));
-    const auto& knobs = directives_.knobs;
-    const auto same =
-        std::find_if(knobs.begin(), knobs.end(), [&](const Knob& other) { return other.name == knob.name; });
-    if (same == knobs.end())
+    const auto same = knob_of_name_.find(knob.name);
+    if (same == knob_of_name_.end())
         return {};
     Error error = error_at(knob.where, fmt::format("the knob '{}' is declared twice", knob.name));
-    error.diagnostics.push_back({same->where, Severity::note, "first declared here"});
+    error.diagnostics.push_back(
+        {directives_.knobs[same->second].where, Severity::note, "first declared here"});
     return fail(std::move(error));
 }
 

@@ -63,9 +63,9 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
 /// A knob that several passes declare alike is one knob: it has one slider and one value.
 Result<void> PassLoader::add_knobs(std::vector<Knob> knobs) {
     for (Knob& knob : knobs) {
-        const auto same = std::find_if(scene_.knobs.begin(), scene_.knobs.end(),
-                                       [&](const Knob& other) { return other.name == knob.name; });
-        if (same == scene_.knobs.end()) {
+        const auto [found, is_new] = knob_of_name_.try_emplace(knob.name, scene_.knobs.size());
+        const Knob* const same = is_new ? nullptr : &scene_.knobs[found->second];
+        if (is_new) {
             scene_.knobs.push_back(std::move(knob));
         } else if (same->type != knob.type) {
             Error error = error_at(

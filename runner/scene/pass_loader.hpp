@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace tidemark::scene {
@@ -60,6 +61,7 @@ private:
     const Bounds& bounds_;
     const Conditional conditional_;
     std::vector<Draft> drafts_;
+    std::unordered_map<std::string, size_t> knob_of_name_; ///< of the scene's
     std::vector<size_t> order_;
     std::vector<size_t> loading_; ///< buffers that wait for those they read
     struct Common {

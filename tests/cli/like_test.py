@@ -1,4 +1,7 @@
 """`capture --like PICTURE`: the moment that a picture shows, drawn again to the same bytes."""
+import struct
+import zlib
+
 from support import png
 from support.program import ProgramTest, main
 
@@ -84,6 +87,20 @@ class Like(ProgramTest):
                       "(--allow-outside takes it)\n", done.stderr)
         self.assertNotEqual(png.read(self.folder / "again.png").sha256(), first)
         self.assertEqual(self.bytes_of("--like", str(picture), "--allow-outside", "-o", "again.png"), first)
+
+    def test_a_size_that_no_file_may_ask_for(self):
+        self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
+        file = (self.folder / "first.png").read_bytes()
+        wanted = file.replace(b"[48,32]", b"[1000000,1000000]")
+        self.assertNotEqual(wanted, file)
+        signature, written = wanted[:8], b""
+        for kind, data in png.chunks(file):
+            data = data.replace(b"[48,32]", b"[1000000,1000000]")
+            written += struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        self.write("forged.png", signature + written)
+        self.expect_failure(["capture", "--like", "forged.png"], 2, "tidemark: error: --like forged.png: it says that it has "
+                            "1000000x1000000 pixels; a file may ask for 32767 on a side: give --size")
+        self.succeed("capture", "--like", "forged.png", "--size", "48x32")
 
     def test_what_is_wrong(self):
         self.expect_failure(["capture"], 2, "tidemark: error: capture: SCENE is required")

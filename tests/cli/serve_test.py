@@ -409,6 +409,8 @@ class Access(Serve):
                             "not '65536'")
         self.expect_failure(["serve", "a.glsl", "--host", ""], 2, "tidemark: error: --host '': give an address or a name of this "
                             "machine, as in --host 127.0.0.1; 0.0.0.0 is every address of it")
+        self.expect_failure_like(["serve", "a.glsl", "--size", "65500x1"], 2, r"tidemark: error: --size 65500x1: this driver draws at most "
+                                 r"\d+ pixels on a side")
         everywhere = self.serve("a.glsl", "--host", "0.0.0.0")
         self.assertTrue(everywhere.address.startswith(f"http://{socket.gethostname()}:"))
         everywhere.process.send_signal(signal.SIGTERM)

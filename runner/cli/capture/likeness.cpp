@@ -7,6 +7,7 @@
 #include "image/files/picture_metadata.hpp"
 #include "scene/bounds.hpp"
 #include "scene/sources.hpp"
+#include "scene/stated_size.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -106,6 +107,10 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
     if (!metadata)
         return refuse(options.like, metadata.error());
     Moment moment = TRY(read_moment(options.like, *metadata));
+    const Extent size = moment.sequence.state.extent;
+    if (!options.frames.size && std::max(size.width, size.height) > scene::k_largest_stated_side)
+        return refuse(options.like, fmt::format("it says that it has {}x{} pixels; a file may ask for {} on a side: give --size",
+                                                size.width, size.height, scene::k_largest_stated_side));
     std::error_code ignored;
     if (scene.path.empty() && !fs::exists(moment.scene.path, ignored))
         return refuse(options.like,
