@@ -41,6 +41,8 @@ public:
     /// another machine's nobody knows whether it lives: `all` where none does.
     enum class Machines { ours, all };
     static void remove_abandoned(const OutputPath& output, Machines machines = Machines::ours);
+    /// Another process that lives and has a file of this very output under construction; 0: there is none.
+    static pid_t other_maker_of(const OutputPath& output);
     StagedFile(StagedFile&& other) noexcept;
     StagedFile& operator=(StagedFile&&) = delete;
     StagedFile(const StagedFile&) = delete;
@@ -48,6 +50,8 @@ public:
     ~StagedFile();
 
     const std::filesystem::path& path() const { return temporary_; }
+    /// Fails (ErrorCode::write) where somebody has taken it, or its folder, away.
+    Result<void> check_is_there() const;
     /// Open for reading and writing, until `commit`.
     int descriptor() const { return descriptor_; }
     Result<void> write(std::span<const std::byte> bytes);

@@ -38,6 +38,7 @@ Slots& slots() {
 
 std::atomic<bool> process_ends = false;
 constexpr int k_last_moment_ms = 2;
+constexpr int k_interrupted = 130; ///< as shells report SIGINT
 
 /// -1: they are all taken.
 int take(const char* path, pid_t child) {
@@ -117,7 +118,9 @@ void clear_leftovers_on_signals() {
     struct sigaction action {};
     action.sa_handler = [](int signal) {
         clear();
-        ::raise(signal); // ends the process as it would have: SA_RESETHAND
+        if (signal != SIGQUIT)
+            ::_exit(k_interrupted);
+        ::raise(signal); // which leaves a core: SA_RESETHAND
     };
     action.sa_flags = int(SA_RESETHAND);
     sigemptyset(&action.sa_mask);

@@ -38,7 +38,8 @@ private:
 void clear_leftovers_of_the_dead();
 
 /// To be called before the first fork. SIGHUP, SIGINT, SIGQUIT and SIGTERM take what is minded with them,
-/// where nobody else asked for them. One that is ignored stays so.
+/// where nobody else asked for them, and end the process with 130, SIGQUIT with a core. One that is ignored
+/// stays so.
 void clear_leftovers_on_signals();
 
 } // namespace tidemark

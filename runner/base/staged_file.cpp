@@ -198,6 +198,25 @@ void StagedFile::remove_abandoned(const OutputPath& output, Machines machines) {
         remove_abandoned_in(folder_of(place->path), without_digits(output.path().stem().string()), machines);
 }
 
+pid_t StagedFile::other_maker_of(const OutputPath& output) {
+    const auto place = output.place();
+    if (!place || place->stream)
+        return 0;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder_of(place->path), error), end; !error && entry != end; entry.increment(error)) {
+        const fs::path name = entry->path().filename();
+        const PartOf part = part_of(name.string());
+        if (part.process > 0 && part.process != ::getpid() && part.stem == output.path().stem() &&
+            name.extension() == output.path().extension() && !is_abandoned(entry->path(), part))
+            return part.process;
+    }
+    return 0;
+}
+
+Result<void> StagedFile::check_is_there() const {
+    return ::access(temporary_.c_str(), F_OK) == 0 ? Result<void>() : cannot_write(output_, errno);
+}
+
 Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view extension) {
     auto place = TRY(output.place());
     std::error_code ignored;

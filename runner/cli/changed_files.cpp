@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -116,13 +117,38 @@ std::string difference(const ChangedFile& file) {
     return text;
 }
 
+namespace {
+
+/// The error, and where the change is that was not made: in a new file beside the first one that lacks it.
+tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> files) {
+    std::string text;
+    for (const ChangedFile& file : files)
+        text += difference(file);
+    constexpr int k_attempts = 100;
+    for (int i = 1; i <= k_attempts; ++i) {
+        const std::string name = fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
+        std::error_code ignored;
+        if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
+            continue; // somebody's
+        if (write_file(OutputPath(name), std::as_bytes(std::span(text))))
+            error.message += fmt::format("; what it would have been is in '{}'", name);
+        break;
+    }
+    return fail(std::move(error));
+}
+
+} // namespace
+
 Result<void> write_files(const std::vector<ChangedFile>& files) {
-    for (const ChangedFile& file : files)
-        if (TRY(read_text_file(file.file)) != file.before)
-            return fail(ErrorCode::write,
-                        fmt::format("'{}' was changed meanwhile: nothing is written", file.file));
-    for (const ChangedFile& file : files)
-        TRY(replace_text(OutputPath::typed(file.file), file.before, file.after));
+    for (const ChangedFile& file : files) {
+        const auto now = read_text_file(file.file);
+        if (!now || *now != file.before)
+            return with_difference({ErrorCode::write, fmt::format("'{}' was changed meanwhile: nothing is written", file.file), {}},
+                                   files);
+    }
+    for (size_t i = 0; i < files.size(); ++i)
+        if (auto written = replace_text(OutputPath::typed(files[i].file), files[i].before, files[i].after); !written)
+            return with_difference(std::move(written.error()), std::span(files).subspan(i));
     return {};
 }
 

@@ -44,7 +44,8 @@ private:
 /// In the unified form. No line may have come or gone.
 std::string difference(const ChangedFile& file);
 
-/// Each of them whole or not at all; fails (ErrorCode::write) where one is not as it was read any more.
+/// Each of them whole or not at all; fails (ErrorCode::write) where one is not as it was read any more. The
+/// difference is kept in a file beside it then.
 Result<void> write_files(const std::vector<ChangedFile>& files);
 
 } // namespace tidemark::cli

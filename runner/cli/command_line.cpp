@@ -204,6 +204,8 @@ Result<void> parse_words(const std::function<void(Command)>& declare, std::vecto
     std::ranges::reverse(words); // CLI11 takes them from the back
     try {
         app.parse(std::move(words));
+    } catch (const CLI::Success&) { // what --help and --version throw
+        return fail(ErrorCode::usage, "it asks for help, and a file cannot");
     } catch (const CLI::Error& error) {
         return fail(ErrorCode::usage, error.what());
     }

@@ -5,6 +5,7 @@
 #include "base/leftovers.hpp"
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/last_resort.hpp"
 #include "cli/memory_limit.hpp"
 
@@ -14,9 +15,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace tidemark::cli {
@@ -75,6 +79,8 @@ int refuse(ErrorCode code, std::string message) {
 }
 
 class Supervisor {
+    using Clock = std::chrono::steady_clock;
+
 public:
     Supervisor(pid_t child, const Limits& limits, const DoingPage* page)
         : child_(child), limits_(limits), page_(page) {}
@@ -94,6 +100,11 @@ public:
                 ::raise(SIGSTOP);
             } else {
                 ::kill(signal == SIGCONT ? -child_ : child_, signal);
+                note_request(signal);
+            }
+            if (give_up_at_ && Clock::now() >= *give_up_at_) {
+                end_child();
+                return Interrupt::k_exit_code;
             }
             if (const auto ended = beyond_limits())
                 return *ended;
@@ -101,6 +112,17 @@ public:
     }
 
 private:
+    /// The first request is the child's to follow, even where somebody has stopped it; the second one is not left
+    /// to it alone.
+    void note_request(int signal) {
+        constexpr std::chrono::seconds k_last_moment(1);
+        if (signal != SIGINT && signal != SIGTERM && signal != SIGHUP && signal != SIGQUIT)
+            return;
+        ::kill(-child_, SIGCONT);
+        if (std::exchange(requested_, true) && signal != SIGHUP) // of a terminal that goes several tell
+            give_up_at_ = give_up_at_.value_or(Clock::now() + k_last_moment);
+    }
+
     /// Also reaps what was started in the child's name and lost its parent.
     bool has_ended(int& status) const {
         for (int of_one = 0;;) {
@@ -188,6 +210,8 @@ private:
     pid_t child_;
     Limits limits_;
     const DoingPage* page_;
+    bool requested_ = false; ///< to end
+    std::optional<Clock::time_point> give_up_at_{};
     unsigned looks_ = 0;
     std::vector<pid_t> family_; ///< what the child has started, as it was a while ago
 };

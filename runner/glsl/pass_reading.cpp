@@ -6,11 +6,13 @@
 #include "glsl/overloads.hpp"
 #include "glsl/prologue.hpp"
 #include "glsl/rewrite.hpp"
+#include "glsl/syntax/strange_character.hpp"
 #include "scene/project_files.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace tidemark::glsl {
 namespace {
@@ -174,7 +176,33 @@ bool PassReading::entry_lacks_parameters() const {
            (pass_.kind == scene::PassKind::image || pass_.kind == scene::PassKind::buffer);
 }
 
-std::vector<Diagnostic> PassReading::entry_point_problems() const {
+/// In code, and in the macros that it names: what stands in comments and in parts that are left out is nobody's
+/// business.
+std::vector<Diagnostic> PassReading::strange_characters() const {
+    const std::string& text = text_.text();
+    if (std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
+        return {};
+    std::vector<Diagnostic> found;
+    const auto look_at = [&](size_t i) {
+        const text::Token& token = tokens_[i];
+        if (const auto strange = strange_character(std::string_view(text).substr(token.begin)); strange && !strange->blank)
+            found.push_back({text_.lines().locate(token.line, token.column), Severity::error,
+                             fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange))});
+    };
+    std::unordered_set<std::string_view> names;
+    for (const size_t i : preprocessed_.code) {
+        look_at(i);
+        names.insert(tokens_[i].text);
+    }
+    for (const MacroLine& macro : preprocessed_.macros)
+        for (size_t i = macro.body; names.contains(macro.name) && i < macro.end; ++i)
+            look_at(i);
+    return found;
+}
+
+std::vector<Diagnostic> PassReading::problems() const {
+    if (auto strange = strange_characters(); !strange.empty())
+        return strange;
     const std::string_view entry = entry_point(pass_.kind);
     const auto place = [&](size_t token) {
         return text_.lines().locate(tokens_[token].line, tokens_[token].column);

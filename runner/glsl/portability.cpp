@@ -2,6 +2,7 @@
 
 #include "glsl/syntax/builtin_functions.hpp"
 #include "glsl/syntax/preprocess.hpp"
+#include "glsl/syntax/strange_character.hpp"
 #include "glsl/syntax/words.hpp"
 
 #include <fmt/format.h>
@@ -141,17 +142,9 @@ private:
 
     /// Of a character of several bytes each is a token: the first one speaks for it.
     void character(const Token& token) {
-        const auto is_in = [](char c, unsigned char mask, unsigned char wanted) {
-            return (static_cast<unsigned char>(c) & mask) == wanted;
-        };
-        if (!is_in(token.text[0], 0xC0, 0xC0))
-            return;
-        const std::string_view text = text_.text();
-        size_t end = token.end();
-        while (end < text.size() && is_in(text[end], 0xC0, 0x80))
-            ++end;
-        say(token, fmt::format("'{}' is no character of GLSL: it is taken for a blank",
-                               text.substr(token.begin, end - token.begin)));
+        if (const auto strange = strange_character(std::string_view(text_.text()).substr(token.begin)))
+            say(token, strange->blank ? fmt::format("{} stands in the code: the site refuses it; write a space", strange->name)
+                                      : fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange)));
     }
 
     void number(const Token& token) {

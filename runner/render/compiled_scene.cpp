@@ -114,11 +114,16 @@ Result<void> CompiledScene::compile() {
         reflections[i] = linked.program.reflection();
         if (linked.discards)
             discarding.push_back(i);
-        UniformTable uniforms(linked.program.reflection(), scene_.knobs, options_.extras.uniforms);
+        UniformTable uniforms(linked.program.reflection(), names_of(i, linked.dialect), options_.extras.uniforms);
         passes_[i] = CompiledPass{std::move(linked), std::move(uniforms)};
     }
     plan_ = plan_frame(scene_, reflections, shown_, options_.extras, discarding);
     return {};
+}
+
+/// A file of no project, or with a `main` of its own, may be another host's.
+UniformTable::Names CompiledScene::names_of(size_t pass, const glsl::Dialect& dialect) const {
+    return {scene_.knobs, scene_.passes[pass].bare_file || dialect.main == glsl::MainPlace::author};
 }
 
 GLenum CompiledScene::format_of(size_t pass) const {

@@ -63,6 +63,7 @@ public:
     /// One in the plan.
     const CompiledPass& operator[](size_t pass) const { return *passes_[pass]; }
 
+    UniformTable::Names names_of(size_t pass, const glsl::Dialect& dialect) const;
     /// Of the target that a pass is drawn into.
     GLenum format_of(size_t pass) const;
     bool can_be_tiled() const;

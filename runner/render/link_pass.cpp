@@ -37,7 +37,7 @@ public:
     /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
     /// dialect fails, the driver's words tell which kinds are worth trying.
     Result<LinkedPass> link() {
-        if (reading_.entry_lacks_parameters())
+        if (reading_.may_be_drawn_wrong())
             return fail(error());
         const std::vector<glsl::Dialect> dialects = reading_.dialects(options_.precision);
         if (auto linked = first_that_links(dialects))
@@ -62,7 +62,7 @@ private:
                     fmt::format("'{}' does not compile{}", scene_.file.string(),
                                 promoted ? " in double precision" : ""),
                     {}};
-        error.diagnostics = reading_.entry_point_problems();
+        error.diagnostics = reading_.problems();
         if (error.diagnostics.empty())
             error.diagnostics = glsl::for_people(glsl::parse_driver_log(first_->log, first_->source));
         for (Diagnostic& diagnostic : error.diagnostics) {

@@ -347,7 +347,7 @@ void Renderer::draw_substitute(size_t pass, const gl::Program& program, const Fr
     for (const BoundChannel& channel : passes_[pass].channels)
         point_samplers(program, channel.unit);
     set_face(program, face);
-    const UniformTable table(program.reflection(), scene().knobs);
+    const UniformTable table(program.reflection(), names_of(pass));
     table.upload(program, uniforms_of(pass, table, inputs, passes_[pass].target.latest().extent()));
     bind_textures(pass);
     draw_face(program, into, into.extent());

@@ -140,6 +140,7 @@ public:
     const glsl::LeftOut& left_out(size_t pass) const { return compiled_[pass].linked.left_out; }
     /// What it was linked as.
     const glsl::Dialect& dialect(size_t pass) const { return compiled_[pass].linked.dialect; }
+    UniformTable::Names names_of(size_t pass) const { return compiled_.names_of(pass, dialect(pass)); }
     /// What the uniforms of a table are told where a pass in the plan is drawn in that extent.
     UniformValues uniforms_of(size_t pass, const UniformTable& table, const FrameInputs& inputs,
                               Extent extent) const;

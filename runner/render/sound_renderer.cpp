@@ -47,7 +47,7 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Dat
     renderer.knobs_ = scene.knobs;
     renderer.inputs_.date = date;
     renderer.inputs_.date.seconds = std::floor(date.seconds);
-    renderer.uniforms_ = UniformTable(renderer.program_.reflection(), scene.knobs);
+    renderer.uniforms_ = UniformTable(renderer.program_.reflection(), {scene.knobs});
     GLuint vertex_array = 0;
     glCreateVertexArrays(1, &vertex_array);
     renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);

@@ -32,8 +32,8 @@ UniformNumbers elements_of(const glm::mat4& matrix) {
 
 } // namespace
 
-UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<scene::Knob>& knobs,
-                           bool absent_too) {
+UniformTable::UniformTable(const gl::Reflection& reflection, const Names& names, bool absent_too) {
+    const std::vector<scene::Knob>& knobs = names.knobs;
     constexpr std::pair<std::string_view, Source> k_names[] = {
         {"iResolution", Source::resolution},
         {"iTime", Source::time},
@@ -51,6 +51,8 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         {scene::k_orbit_uniform, Source::orbit},
         {scene::k_orbit_pan_uniform, Source::orbit_pan},
         {scene::k_mouse_button_uniform, Source::mouse_button},
+    };
+    constexpr std::pair<std::string_view, Source> k_names_of_others[] = {
         // The VS Code extension and glslsandbox.com fill these where a text declares them, …
         {"resolution", Source::resolution},
         {"time", Source::time},
@@ -67,8 +69,11 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         return std::any_of(knobs.begin(), knobs.end(),
                            [&](const scene::Knob& knob) { return knob.name == name; });
     };
+    std::vector<std::pair<std::string_view, Source>> known(std::begin(k_names), std::end(k_names));
+    if (names.other_hosts)
+        known.insert(known.end(), std::begin(k_names_of_others), std::end(k_names_of_others));
     for (const gl::Uniform& uniform : reflection.uniforms) {
-        for (const auto& [name, source] : k_names)
+        for (const auto& [name, source] : known)
             if (uniform.name == name && takes(uniform.type, source) && !is_knob(name))
                 entries_.push_back({uniform, source});
         for (size_t i = 0; i < knobs.size(); ++i)
@@ -85,7 +90,7 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const std::vector<s
         if (!reflection.has(name)) // GL ignores what is set at location -1
             entries_.push_back({{std::string(name), type, 1, -1}, source, index});
     };
-    for (const auto& [name, source] : k_names)
+    for (const auto& [name, source] : known)
         absent(name, source);
     for (size_t i = 0; i < knobs.size(); ++i)
         absent(knobs[i].name, Source::knob, i);

@@ -19,9 +19,14 @@ namespace tidemark::render {
 class UniformTable {
 public:
     UniformTable() = default;
+    /// Of a scene, and whose names it goes by beside ours: a text of ShaderToy's that declares `time` has a zero
+    /// there on the site, and has one here.
+    struct Names {
+        const std::vector<scene::Knob>& knobs;
+        bool other_hosts = false; ///< those of the VS Code extension, glslsandbox.com and glslViewer
+    };
     /// `absent_too`: hands over what the program has no uniform for as well, to measure what that would cost.
-    UniformTable(const gl::Reflection& reflection, const std::vector<scene::Knob>& knobs,
-                 bool absent_too = false);
+    UniformTable(const gl::Reflection& reflection, const Names& names, bool absent_too = false);
 
     size_t size() const { return entries_.size(); }
 

@@ -59,7 +59,8 @@ Json pass_data(const scene::Scene& scene, const scene::Pass& pass) {
             {"kind", name_of(pass.kind)},
             {"source", source.text()},
             {"lines", line_runs(source, scene)},
-            {"discards", reading.discards()}};
+            {"discards", reading.discards()},
+            {"foreign", pass.bare_file || reading.has_own_main()}};
 }
 
 std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass& pass) {

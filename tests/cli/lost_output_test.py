@@ -57,7 +57,7 @@ class Failures(Resume):
 
     def start_slow(self, env: dict[str, str] | None = None, **options) -> subprocess.Popen:
         """Until its third frame is there."""
-        self.write("a.glsl", SCENE.replace("400", "40000"))
+        self.write("a.glsl", SCENE.replace("400", "10000"))
         process = subprocess.Popen([PROGRAM, *SEQUENCE], cwd=self.folder, env=env or environment(), text=True,
                                    stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, **options)
         while not (self.folder / "out/f_0002.png").exists():
@@ -185,6 +185,66 @@ class Encoders(Failures):
 
     def test_one_that_is_killed(self):
         self.go_wrong_and_on("[ $run = 3 ] && { head -c 9216 > /dev/null; kill -9 $$; }", "ffmpeg ended without a word")
+
+    def test_one_that_writes_no_video_and_says_that_all_is_well(self):
+        for script in ("", 'for last; do :; done; echo junk > "${last#file:}"; '):
+            with self.subTest(script):
+                self.go_wrong_and_on(f"[ $run = 3 ] && {{ cat > /dev/null; {script}exit 0; }}",
+                                     "ffmpeg said that it is done, and what it wrote is no such video: look at the ffmpeg in PATH")
+                for name in ("out", "tools"):
+                    shutil.rmtree(self.folder / name)
+                (self.folder / "out").mkdir()
+                (self.folder / "count").unlink()
+
+    HANGS = "[ $run = 3 ] && exec sleep 1000"
+
+    def start_hanging(self) -> subprocess.Popen:
+        """Until the third segment's ffmpeg takes no more frames."""
+        process = subprocess.Popen([PROGRAM, *self.FILM], cwd=self.folder, env=self.with_ffmpeg(self.HANGS), text=True,
+                                   stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        for line in process.stderr:
+            if "still encoding frame 2" in line:
+                return process
+        self.fail("it ended")
+
+    def test_one_that_hangs_is_given_up(self):
+        done = self.run_program(*self.FILM, "--timeout", "2", env=self.with_ffmpeg(self.HANGS))
+        self.assertEqual(self.expect_cut(done, 5, r"error: gave up encoding frame 2\d after 2(\.\d+)? s \(--timeout\)"), 20)
+        self.assertEqual(self.resume(*self.FILM)[0], "kept 20 of 50 frames")
+
+    def test_one_that_hangs_is_ended_by_one_interrupt(self):
+        process = self.start_hanging()
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 130)
+        self.assertEqual(self.resume(*self.FILM)[0], "kept 20 of 50 frames")
+
+    def test_a_second_capture_of_the_same_video_is_refused(self):
+        first = self.start_hanging()
+        before = self.contents()
+        done = self.run_program(*self.FILM, "--resume")
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': process \d+ is making it: wait for its end, or give another "
+                                      r"name \(-o\)")
+        self.assertEqual(self.contents(), before)
+        self.run_program("capture", "a.glsl", "--size", "64x36", "--frames", "0-2", "-o", "out/b.mp4", check=True)
+        first.kill()
+        first.wait()
+        self.assertEqual(self.resume(*self.FILM)[0], "kept 20 of 50 frames")
+
+    def test_the_folder_of_a_video_goes(self):
+        self.write("a.glsl", SCENE.replace("400", "10000"))
+        process = subprocess.Popen([PROGRAM, "capture", "a.glsl", "--size", "64x36", "--frames", "0-9999", "-o", "out/a.mp4"],
+                                   cwd=self.folder, env=environment(), text=True, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while not list((self.folder / "out").glob(".a.mp4.segment-*")):
+            self.assertIsNone(process.poll())
+            time.sleep(0.002)
+        shutil.rmtree(self.folder / "out")
+        done = self.finished(process)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertRegex(done.stderr, r"error: cannot write 'out/a\.mp4[^']*': No such file or directory")
 
     def test_one_that_went(self):
         """After two segments; the next one finds none."""

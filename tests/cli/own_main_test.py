@@ -1,4 +1,6 @@
 """Scenes with a `void main()` of their own: the picture of their twin with mainImage, errors on the author's lines."""
+import json
+
 from support import png
 from support.program import ProgramTest, main
 
@@ -37,6 +39,18 @@ class OwnMain(ProgramTest):
         for text in (GLSLSANDBOX, GLSLVIEWER):
             with self.subTest(text.splitlines()[0]):
                 self.assertEqual(self.pixels(text), twin)
+
+    def test_a_project_of_the_site_is_given_the_sites_uniforms_alone(self):
+        code = "uniform float time;\nuniform vec2 resolution, mouse;\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(time, resolution.x / 64.0, 1.0, 1.0); }\n"
+        own_main = "uniform float time;\nvoid main() { gl_FragColor = vec4(time, 0.5, 1.0, 1.0); }\n"
+        project = lambda text: json.dumps({"Shader": {"ver": "0.1", "info": {"id": "abcdef", "name": "t"}, "renderpass": [
+            {"inputs": [], "outputs": [{"id": "4dfGRr", "channel": 0}], "code": text, "name": "Image", "type": "image"}]}})
+        for name, text, red, green in (("site.json", project(code), 0, 0), ("file.glsl", code, 255, 128),
+                                       ("main.json", project(own_main), 255, 128)):
+            with self.subTest(name):
+                self.write(name, text)
+                self.succeed("capture", name, "--size", "32x16", "--time", "1.25", "-o", "x.png")
+                self.assertEqual(png.read(self.folder / "x.png").pixel(3, 3)[:3], (red, green, 255))
 
     def test_an_error_has_the_authors_line(self):
         for text in (GLSLSANDBOX, GLSLVIEWER):

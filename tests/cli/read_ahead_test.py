@@ -38,7 +38,7 @@ class SameBytes(ProgramTest):
         done = self.succeed("capture", *arguments, env=env)
         files = {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("*")}
         shutil.rmtree(out)
-        slow = re.compile(r"Ctrl-C ends it|^\d+/\d+ frames, ")  # what a busy machine says besides
+        slow = re.compile(r"Ctrl-C (ends it|stops)|^\d+/\d+ frames, ")  # what a busy machine says besides
         said = [line for line in done.stderr.splitlines() if not slow.search(line)]
         return "\n".join(said), done.stdout, files
 

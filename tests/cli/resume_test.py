@@ -137,6 +137,14 @@ class Feedback(Resume):
             for name in whole:
                 (self.folder / "out" / name).unlink()
 
+    def test_a_state_that_grew_is_none(self):
+        """It takes no room on disk, and would take all memory."""
+        whole = self.whole(*self.RUN)
+        self.cut(*self.RUN)
+        os.truncate(self.folder / "out/f_0030.png.state", 30 << 30)
+        self.assertNotIn("going on", "".join(self.resume(*self.RUN)))
+        self.assertEqual(self.contents(), whole)
+
 
 @unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is not installed")
 class Videos(Resume):

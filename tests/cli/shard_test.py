@@ -229,6 +229,9 @@ class Shards(ProgramTest):
             self.write("whole/shards.json", note)
             self.expect_failure(["gather", "whole"], 3, "tidemark: error: 'whole/shards.json' is not of `capture --shard`")
         note = json.loads((self.folder / "out/shards.json").read_text())
+        asks = dict(note, capture=[*note["capture"], "--help"])
+        self.write("whole/shards.json", json.dumps(asks))
+        self.expect_failure(["gather", "whole"], 3, "tidemark: error: 'whole/shards.json': it asks for help, and a file cannot")
         self.write("whole/shards.json", json.dumps(note))
         self.expect_failure(["gather", "whole"], 2, "tidemark: error: 'whole/shards.json' was written for "
                             "'out/f_%04d.png': run gather where the shards were run")

@@ -138,6 +138,22 @@ class Record(LiveTest):
                 self.assertTrue(view.stderr().endswith("tidemark: error: the display is gone\n"), view.stderr())
                 self.assertRegex((self.folder / f"{paused}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
 
+    def test_a_window_that_another_program_destroys_leaves_what_was_recorded(self):
+        self.write("a.glsl", SCENE)
+        for paused in (False, True):
+            with self.subTest(paused=paused):
+                view = self.view("a.glsl", *SIZE, "--record", f"{paused}.txt")
+                view.save_key = "ctrl+s"
+                if paused: # it sleeps until something happens
+                    view.key("ctrl+space")
+                    view.wait_for_title(" - paused at ")
+                view.drag((100, 50), (60, 70))
+                view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 60)
+                view.screen.xdotool("windowclose", str(view.window))
+                self.assertEqual(view.wait_for_end(), 77)
+                self.assertTrue(view.stderr().endswith("tidemark: error: another program has destroyed the window\n"), view.stderr())
+                self.assertRegex((self.folder / f"{paused}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
+
     def test_recording_over_what_the_scene_reads(self):
         for text in (SCENE, "not yet a scene"):
             with self.subTest(text):

@@ -31,13 +31,21 @@
 namespace tidemark::cli {
 namespace {
 
+/// Bytes; more than its buffers can be: two textures each, of four floats a pixel, the largest a cubemap's.
+uint64_t largest_state(const CapturePlan& plan) {
+    constexpr uint64_t k_cubemap = 6 * 1024 * 1024, k_header = 1 << 20;
+    const auto pixels = std::max<uint64_t>(plan.drawing.extent.pixels(), k_cubemap);
+    return k_header + plan.scene.passes.size() * 2 * pixels * 4 * sizeof(float);
+}
+
 /// The newest state that the rest of the capture can begin from. Where there is none, one that is too new
 /// still says which program was chosen.
 std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint& fingerprint) {
     const render::FrameStates states = states_of(plan.frames);
     std::optional<SavedState> too_new;
     for (const std::filesystem::path& file : find_states(plan.output)) {
-        auto state = read_state(file, [&](int frame) { return fingerprint.of_frame(states(frame)); });
+        auto state = read_state(
+            file, [&](int frame) { return fingerprint.of_frame(states(frame)); }, largest_state(plan));
         if (state && state->frame <= plan.frames.frames.front())
             return state;
         if (state && !too_new)

@@ -46,6 +46,7 @@ Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compil
       records_(plan.json || plan.sheet.has_value()), watchdog_([this] { rescue_output(); }) {}
 
 Result<bool> Capture::run(Interrupt& interrupt) {
+    interrupt_ = &interrupt;
     // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
@@ -125,8 +126,10 @@ Result<void> Capture::open_output() {
 }
 
 Result<void> Capture::close_output() {
+    if (video_ && plan_.shard)
+        return {}; // `gather` joins it
     if (video_)
-        return plan_.shard ? Result<void>() : video_->finish(sound_); // which `gather` does
+        return encode("joining the video", {}, [&] { return video_->finish(sound_); });
     if (sheet_)
         return image::write_picture(plan_.output.of_frame(plan_.frames.frames.front()), sheet_->picture(),
                                     format_of_sheet());
@@ -136,7 +139,7 @@ Result<void> Capture::close_output() {
 /// What the driver puts off until the first draw, so that no frame pays for it, in time or against its limit.
 void Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
-    const Watchdog::Watch watch(watchdog_, "preparing the first frame", plan_.timeout);
+    const Watchdog::Watch watch(watchdog_, {"preparing the first frame", plan_.timeout});
     const auto start = Clock::now();
     renderer_.warm_up(inputs_of(states_(plan_.frames.frames.front())));
     prepare_milliseconds_ = milliseconds_since(start);
@@ -170,7 +173,7 @@ Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord
         else if (steps)
             steps->advance();
         work.start = Clock::now();
-        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", step), plan_.timeout, work.begun);
+        work.watch.emplace(watchdog_, Watchdog::frame_task(step, plan_.timeout, work.begun));
         return true;
     });
     TRY(std::move(saved));
@@ -303,7 +306,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         if (work.watch)
             progress.advance();
         work.watch.reset();
-        work.watch.emplace(watchdog_, fmt::format("drawing frame {}", frame), plan_.timeout, work.start);
+        work.watch.emplace(watchdog_, Watchdog::frame_task(frame, plan_.timeout, work.start));
         return !interrupt.requested();
     };
     auto drawn = render::draw_bands(renderer_, exposed, before_tile, [&](image::Image band) {
@@ -366,7 +369,7 @@ size_t Capture::whole_frames() {
 /// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,
 /// half a segment of a video is not.
 void Capture::rescue_output() {
-    if (video_)
+    if (video_ && !in_encoder_) // else the main thread is at it, and its process is ended with ours
         video_->drop();
     if (writer_)
         (void)writer_->finish();
@@ -374,13 +377,28 @@ void Capture::rescue_output() {
         say(words);
 }
 
+/// What encodes may hang, and is no work of ours that could be finished: Ctrl-C ends it.
+Result<void> Capture::encode(std::string what, std::optional<double> limit,
+                             const std::function<Result<void>()>& work) {
+    const Watchdog::Watch watch(watchdog_, {.what = std::move(what),
+                                            .limit_seconds = limit,
+                                            .unwanted = [this] { return interrupt_->requested(); }});
+    in_encoder_ = true;
+    auto outcome = work();
+    in_encoder_ = false;
+    return outcome;
+}
+
 /// False when the writer has failed and no more frames are wanted.
 Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
-    if (video_)
-        return video_->push(image).map([] { return true; }).map_error([&](Error error) {
+    if (video_) {
+        auto encoded = encode(fmt::format("encoding frame {}", record.frame), plan_.timeout,
+                              [&] { return video_->push(image); });
+        return encoded.map([] { return true; }).map_error([&](Error error) {
             error.message += fmt::format(" (in frame {})", record.frame);
             return error;
         });
+    }
     if (sheet_) {
         sheet_->add(image);
         return true;

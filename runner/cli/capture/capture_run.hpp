@@ -83,6 +83,7 @@ private:
     image::PictureFormat format_of_sheet() const;
     Result<void> open_output();
     Result<void> close_output();
+    Result<void> encode(std::string what, std::optional<double> limit, const std::function<Result<void>()>& work);
     void rescue_output();
 
     const CapturePlan& plan_;
@@ -98,6 +99,8 @@ private:
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_; ///< of pictures
     std::optional<SegmentedVideo> video_;
+    std::atomic<bool> in_encoder_ = false; ///< the main thread is at `video_`
+    const Interrupt* interrupt_ = nullptr; ///< during `run`
     std::optional<Sheet> sheet_; ///< none of these: frames go to standard output
     LoopCheck loop_;
     FrameRecords records_;

@@ -59,7 +59,7 @@ Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions dra
 Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     Watchdog watchdog;
-    const Watchdog::Watch watch(watchdog, "compiling", plan.timeout);
+    const Watchdog::Watch watch(watchdog, {"compiling", plan.timeout});
     const auto tile = TRY(choose_tile(plan));
     render::RenderOptions drawing = plan.drawing;
     drawing.tile = tile;

@@ -3,6 +3,7 @@
 #include "cli/capture/kept_frames.hpp"
 #include "cli/capture/segmented_video.hpp"
 #include "cli/picture_facts.hpp"
+#include "cli/progress.hpp"
 #include "image/files/picture_metadata.hpp"
 
 #include <fmt/format.h>
@@ -90,7 +91,8 @@ void count_devices(Gathered& result, std::string_view what) {
 Gathered gathered_segments(const CapturePlan& plan, const Fingerprint& run, int shards) {
     Gathered result;
     std::vector<Wrong> all;
-    for (size_t i = 0; i < plan.segments.size(); ++i) {
+    Progress progress("segments looked at", plan.segments.size());
+    for (size_t i = 0; i < plan.segments.size(); ++i, progress.advance()) {
         const auto file = segment_file(plan.output, i).path();
         const Fingerprint wanted = Fingerprint::parse(note_of(plan, plan.segments[i], run));
         if (auto what = look_at_segment(file, wanted, result); !what.empty())
@@ -118,10 +120,13 @@ Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards) {
     Gathered result;
     std::vector<Wrong> all;
     const render::FrameStates states = states_of(plan.frames);
-    for (const int frame : plan.frames.frames)
+    Progress progress("frames looked at", plan.frames.frames.size());
+    for (const int frame : plan.frames.frames) {
         for (const std::filesystem::path& file : files_of(plan.output, frame))
             if (auto what = look_at(file, run.of_frame(states(frame)), result); !what.empty())
                 note(all, std::move(what), file.string());
+        progress.advance();
+    }
     for (const auto& [what, first, count] : all)
         result.wrong.push_back(fmt::format("{} of {} frames: {}, {} first (shard {}/{})", count,
                                            plan.frames.frames.size(), what, first,

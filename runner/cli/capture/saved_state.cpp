@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <map>
 
 namespace tidemark::cli {
@@ -20,7 +21,8 @@ namespace {
 constexpr std::string_view k_ending = ".state";
 constexpr int k_version_of_format = 1;
 constexpr size_t k_checksum = 64;
-constexpr size_t k_largest_state = size_t{1} << 36; ///< bytes: whatever memory holds
+constexpr uint64_t k_most_floats = uint64_t{1} << 40; ///< more than any disk holds
+constexpr size_t k_longest_header = size_t{1} << 20; ///< bytes
 
 std::span<const std::byte> bytes_of(std::string_view text) {
     return std::as_bytes(std::span(text));
@@ -50,6 +52,15 @@ bool take(std::string_view& rest, size_t count, render::TextureFloats& texture) 
     std::memcpy(texture.data(), rest.data(), count * sizeof(float));
     rest.remove_prefix(count * sizeof(float));
     return true;
+}
+
+/// Bytes of the whole file, by its header. Throws where that is none of ours.
+uint64_t size_of(const Json& header, uint64_t header_bytes) {
+    uint64_t floats = 0;
+    for (const Json& pass : header.at("passes"))
+        for (const Json& count : pass.at(1))
+            floats += std::min(count.get<uint64_t>(), k_most_floats);
+    return header_bytes + std::min(floats, k_most_floats) * sizeof(float) + k_checksum;
 }
 
 /// Throws where the header is none of ours.
@@ -127,19 +138,25 @@ Result<void> write_state(const OutputPath& file, const SavedState& state, const 
 }
 
 std::optional<SavedState> read_state(const fs::path& file,
-                                     const std::function<Fingerprint(int frame)>& fingerprint_of) {
-    const auto bytes = read_file(file, k_largest_state);
-    const auto content = bytes ? without_checksum(*bytes) : std::nullopt;
-    if (!content)
-        return std::nullopt;
-    const size_t line = std::min(content->find('\n'), content->size());
+                                     const std::function<Fingerprint(int frame)>& fingerprint_of,
+                                     uint64_t most_bytes) {
     try {
-        const Json header = parse_json(content->substr(0, line));
-        if (header.at("tidemark_state") != k_version_of_format ||
-            header.at("fingerprint") != fingerprint_of(header.at("frame").get<int>()).text())
+        std::string line(k_longest_header, '\0');
+        if (!std::ifstream(file, std::ios::binary).getline(line.data(), std::streamsize(line.size())))
             return std::nullopt;
-        return parse(header, content->substr(std::min(line + 1, content->size())));
+        line.resize(std::strlen(line.c_str()));
+        const Json header = parse_json(line);
+        const auto size = size_of(header, line.size() + 1);
+        if (header.at("tidemark_state") != k_version_of_format ||
+            header.at("fingerprint") != fingerprint_of(header.at("frame").get<int>()).text() || size > most_bytes ||
+            size != fs::file_size(file))
+            return std::nullopt;
+        const auto bytes = read_file(file, size);
+        const auto content = bytes ? without_checksum(*bytes) : std::nullopt;
+        return content && content->starts_with(line) ? parse(header, content->substr(line.size() + 1)) : std::nullopt;
     } catch (const Json::exception&) { // a stranger's
+        return std::nullopt;
+    } catch (const fs::filesystem_error&) { // it has gone
         return std::nullopt;
     }
 }

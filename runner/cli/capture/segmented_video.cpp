@@ -4,9 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 #include <system_error>
+#include <thread>
 
 namespace tidemark::cli {
 namespace {
@@ -48,8 +52,32 @@ std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const 
 
 Result<SegmentedVideo> SegmentedVideo::create(const CapturePlan& plan, Fingerprint run, Extent extent) {
     SegmentedVideo video(plan, std::move(run), extent);
+    TRY(video.claim());
     TRY(video.open_next());
     return video;
+}
+
+/// Of two that begin in the same moment the one with the lower number goes on. One that was killed may take a
+/// moment to die.
+Result<void> SegmentedVideo::claim() {
+    constexpr std::chrono::milliseconds k_patience(1000), k_pause(20);
+    const OutputPath mark = plan_.output.of_frame(0).beside(
+        plan_.shard ? fmt::format(".shard-{}", plan_.shard->index) : ".capture");
+    const auto refuse = [&](pid_t other) {
+        return fail(ErrorCode::write, fmt::format("cannot write '{}': process {} is making it: wait for its end, or give another "
+                                                  "name (-o)",
+                                                  plan_.output.pattern().string(), other));
+    };
+    pid_t other = StagedFile::other_maker_of(mark);
+    for (auto waited = k_pause; other != 0 && waited < k_patience; waited += k_pause) {
+        std::this_thread::sleep_for(k_pause);
+        other = StagedFile::other_maker_of(mark);
+    }
+    if (other != 0)
+        return refuse(other);
+    claim_.emplace(TRY(StagedFile::create(mark)));
+    other = StagedFile::other_maker_of(mark);
+    return other != 0 && other < ::getpid() ? refuse(other) : Result<void>();
 }
 
 Result<void> SegmentedVideo::open_next() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
+#include "base/file.hpp"
 #include "cli/fingerprint.hpp"
 #include "image/files/video_writer.hpp"
 
@@ -22,7 +23,8 @@ std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const 
 
 class SegmentedVideo {
 public:
-    /// `plan` must outlive it. The first encoder is started, where there is anything to encode.
+    /// `plan` must outlive it. The first encoder is started, where there is anything to encode. Fails
+    /// (ErrorCode::write) while another process makes the same video, or the same shard of it.
     static Result<SegmentedVideo> create(const CapturePlan& plan, Fingerprint run, Extent extent);
 
     /// The next frame of those that are not kept.
@@ -37,6 +39,7 @@ public:
 private:
     SegmentedVideo(const CapturePlan& plan, Fingerprint run, Extent extent)
         : plan_(plan), run_(std::move(run)), extent_(extent) {}
+    Result<void> claim();
     Result<void> open_next();
     Result<void> close();
     image::VideoFormat format() const { return {extent_, plan_.pace.fps, plan_.codec, plan_.alpha}; }
@@ -49,6 +52,7 @@ private:
     size_t written_ = 0;
     size_t pushed_ = 0; ///< frames of the one in hand
     std::optional<image::SegmentWriter> writer_;
+    std::optional<StagedFile> claim_; ///< tells other processes of this one; never committed
 };
 
 /// Of segments that are all there.

@@ -4,6 +4,7 @@
 #include "base/leftovers.hpp"
 #include "cli/console.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/interrupt.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,9 @@ namespace {
 /// A person waits so long without a word, and hears one so often from then on.
 constexpr std::chrono::seconds k_first_word{3};
 constexpr std::chrono::seconds k_next_word{10};
+/// So often it is asked whether work is still wanted, and so long it may go on when it is not.
+constexpr std::chrono::milliseconds k_look{200};
+constexpr std::chrono::seconds k_unwanted{2};
 
 std::chrono::steady_clock::duration from_seconds(double seconds) {
     // Beyond a year the clock's own numbers overflow.
@@ -34,17 +38,20 @@ Watchdog::~Watchdog() {
     thread_.join();
 }
 
-Watchdog::Watch::Watch(Watchdog& dog, std::string what, std::optional<double> limit_seconds,
-                       Clock::time_point start)
-    : dog_(dog) {
-    Work work{std::move(what), start, std::nullopt, Clock::now() + k_first_word};
-    if (limit_seconds)
-        work.deadline = start + from_seconds(*limit_seconds);
+Watchdog::Watch::Watch(Watchdog& dog, Task task) : dog_(dog) {
+    Work work{std::move(task), std::nullopt, Clock::now() + k_first_word};
+    if (work.task.limit_seconds)
+        work.deadline = work.task.start + from_seconds(*work.task.limit_seconds);
     const std::lock_guard lock(dog_.mutex_);
     // Not woken for each frame: it looks at what there is when it wakes by itself.
     if (work.wake() < dog_.wakes_)
         dog_.changed_.notify_all();
     dog_.work_ = std::move(work);
+}
+
+Watchdog::Task Watchdog::frame_task(int frame, std::optional<double> limit_seconds, Clock::time_point start) {
+    return {fmt::format("drawing frame {}", frame), limit_seconds, start,
+            "Ctrl-C stops behind this frame, a second one at once"};
 }
 
 Watchdog::Watch::~Watch() {
@@ -53,15 +60,22 @@ Watchdog::Watch::~Watch() {
 }
 
 Watchdog::Clock::time_point Watchdog::Work::wake() const {
-    return deadline ? std::min(*deadline, next_word) : next_word;
+    const auto due = deadline ? std::min(*deadline, next_word) : next_word;
+    return task.unwanted ? std::min(due, Clock::now() + k_look) : due;
+}
+
+bool Watchdog::Work::is_unwanted_for_long(Clock::time_point now) {
+    if (!task.unwanted || !task.unwanted())
+        return false;
+    unwanted_since = unwanted_since.value_or(now);
+    return now - *unwanted_since > k_unwanted;
 }
 
 void Watchdog::run() {
     std::unique_lock lock(mutex_);
     while (!ending_) {
-        if (work_ && work_->wake() <= Clock::now()) {
+        if (work_) {
             speak_or_end();
-        } else if (work_) {
             wakes_ = work_->wake();
             changed_.wait_until(lock, wakes_);
         } else {
@@ -75,20 +89,24 @@ void Watchdog::run() {
 /// uses what `before_exit_` takes down.
 void Watchdog::speak_or_end() {
     const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - work_->start).count();
-    if (work_->deadline && now >= *work_->deadline) {
-        if (before_exit_)
-            before_exit_();
-        say(Error{ErrorCode::timed_out,
-                  fmt::format("gave up {} after {:.3g} s (--timeout)", work_->what, seconds),
-                  {}});
-        finish_diagnostics(true);
-        exit_at_once(exit_code(ErrorCode::timed_out));
-    }
+    const double seconds = std::chrono::duration<double>(now - work_->task.start).count();
+    if (work_->deadline && now >= *work_->deadline)
+        end(fmt::format("gave up {} after {:.3g} s (--timeout)", work_->task.what, seconds),
+            exit_code(ErrorCode::timed_out));
+    if (work_->is_unwanted_for_long(now))
+        end(fmt::format("gave up {} after {:.3g} s: interrupted", work_->task.what, seconds), Interrupt::k_exit_code);
     if (now >= work_->next_word) {
-        say(fmt::format("still {} after {:.0f} s; Ctrl-C ends it", work_->what, seconds));
+        say(fmt::format("still {} after {:.0f} s; {}", work_->task.what, seconds, work_->task.how_to_end));
         work_->next_word = now + k_next_word;
     }
+}
+
+void Watchdog::end(const std::string& why, int code) {
+    if (before_exit_)
+        before_exit_();
+    say(Error{ErrorCode::timed_out, why, {}});
+    finish_diagnostics(true);
+    exit_at_once(code);
 }
 
 } // namespace tidemark::cli

@@ -24,12 +24,22 @@ public:
 
     using Clock = std::chrono::steady_clock;
 
-    /// Watches until it is destroyed. `what` completes "still …" and "gave up on …". The limit counts from
-    /// `start`.
+    struct Task {
+        std::string what;                    ///< completes "still …" and "gave up …"
+        std::optional<double> limit_seconds; ///< from `start` on
+        Clock::time_point start = Clock::now();
+        const char* how_to_end = "Ctrl-C ends it";
+        /// Asked on the watchdog's thread: once it has said so for two seconds the process ends as by Ctrl-C.
+        std::function<bool()> unwanted{};
+    };
+
+    /// A frame in hand is made before a capture stops.
+    static Task frame_task(int frame, std::optional<double> limit_seconds, Clock::time_point start);
+
+    /// Watches until it is destroyed.
     class Watch {
     public:
-        Watch(Watchdog& dog, std::string what, std::optional<double> limit_seconds,
-              Clock::time_point start = Clock::now());
+        Watch(Watchdog& dog, Task task);
         ~Watch();
         Watch(const Watch&) = delete;
         Watch& operator=(const Watch&) = delete;
@@ -40,17 +50,19 @@ public:
 
 private:
     struct Work {
-        std::string what;
-        Clock::time_point start;
+        Task task;
         std::optional<Clock::time_point> deadline;
         Clock::time_point next_word;
+        std::optional<Clock::time_point> unwanted_since{};
 
         /// When something is due.
         Clock::time_point wake() const;
+        bool is_unwanted_for_long(Clock::time_point now);
     };
 
     void run();
     void speak_or_end();
+    void end(const std::string& why, int code);
 
     std::function<void()> before_exit_;
     std::mutex mutex_;

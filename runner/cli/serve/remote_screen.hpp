@@ -49,7 +49,7 @@ public:
     void set_clipboard(const std::string& text) override;
     void toggle_full_screen() override {}
     std::optional<platform::WindowPlace> place() const override { return std::nullopt; }
-    std::shared_ptr<void> when_lost(std::function<void()>) override { return nullptr; }
+    std::shared_ptr<void> when_lost(std::function<void(std::string_view what)>) override { return nullptr; }
 
 private:
     RemoteScreen(Settings settings, platform::HeadlessContext context);

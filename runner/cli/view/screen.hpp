@@ -66,7 +66,7 @@ public:
     virtual std::optional<platform::WindowPlace> place() const = 0;
 
     /// While the result lives `act` is called, once and on any thread, when the screen is lost.
-    virtual std::shared_ptr<void> when_lost(std::function<void()> act) = 0;
+    virtual std::shared_ptr<void> when_lost(std::function<void(std::string_view what)> act) = 0;
 };
 
 /// Opens one that has that title.

@@ -83,9 +83,9 @@ Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
 }
 
 Result<int> Viewer::run(const Interrupt& interrupt) {
-    const auto rescue = screen_->when_lost([this] {
+    const auto rescue = screen_->when_lost([this](std::string_view what) {
         const auto saved = finish();
-        say(to_string(saved ? Error{ErrorCode::no_context, "the display is gone"} : saved.error()));
+        say(to_string(saved ? Error{ErrorCode::no_context, std::string(what)} : saved.error()));
         exit_at_once(exit_code(ErrorCode::no_context));
     });
     listened_at_ = now_seconds();

@@ -71,7 +71,7 @@ Result<void> WindowScreen::finish(live::Model model, const ShownMoment&) {
     return shown;
 }
 
-std::shared_ptr<void> WindowScreen::when_lost(std::function<void()> act) {
+std::shared_ptr<void> WindowScreen::when_lost(std::function<void(std::string_view what)> act) {
     return std::make_shared<platform::WhenDisplayIsLost>(std::move(act));
 }
 

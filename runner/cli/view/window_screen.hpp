@@ -35,7 +35,7 @@ public:
     void set_clipboard(const std::string& text) override { window_.set_clipboard(text); }
     void toggle_full_screen() override { window_.toggle_full_screen(); }
     std::optional<platform::WindowPlace> place() const override { return window_.place(); }
-    std::shared_ptr<void> when_lost(std::function<void()> act) override;
+    std::shared_ptr<void> when_lost(std::function<void(std::string_view what)> act) override;
 
 private:
     explicit WindowScreen(platform::Window window) : window_(std::move(window)) {}

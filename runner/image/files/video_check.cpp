@@ -38,23 +38,25 @@ private:
     uint64_t size_ = 0;
 };
 
-/// MP4, MOV: box after box, each with its size.
-bool has_all_boxes(const FileBytes& file) {
+/// MP4, MOV: box after box, each with its size; one of them of the type `wanted`, where one is.
+bool has_all_boxes(const FileBytes& file, std::string_view wanted = {}) {
     constexpr size_t heading = 8;
+    bool found = wanted.empty();
     for (uint64_t at = 0; at < file.size();) {
         const std::string box = file.at(at, 2 * heading);
         if (box.size() < heading)
             return false;
+        found = found || std::string_view(box).substr(4, 4) == wanted;
         uint64_t size = big_endian(box, 0, 4);
         if (size == 0) // to the end
-            return true;
+            return found;
         if (size == 1 && box.size() == 2 * heading)
             size = uint64_t{big_endian(box, 8, 4)} << 32 | big_endian(box, 12, 4);
         if (size < heading || size > file.size() - at)
             return false;
         at += size;
     }
-    return true;
+    return found;
 }
 
 /// The number of an EBML element's size, which `place` is moved behind; UINT64_MAX: not known.
@@ -175,6 +177,17 @@ bool is_whole_video(const std::filesystem::path& path) {
     if (has(0, "GIF8"))
         return GifWalk(file).reaches_end();
     return !has(0, "RIFF") || !has(8, "AVI ") || has_whole_riff(file);
+}
+
+bool is_video_of(const std::filesystem::path& path, std::string_view muxer) {
+    const FileBytes file(path);
+    const std::string head = file.at(0, 12);
+    if (muxer == "mp4" || muxer == "mov")
+        return head.substr(std::min<size_t>(4, head.size())).starts_with("ftyp") && has_all_boxes(file, "moov");
+    const bool of_its_kind = muxer == "gif"    ? head.starts_with("GIF8")
+                             : muxer == "webp" ? head.starts_with("RIFF") && head.ends_with("WEBP")
+                                               : head.starts_with("\x1a\x45\xdf\xa3"sv);
+    return of_its_kind && is_whole_video(path);
 }
 
 } // namespace tidemark::image

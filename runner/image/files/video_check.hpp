@@ -4,10 +4,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace tidemark::image {
 
 /// True also of what cannot be read or told.
 bool is_whole_video(const std::filesystem::path& path);
+
+/// Whether the file is whole and of the kind that ffmpeg calls so: `mp4`, `mov`, `matroska`, `webm`, `gif`,
+/// `webp`. Of MP4 and MOV it must say where its pictures are.
+bool is_video_of(const std::filesystem::path& path, std::string_view muxer);
 
 } // namespace tidemark::image

@@ -2,6 +2,7 @@
 
 #include "base/try.hpp"
 #include "image/files/file_samples.hpp"
+#include "image/files/video_check.hpp"
 #include "image/files/video_encoding.hpp"
 #include "image/files/video_note.hpp"
 #include "image/files/video_planes.hpp"
@@ -99,6 +100,14 @@ tl::unexpected<Error> failure(const fs::path& video, const std::string& words) {
                                               why.empty() ? "ended without a word" : "says: " + why));
 }
 
+/// What is called ffmpeg in PATH may be something else, or broken.
+tl::unexpected<Error> no_video(const fs::path& video) {
+    return fail(ErrorCode::write,
+                fmt::format("cannot write '{}': ffmpeg said that it is done, and what it wrote is no such video: look at "
+                            "the ffmpeg in PATH",
+                            video.string()));
+}
+
 Result<ChildProcess> start(const Words& words, const fs::path& video) {
     auto encoder = ChildProcess::start(words, ChildProcess::Input::written, k_get_ffmpeg);
     if (!encoder)
@@ -156,6 +165,7 @@ Result<SegmentWriter> SegmentWriter::create(const OutputPath& segment, const fs:
 
 Result<void> SegmentWriter::push(const Image& image) {
     assert(image.channels == 4);
+    TRY(staged_.check_is_there());
     const auto hand_over = [&](std::span<const std::byte> bytes) -> Result<void> {
         return encoder_.write(bytes, words_) ? Result<void>() : failure(video_, words_);
     };
@@ -174,6 +184,9 @@ Result<void> SegmentWriter::push(const Image& image) {
 Result<void> SegmentWriter::finish(std::string_view note) {
     if (!ended_well(encoder_, words_))
         return failure(video_, words_);
+    TRY(staged_.check_is_there());
+    if (!is_video_of(staged_.path(), muxer_of(segment_extension(video_))))
+        return no_video(video_);
     const std::string file = TRY(read_file(staged_.path(), k_largest_segment));
     ::lseek(staged_.descriptor(), 0, SEEK_END);
     const std::string box = note_box(file, note);
@@ -196,6 +209,9 @@ Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile>
     const std::string list = list_of(segments, format.fps);
     if (!joiner.write(std::as_bytes(std::span(list)), words) || !ended_well(joiner, words))
         return failure(video.path(), words);
+    TRY(staged.check_is_there());
+    if (!is_video_of(staged.path(), muxer_of(encoding->extension)))
+        return no_video(video.path());
     return staged.commit();
 }
 

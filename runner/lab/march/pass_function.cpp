@@ -90,7 +90,7 @@ template <class Real>
 ir::PointEvaluator<Real> PassFunction::frame(const render::Renderer& renderer, size_t pass,
                                              const render::FrameInputs& inputs) const {
     ir::PointEvaluator<Real> evaluator(function_);
-    const render::UniformTable table(uniforms_of(function_), renderer.scene().knobs);
+    const render::UniformTable table(uniforms_of(function_), renderer.names_of(pass));
     table.hand_over(renderer.uniforms_of(pass, table, inputs, renderer.extent()),
                     [&](const gl::Uniform& uniform, std::span<const double> values, size_t) {
                         const Variable& variable = function_.variables[size_t(uniform.location)];

@@ -130,8 +130,9 @@ Json outcome_json(const WorkPrecisionSet& set, const Outcome& outcome) {
 }
 
 Json standard_json(const Standard& standard) {
+    const bool known = standard.uncertainty && standard.none.empty(); // no truth has no error
     Json json = {{"method", standard.method},
-                 {"uncertainty", standard.uncertainty ? json_number(*standard.uncertainty) : Json(nullptr)},
+                 {"uncertainty", known ? json_number(*standard.uncertainty) : Json(nullptr)},
                  {"self_check", standard.check},
                  {"no_truth_pixels", standard.blind}};
     if (!standard.none.empty())

@@ -31,7 +31,7 @@ class InputTextures {
 // A pass with all that it is drawn with.
 class DrawnPass {
     constructor(gl, pass, program, textures) {
-        Object.assign(this, {gl, program, index: 0, kind: pass.kind, discards: pass.discards});
+        Object.assign(this, {gl, program, index: 0, kind: pass.kind, discards: pass.discards, isForeign: pass.foreign});
         this.uniforms = reflect(gl, program);
         this.channels = pass.channels.map(channel => ({
             ...channel, names: [`iChannel${channel.number}`, `iCh${channel.number}.sampler`],
@@ -61,7 +61,10 @@ class DrawnPass {
                 facts[channel.number] = texture;
             this.#bind(channel, texture);
         }
-        for (const [name, [numbers, width]] of Object.entries(uniformsAt(moment, size, facts)))
+        const values = {...uniformsAt(moment, size, facts), ...(this.isForeign ? uniformsOfOthersAt(moment, size) : {})};
+        for (const {name, value} of moment.knobs) // may have a name that only another host gives away
+            values[name] = [value];
+        for (const [name, [numbers, width]] of Object.entries(values))
             this.set(name, numbers, width);
     }
 

@@ -43,12 +43,10 @@ function uniformsAt(moment, size, channels) {
     const {orbit, pan} = moment.camera.motion;
     const all = read => Array.from({length: 10}, (_, i) => channels[i] && read(channels[i]));
     const values = {
-        iResolution: [[width, height, 1]], resolution: [[width, height, 1]],
-        iTime: [[moment.time]], time: [[moment.time]], iTimeLow: [[moment.time - Math.fround(moment.time)]],
+        iResolution: [[width, height, 1]],
+        iTime: [[moment.time]], iTimeLow: [[moment.time - Math.fround(moment.time)]],
         iTimeDelta: [[moment.delta]], iFrame: [[moment.frame]], iFrameRate: [[moment.rate]],
-        iMouse: [mouse], mouse: [[mouse[0] / width, mouse[1] / height]],
-        u_resolution: [[width, height]], u_mouse: [[mouse[0], mouse[1]]], u_time: [[moment.time]],
-        u_delta: [[moment.delta]], u_frame: [[moment.frame]], u_date: [moment.date],
+        iMouse: [mouse],
         iMouseButton: [[Number(moment.mouse.down), Number(moment.mouse.right), 0, 0]],
         iDate: [moment.date], iSampleRate: [[SAMPLE_RATE]],
         iChannelTime: [all(texture => texture.time).map(time => time ?? 0), 1],
@@ -61,7 +59,15 @@ function uniformsAt(moment, size, channels) {
         values[`iCh${i}.time`] = values[`iChannel[${i}].time`] = [[texture.time ?? 0]];
         values[`iCh${i}.loaded`] = [[Number(texture.loaded)]];
     });
-    for (const {name, value} of moment.knobs) // may have a name that only the extension gives away
-        values[name] = [value];
     return values;
+}
+
+// What the VS Code extension, glslsandbox.com and glslViewer fill. A text of ShaderToy's that declares one has a zero.
+function uniformsOfOthersAt(moment, [width, height]) {
+    const mouse = moment.mouse.uniform;
+    return {
+        resolution: [[width, height, 1]], time: [[moment.time]], mouse: [[mouse[0] / width, mouse[1] / height]],
+        u_resolution: [[width, height]], u_mouse: [[mouse[0], mouse[1]]], u_time: [[moment.time]],
+        u_delta: [[moment.delta]], u_frame: [[moment.frame]], u_date: [moment.date],
+    };
 }

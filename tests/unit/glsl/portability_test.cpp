@@ -35,8 +35,8 @@ TEST(Portability, sound_texts_are_left_in_peace) {
 
 TEST(Portability, characters_that_are_none_of_glsls) {
     EXPECT_EQ(lint("float f = 1.0; // é is at home here\nvec4 g = vec4(\u201c1\u201d);\n"),
-              "a.glsl:2:15: warning: '\u201c' is no character of GLSL: it is taken for a blank\n"
-              "a.glsl:2:19: warning: '\u201d' is no character of GLSL: it is taken for a blank\n");
+              "a.glsl:2:15: warning: '\u201c' (U+201C) is no character of GLSL: names have letters a to z and A to Z, digits and _\n"
+              "a.glsl:2:19: warning: '\u201d' (U+201D) is no character of GLSL: names have letters a to z and A to Z, digits and _\n");
 }
 
 TEST(Portability, words_that_the_site_reserves) {
