@@ -4,6 +4,7 @@
 #include "glsl/assemble.hpp"
 #include "glsl/driver_log.hpp"
 #include "glsl/pass_reading.hpp"
+#include "glsl/portability.hpp"
 
 #include <fmt/format.h>
 
@@ -19,14 +20,15 @@ void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found
         });
     };
     for (const scene::Pass& pass : scene.passes) {
-        const text::MappedText source = glsl::PassReading(scene, pass).site_source();
+        const glsl::PassReading reading(scene, pass);
+        const text::MappedText source = reading.site_source();
         const auto linked = gl::Program::link(glsl::vertex_shader(glsl::Version::es_300), source.text());
         if (linked)
             continue;
         auto refusals = glsl::parse_driver_log(linked.error(), source);
         std::erase_if(refusals, [&](const glsl::DriverMessage& refusal) {
-            return refusal.follows || refusal.diagnostic.severity != Severity::error ||
-                   is_known(refusal.diagnostic.where);
+            return refusal.follows || glsl::is_taken_by_the_site(reading, refusal.diagnostic.message) ||
+                   refusal.diagnostic.severity != Severity::error || is_known(refusal.diagnostic.where);
         });
         for (auto& [refusal, follows] : refusals) {
             if (refusal.where.file.empty())

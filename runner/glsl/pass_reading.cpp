@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <unordered_set>
 
 namespace tidemark::glsl {
@@ -125,15 +126,48 @@ std::optional<SourceLocation> PassReading::place_of(std::string_view name) const
     return text_.lines().locate(found->line, found->column);
 }
 
+bool PassReading::defines_function(std::string_view name) const {
+    const std::vector<size_t>& code = preprocessed_.code;
+    for (size_t i = 1; i + 1 < code.size(); ++i) {
+        const text::Token& before = tokens_[code[i - 1]];
+        if (tokens_[code[i]].is(name) && tokens_[code[i + 1]].is("(") &&
+            before.kind == text::TokenKind::identifier && !before.is("return") && !before.is("else"))
+            return true;
+    }
+    return false;
+}
+
 text::MappedText PassReading::site_source() const {
     const Dialect site{Version::es_300, MainPlace::last, false, channel_kinds(scene_, pass_)};
     text::MappedText source;
     source.append_generated(site_prologue(pass_, facts_, site));
     source.append_generated(scene::knobs_as_constants(scene_));
-    source.append(scene_.common);
-    source.append(pass_.text);
+    text::MappedText author = text_;
+    author.apply(forms_that_only_the_site_takes());
+    source.append(author);
     source.append_generated("\n" + wrapper(pass_, facts_, site).main);
     return source;
+}
+
+/// What the site's compiler takes and Mesa's does not: `packed` as a name, directives among the arguments of
+/// a macro, a `#` in a macro that nobody calls.
+std::vector<text::Edit> PassReading::forms_that_only_the_site_takes() const {
+    constexpr std::string_view k_word = "packed";
+    std::vector<text::Edit> edits = settle_arguments(tokens_, preprocessed_);
+    const auto is_used = [&](std::string_view name) {
+        return std::ranges::count_if(tokens_, [&](const text::Token& token) { return token.is(name); }) > 1;
+    };
+    for (const text::Token& token : tokens_)
+        if (token.kind == text::TokenKind::identifier && token.is(k_word))
+            edits.push_back({token.begin, token.end(), fmt::format("tidemark_{}", k_word)});
+    for (const MacroLine& macro : preprocessed_.macros) {
+        const auto body = std::span(tokens_).subspan(macro.body, macro.end - macro.body);
+        if (std::ranges::any_of(body, [](const text::Token& token) { return token.is("#"); }) &&
+            !is_used(macro.name))
+            edits.push_back({tokens_[macro.hash].begin, tokens_[macro.end - 1].end(), {}});
+    }
+    std::ranges::sort(edits, {}, &text::Edit::begin);
+    return edits;
 }
 
 /// The condition that leaves out an entry point which stands in the text.
@@ -176,8 +210,8 @@ bool PassReading::entry_lacks_parameters() const {
            (pass_.kind == scene::PassKind::image || pass_.kind == scene::PassKind::buffer);
 }
 
-/// In code, and in the macros that it names: what stands in comments and in parts that are left out is nobody's
-/// business.
+/// In code, and in the macros that it names: what stands in comments and in parts that are left out is
+/// nobody's business.
 std::vector<Diagnostic> PassReading::strange_characters() const {
     const std::string& text = text_.text();
     if (std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
@@ -185,9 +219,11 @@ std::vector<Diagnostic> PassReading::strange_characters() const {
     std::vector<Diagnostic> found;
     const auto look_at = [&](size_t i) {
         const text::Token& token = tokens_[i];
-        if (const auto strange = strange_character(std::string_view(text).substr(token.begin)); strange && !strange->blank)
-            found.push_back({text_.lines().locate(token.line, token.column), Severity::error,
-                             fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange))});
+        if (const auto strange = strange_character(std::string_view(text).substr(token.begin));
+            strange && !strange->blank)
+            found.push_back(
+                {text_.lines().locate(token.line, token.column), Severity::error,
+                 fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange))});
     };
     std::unordered_set<std::string_view> names;
     for (const size_t i : preprocessed_.code) {

@@ -32,17 +32,19 @@ public:
     std::vector<Dialect> dialects(Precision precision) const;
     /// Fails (ErrorCode::load) where something has no double form; never in single precision.
     Result<Assembly> assemble(const Dialect& dialect) const;
-    /// What no dialect can cure: characters that GLSL does not have, no entry point, or several (tabs pasted into
-    /// one file), each with its place.
+    /// What no dialect can cure: characters that GLSL does not have, no entry point, or several (tabs pasted
+    /// into one file), each with its place.
     std::vector<Diagnostic> problems() const;
-    /// Whether some of it a driver would draw all the same, and wrong: characters that are taken for blanks, a
-    /// mainImage that takes a vector alone (Mesa 25 links the call of ours, and draws black).
+    /// Whether some of it a driver would draw all the same, and wrong: characters that are taken for blanks,
+    /// a mainImage that takes a vector alone (Mesa 25 links the call of ours, and draws black).
     bool may_be_drawn_wrong() const { return entry_lacks_parameters() || !strange_characters().empty(); }
     /// Where a name of the text stands first.
     std::optional<SourceLocation> place_of(std::string_view name) const;
     /// What the site would compile of it: GLSL ES 3.00, and nothing of the text changed. Knobs are the
     /// constants that `export` makes of them.
     text::MappedText site_source() const;
+    /// Announces or defines one of that name.
+    bool defines_function(std::string_view name) const;
     /// A `main` of the author's own: the text may be another host's.
     bool has_own_main() const { return !facts_.mains.empty(); }
     /// Whether pixels may keep what was drawn there before.
@@ -50,6 +52,7 @@ public:
 
 private:
     bool entry_lacks_parameters() const;
+    std::vector<text::Edit> forms_that_only_the_site_takes() const;
     std::vector<Diagnostic> strange_characters() const;
     std::optional<Diagnostic> shut_out(std::string_view entry) const;
 

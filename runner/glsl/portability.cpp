@@ -4,10 +4,13 @@
 #include "glsl/syntax/preprocess.hpp"
 #include "glsl/syntax/strange_character.hpp"
 #include "glsl/syntax/words.hpp"
+#include "scene/host_uniforms.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace tidemark::glsl {
@@ -40,6 +43,17 @@ constexpr OldName k_other_functions[] = {
     {"isKeyReleased", "a buffer that remembers isKeyDown"},
 };
 
+/// Functions of GLSL ES 3.00 that Chromium's compiler lets a text define again, with any parameters (asked in
+/// November 2026); all others it refuses.
+constexpr std::string_view k_may_be_defined_again[] = {"mix",         "texelFetch", "texture",
+                                                       "textureGrad", "textureLod", "textureSize"};
+
+/// Where texels are looked up beside a place; WebGL 2 has offsets from -8 to 7.
+constexpr std::string_view k_with_offset[] = {
+    "textureOffset",     "texelFetchOffset",     "textureLodOffset",     "textureProjOffset",
+    "textureGradOffset", "textureProjLodOffset", "textureProjGradOffset"};
+constexpr int k_least_offset = -8, k_largest_offset = 7;
+
 /// What to write in GLSL ES 3.00 instead of a function that it does not have; empty: it has it, or none is
 /// known.
 std::string_view instead_of(std::string_view function) {
@@ -70,6 +84,7 @@ public:
     void know(const Linter& other) {
         defined_.insert(other.defined_.begin(), other.defined_.end());
         macros_.insert(other.macros_.begin(), other.macros_.end());
+        opens_.insert(other.opens_.begin(), other.opens_.end());
     }
 
     std::vector<Diagnostic> run() {
@@ -107,6 +122,11 @@ private:
         for (const MacroLine& macro : read_.macros) {
             defined_.insert(macro.name);
             macros_.insert(macro.name);
+            int opens = 0;
+            for (size_t i = macro.body; i < macro.end; ++i)
+                opens += tokens_[i].is("{") ? 1 : tokens_[i].is("}") ? -1 : 0;
+            if (opens != 0)
+                opens_[macro.name] = opens;
         }
         for (at_ = 0; at_ < read_.code.size(); ++at_) {
             if (is_word(0) && is_word(-1) && peek(1).is("(") && !peek(-1).is("return") &&
@@ -143,8 +163,10 @@ private:
     /// Of a character of several bytes each is a token: the first one speaks for it.
     void character(const Token& token) {
         if (const auto strange = strange_character(std::string_view(text_.text()).substr(token.begin)))
-            say(token, strange->blank ? fmt::format("{} stands in the code: the site refuses it; write a space", strange->name)
-                                      : fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange)));
+            say(token,
+                strange->blank
+                    ? fmt::format("{} stands in the code: the site refuses it; write a space", strange->name)
+                    : fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange)));
     }
 
     void number(const Token& token) {
@@ -164,10 +186,18 @@ private:
 
     void code() {
         const Token& token = peek(0);
+        if (token.is("{") && braces_ == 0)
+            in_function_ = peek(-1).is(")");
         if (token.is("{"))
             ++braces_;
         else if (token.is("}"))
             braces_ = std::max(0, braces_ - 1);
+        else if (const auto macro = opens_.find(token.text); macro != opens_.end())
+            braces_ = std::max(0, braces_ + macro->second);
+        else if (token.is(";") && braces_ == 0 && stands_for_nothing())
+            say(token, "; by itself: GLSL ES 3.00 takes none outside of functions; leave it out");
+        else if (token.is("=") && !peek(1).is("=") && is_call_before())
+            say(token, "a value is given to what a function returned: GLSL ES 3.00 refuses that");
         if (token.is("{") && peek(-1).is("="))
             say(token,
                 "= {: GLSL ES 3.00 has no lists in braces; write a constructor, as in float[](1.0, 2.0)");
@@ -179,12 +209,125 @@ private:
             calls();
         }
         declaration();
+        if (braces_ == 0)
+            global();
+        if (token.text.find("__") != token.text.npos || token.text.starts_with("webgl_") ||
+            token.text.starts_with("_webgl_"))
+            reserved_name();
+        if (is_one_of(token.text, k_with_offset))
+            offset();
         if (common_ && is_one_of(token.text, k_image_uniforms) && !defined_.contains(token.text) &&
             !is_local())
             say(token,
                 fmt::format("{}: the site compiles Common by itself, where this is not declared; hand it "
                             "over as a parameter, or use a macro",
                             token.text));
+    }
+
+    /// Between a function, another semicolon or the beginning, and the semicolon.
+    bool stands_for_nothing() const {
+        return at_ == 0 || peek(-1).is(";") || (peek(-1).is("}") && in_function_);
+    }
+
+    /// `h() = 1.0`; `(x) = 1.0` is fine, and of a macro nobody knows.
+    bool is_call_before() const {
+        if (!peek(-1).is(")"))
+            return false;
+        long i = -1;
+        for (int depth = 0; !peek(i).text.empty(); --i) {
+            depth += peek(i).is(")") ? 1 : peek(i).is("(") ? -1 : 0;
+            if (depth == 0)
+                break;
+        }
+        const Token& name = peek(i - 1);
+        return name.kind == TokenKind::identifier && !is_keyword(name.text) && !macros_.contains(name.text) &&
+               braces_ > 0;
+    }
+
+    void reserved_name() {
+        const Token& token = peek(0);
+        if (!macros_.contains(token.text) && !token.text.starts_with("__") &&
+            reported_.insert(token.text).second)
+            say(token,
+                fmt::format(
+                    "{}: names with two underscores in a row, or webgl_ in front, are reserved on the site",
+                    token.text));
+    }
+
+    /// `uniform vec3 iResolution;`, `float iTime = 0.0;`, `out vec4 second;`, `vec4 mainImage(…)`, outside of
+    /// functions.
+    void global() {
+        const Token& token = peek(0);
+        const bool first_word = peek(-1).is(";") || peek(-1).is("}") || at_ == 0 || peek(-1).is(")");
+        if (token.is("out") && first_word && !in_parentheses())
+            say(token, "out: the site has an output of its own, and takes no second one");
+        const bool declares = is_word(-1) && !peek(-1).is("struct") &&
+                              (peek(1).is(";") || peek(1).is("=") || peek(1).is(",") || peek(1).is("["));
+        const bool is_of_the_site =
+            is_one_of(token.text, k_image_uniforms) || token.is("iDate") || token.is("iSampleRate") ||
+            std::ranges::find(scene::k_channel_structs, token.text) != scene::k_channel_structs.end();
+        if (declares && is_of_the_site && !common_ && !in_parameters())
+            say(token, fmt::format("{}: the site declares it already; leave this out", token.text));
+        if (token.is("mainImage") && peek(1).is("(") && is_word(-1))
+            signature();
+    }
+
+    /// Among the parameters of a function, where any name may stand.
+    bool in_parameters() const {
+        int depth = 0;
+        for (long i = -1; !peek(i).text.empty() && !peek(i).is(";") && !peek(i).is("}"); --i)
+            depth += peek(i).is("(") ? 1 : peek(i).is(")") ? -1 : 0;
+        return depth > 0;
+    }
+
+    /// The site announces `void mainImage(out vec4, in vec2)`, and a definition must agree with it.
+    void signature() {
+        constexpr std::string_view k_precisions[] = {"highp", "mediump", "lowp"};
+        std::string parameters;
+        long i = 2;
+        for (; !peek(i).text.empty() && !peek(i).is(")") && !peek(i).is("("); ++i)
+            if (!is_one_of(peek(i).text, k_precisions))
+                parameters += std::string(peek(i).text) + " ";
+        if (!peek(i).is(")") || !peek(i + 1).is("{"))
+            return; // announced, or something else
+        const auto matches = [&](std::string_view qualifiers, std::string_view rest) {
+            return rest.starts_with(qualifiers);
+        };
+        const size_t comma = parameters.find(", ");
+        const std::string_view first = std::string_view(parameters).substr(0, comma);
+        const std::string_view second =
+            comma == parameters.npos ? std::string_view() : std::string_view(parameters).substr(comma + 2);
+        const bool same = peek(-1).is("void") && matches("out vec4 ", first) &&
+                          (matches("in vec2 ", second) || matches("vec2 ", second));
+        if (!same && !has_macro(parameters))
+            say(peek(0), "mainImage: the site announces void mainImage(out vec4 fragColor, in vec2 "
+                         "fragCoord), and takes no other");
+    }
+
+    bool has_macro(std::string_view words) const {
+        return std::ranges::any_of(macros_,
+                                   [&](std::string_view name) { return words.find(name) != words.npos; });
+    }
+
+    /// `textureOffset(iChannel0, uv, ivec2(9, 0))`.
+    void offset() {
+        int depth = 0;
+        for (long i = 1; !peek(i).text.empty() && !peek(i).is(";"); ++i) {
+            depth += peek(i).is("(") ? 1 : peek(i).is(")") ? -1 : 0;
+            if (depth == 0)
+                return;
+            if (depth != 1 || !peek(i).text.starts_with("ivec") || !peek(i + 1).is("("))
+                continue;
+            for (long k = i + 2; !peek(k).text.empty() && !peek(k).is(")"); ++k) {
+                if (!is_whole_number(peek(k)) || peek(k).text.size() > 6)
+                    continue;
+                const int sign = peek(k - 1).is("-") ? -1 : 1;
+                const int value = sign * std::stoi(std::string(peek(k).text));
+                if (value < k_least_offset || value > k_largest_offset)
+                    say(peek(k), fmt::format("{}: offsets go from {} to {} on the site", value,
+                                             k_least_offset, k_largest_offset));
+            }
+        }
     }
 
     /// A parameter or variable that hides the uniform.
@@ -211,7 +354,8 @@ private:
         if (!instead.empty() && !defined_.contains(token.text))
             say(token, fmt::format("{}: not in GLSL ES 3.00; write {}", token.text, instead));
         const BuiltinFunction* const builtin = find_builtin(token.text);
-        if (braces_ == 0 && is_word(-1) && builtin && builtin->in_es())
+        if (braces_ == 0 && is_word(-1) && builtin && builtin->in_es() &&
+            !is_one_of(token.text, k_may_be_defined_again))
             say(token,
                 fmt::format("{}: GLSL ES 3.00 forbids to define a built-in function again; choose another "
                             "name",
@@ -260,7 +404,9 @@ private:
     bool common_;
     size_t at_ = 0;
     int braces_ = 0;
-    std::unordered_set<std::string_view> defined_; ///< macros and functions
+    bool in_function_ = false;                        ///< the last brace outside of others opened a body
+    std::unordered_map<std::string_view, int> opens_; ///< braces of macros that do not close them
+    std::unordered_set<std::string_view> defined_;    ///< macros and functions
     std::unordered_set<std::string_view> macros_;
     std::unordered_set<std::string_view> reported_;
     std::unordered_set<std::string_view> hidden_;
@@ -279,6 +425,17 @@ std::vector<Diagnostic> portability_lint(const scene::Scene& scene) {
             all.push_back(std::move(diagnostic));
     }
     return all;
+}
+
+bool is_taken_by_the_site(const PassReading& reading, std::string_view message) {
+    if (message.find("formal parameter lacks a name") != message.npos)
+        return true;
+    return std::ranges::any_of(k_may_be_defined_again, [&](std::string_view name) {
+        if (!reading.defines_function(name))
+            return false;
+        return message.find(fmt::format("`{}(", name)) != message.npos ||
+               message.find(fmt::format("`{}'", name)) != message.npos;
+    });
 }
 
 } // namespace tidemark::glsl

@@ -221,7 +221,10 @@ std::string site_prologue(const scene::Pass& pass, const Survey& survey, const D
     std::string text = version_lines(dialect, {});
     text += "#define HW_PERFORMANCE 1\n";
     text += site_uniforms(pass, survey, dialect, scene::k_site_channel_count);
-    return text + output(survey, dialect);
+    text += output(survey, dialect);
+    if (survey.wants("st_assert"))
+        text += k_assertions;
+    return text;
 }
 
 Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& dialect) {

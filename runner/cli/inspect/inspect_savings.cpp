@@ -86,10 +86,6 @@ Result<std::vector<Answer>> ask(const SavingsOptions& options, const scene::Scen
         return answers;
     auto bench = TRY(lab::SavingsBench::create(scene, target));
     for (const Question& question : questions) {
-        if (left_of(options, watch) <= 0) {
-            answers.push_back({question.name, {.cut = "--budget is spent"}});
-            continue;
-        }
         const auto saving = TRY(bench.measure(
             question.things, left_of(options, watch) / double(questions.size() - answers.size())));
         answers.push_back({question.name, saving});

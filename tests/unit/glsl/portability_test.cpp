@@ -35,8 +35,65 @@ TEST(Portability, sound_texts_are_left_in_peace) {
 
 TEST(Portability, characters_that_are_none_of_glsls) {
     EXPECT_EQ(lint("float f = 1.0; // é is at home here\nvec4 g = vec4(\u201c1\u201d);\n"),
-              "a.glsl:2:15: warning: '\u201c' (U+201C) is no character of GLSL: names have letters a to z and A to Z, digits and _\n"
-              "a.glsl:2:19: warning: '\u201d' (U+201D) is no character of GLSL: names have letters a to z and A to Z, digits and _\n");
+              "a.glsl:2:15: warning: '\u201c' (U+201C) is no character of GLSL: names have letters a to z "
+              "and A to Z, digits and _\n"
+              "a.glsl:2:19: warning: '\u201d' (U+201D) is no character of GLSL: names have letters a to z "
+              "and A to Z, digits and _\n");
+}
+
+TEST(Portability, what_stands_outside_of_functions) {
+    const std::string image = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }";
+    EXPECT_EQ(
+        lint(image + ";\n"),
+        "a.glsl:1:57: warning: ; by itself: GLSL ES 3.00 takes none outside of functions; leave it out\n");
+    EXPECT_EQ(lint("struct S { float a; };\nconst float b[2] = float[](1., 2.);\n" + image + "\n"), "");
+    EXPECT_EQ(lint("uniform vec3 iResolution;\n" + image + "\n"),
+              "a.glsl:1:14: warning: iResolution: the site declares it already; leave this out\n");
+    EXPECT_EQ(lint("float f(float iTime) { float iDate = iTime; return iDate; }\n" + image + "\n"), "");
+    EXPECT_EQ(lint("float iCh0 = 1.0;\n" + image + "\n"),
+              "a.glsl:1:7: warning: iCh0: the site declares it already; leave this out\n");
+    for (const char* second : {"out vec4 second;\n", "layout(location = 1) out vec4 second;\n"})
+        EXPECT_NE(lint(second + image + "\n")
+                      .find("out: the site has an output of its own, and takes no second one"),
+                  std::string::npos);
+    EXPECT_EQ(lint("#define Main void mainImage(out vec4 Q, in vec2 U) { Q = vec4(0);\nMain\n  float i = "
+                   "float(iFrame);\n  Q.r = i;\n}\n"),
+              "");
+}
+
+TEST(Portability, main_image_is_as_the_site_announces_it) {
+    const auto said = [](const std::string& head) { return lint(head + " { c = vec4(1.0); }\n"); };
+    for (const char* good :
+         {"void mainImage(out vec4 c, in vec2 p)", "void mainImage(out vec4 c, vec2 p)",
+          "void mainImage(out highp vec4 c, vec2)", "#define V vec2\nvoid mainImage(out vec4 c, V p)"})
+        EXPECT_EQ(said(good), "") << good;
+    for (const char* bad :
+         {"vec4 mainImage(out vec4 c, in vec2 p)", "void mainImage(inout vec4 c, in vec2 p)",
+          "void mainImage(out vec4 c, const in vec2 p)"})
+        EXPECT_NE(said(bad).find(
+                      "mainImage: the site announces void mainImage(out vec4 fragColor, in vec2 fragCoord)"),
+                  std::string::npos)
+            << bad;
+}
+
+TEST(Portability, names_and_values_that_the_site_refuses) {
+    EXPECT_EQ(lint("void f() { float a__b = 1.0; a__b += 1.0; }\n"),
+              "a.glsl:1:18: warning: a__b: names with two underscores in a row, or webgl_ in front, are "
+              "reserved on the site\n");
+    EXPECT_EQ(lint("#define A__B 1.0\nvoid f() { float a = A__B; int v = __VERSION__; }\n"), "");
+    EXPECT_EQ(
+        lint("float h() { return 1.0; }\nvoid f() { h() = 2.0; }\n"),
+        "a.glsl:2:16: warning: a value is given to what a function returned: GLSL ES 3.00 refuses that\n");
+    EXPECT_EQ(
+        lint(
+            "void f() { float a; (a) = 2.0; for (int i = 0; i < 3; ++i) a = 1.0; if (a == 1.0) a = 2.0; }\n"),
+        "");
+    EXPECT_EQ(lint("void f(vec2 p) { textureOffset(iChannel0, p, ivec2(9, -8)); textureOffset(iChannel0, p, "
+                   "ivec2(-9, 7)); }\n"),
+              "a.glsl:1:52: warning: 9: offsets go from -8 to 7 on the site\n"
+              "a.glsl:1:96: warning: -9: offsets go from -8 to 7 on the site\n");
+    EXPECT_EQ(
+        lint("mat4 mix(mat4 a, mat4 b, float t) { return a; }\nfloat texture(vec2 p) { return p.x; }\n"), "");
 }
 
 TEST(Portability, words_that_the_site_reserves) {
