@@ -91,9 +91,15 @@ public:
         note_definitions();
         for (const size_t hash : read_.directives)
             directive(hash);
+        std::unordered_set<std::string_view> named;
+        for (const size_t i : read_.code)
+            named.insert(tokens_[i].text);
         for (const MacroLine& macro : read_.macros)
-            for (size_t i = macro.body; i < macro.end; ++i)
+            for (size_t i = macro.body; i < macro.end; ++i) {
                 everywhere(tokens_[i]);
+                if (i + 1 < macro.end && tokens_[i + 1].is("(") && named.contains(macro.name))
+                    missing_function(tokens_[i]);
+            }
         for (at_ = 0; at_ < read_.code.size(); ++at_)
             code();
         std::stable_sort(found_.begin(), found_.end(),
@@ -346,13 +352,17 @@ private:
         say(token, fmt::format("{}: a reserved word in GLSL ES 3.00; choose another name", token.text));
     }
 
+    void missing_function(const Token& called) {
+        const std::string_view instead = instead_of(called.text);
+        if (!instead.empty() && !defined_.contains(called.text))
+            say(called, fmt::format("{}: not in GLSL ES 3.00; write {}", called.text, instead));
+    }
+
     void calls() {
         const Token& token = peek(0);
         if (!peek(1).is("("))
             return;
-        const std::string_view instead = instead_of(token.text);
-        if (!instead.empty() && !defined_.contains(token.text))
-            say(token, fmt::format("{}: not in GLSL ES 3.00; write {}", token.text, instead));
+        missing_function(token);
         const BuiltinFunction* const builtin = find_builtin(token.text);
         if (braces_ == 0 && is_word(-1) && builtin && builtin->in_es() &&
             !is_one_of(token.text, k_may_be_defined_again))

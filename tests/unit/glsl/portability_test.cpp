@@ -76,6 +76,13 @@ TEST(Portability, main_image_is_as_the_site_announces_it) {
             << bad;
 }
 
+TEST(Portability, functions_that_a_macro_calls) {
+    EXPECT_EQ(lint("#define KEY(i) texture2D(iChannel0, vec2(i, 0.5)).x\nvoid f() { float a = KEY(1.0); }\n"),
+              "a.glsl:1:16: warning: texture2D: not in GLSL ES 3.00; write texture\n");
+    EXPECT_EQ(lint("#define KEY(i) texture2D(iChannel0, vec2(i, 0.5)).x\nvoid f() { }\n"), "")
+        << "nobody calls it";
+}
+
 TEST(Portability, names_and_values_that_the_site_refuses) {
     EXPECT_EQ(lint("void f() { float a__b = 1.0; a__b += 1.0; }\n"),
               "a.glsl:1:18: warning: a__b: names with two underscores in a row, or webgl_ in front, are "
