@@ -203,7 +203,8 @@ pid_t StagedFile::other_maker_of(const OutputPath& output) {
     if (!place || place->stream)
         return 0;
     std::error_code error;
-    for (fs::directory_iterator entry(folder_of(place->path), error), end; !error && entry != end; entry.increment(error)) {
+    for (fs::directory_iterator entry(folder_of(place->path), error), end; !error && entry != end;
+         entry.increment(error)) {
         const fs::path name = entry->path().filename();
         const PartOf part = part_of(name.string());
         if (part.process > 0 && part.process != ::getpid() && part.stem == output.path().stem() &&

@@ -210,12 +210,13 @@ int run_or_throw(int argc, const char* const* argv) {
     return code;
 }
 
-/// The stack grows as far as the limit says in the moment when it does. False where it may not grow far enough
-/// for a driver's compiler, nor for libraries.
+/// The stack grows as far as the limit says in the moment when it does. False where it may not grow far
+/// enough for a driver's compiler, nor for libraries.
 bool make_room_on_the_stack() {
     constexpr rlim_t k_usual = rlim_t{8} << 20, k_least = rlim_t{1} << 20;
     rlimit limit{};
-    if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= k_usual) // RLIM_INFINITY is the largest number
+    if (::getrlimit(RLIMIT_STACK, &limit) != 0 ||
+        limit.rlim_cur >= k_usual) // RLIM_INFINITY is the largest number
         return true;
     limit.rlim_cur = std::min(k_usual, limit.rlim_max);
     ::setrlimit(RLIMIT_STACK, &limit);
@@ -237,7 +238,9 @@ int run(int argc, const char* const* argv) {
     occupy_standard_descriptors();
     end_by_last_resort();
     if (!make_room_on_the_stack())
-        return report({ErrorCode::no_memory, "the stack is limited to less than 1 MiB: allow 8 MiB (ulimit -s 8192)", {}});
+        return report({ErrorCode::no_memory,
+                       "the stack is limited to less than 1 MiB: allow 8 MiB (ulimit -s 8192)",
+                       {}});
     try {
         return run_or_throw(argc, argv);
     } catch (...) {

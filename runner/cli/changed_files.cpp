@@ -126,7 +126,8 @@ tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> 
         text += difference(file);
     constexpr int k_attempts = 100;
     for (int i = 1; i <= k_attempts; ++i) {
-        const std::string name = fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
+        const std::string name =
+            fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
         std::error_code ignored;
         if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
             continue; // somebody's
@@ -143,11 +144,14 @@ Result<void> write_files(const std::vector<ChangedFile>& files) {
     for (const ChangedFile& file : files) {
         const auto now = read_text_file(file.file);
         if (!now || *now != file.before)
-            return with_difference({ErrorCode::write, fmt::format("'{}' was changed meanwhile: nothing is written", file.file), {}},
+            return with_difference({ErrorCode::write,
+                                    fmt::format("'{}' was changed meanwhile: nothing is written", file.file),
+                                    {}},
                                    files);
     }
     for (size_t i = 0; i < files.size(); ++i)
-        if (auto written = replace_text(OutputPath::typed(files[i].file), files[i].before, files[i].after); !written)
+        if (auto written = replace_text(OutputPath::typed(files[i].file), files[i].before, files[i].after);
+            !written)
             return with_difference(std::move(written.error()), std::span(files).subspan(i));
     return {};
 }

@@ -112,8 +112,8 @@ public:
     }
 
 private:
-    /// The first request is the child's to follow, even where somebody has stopped it; the second one is not left
-    /// to it alone.
+    /// The first request is the child's to follow, even where somebody has stopped it; the second one is not
+    /// left to it alone.
     void note_request(int signal) {
         constexpr std::chrono::seconds k_last_moment(1);
         if (signal != SIGINT && signal != SIGTERM && signal != SIGHUP && signal != SIGQUIT)

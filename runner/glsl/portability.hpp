@@ -14,8 +14,8 @@ namespace tidemark::glsl {
 /// One warning for each place, in the order of the scene's passes (Common first), with what to write instead.
 std::vector<Diagnostic> portability_lint(const scene::Scene& scene);
 
-/// Whether a driver's message is about what the site takes: a parameter without a name, or a function of GLSL's
-/// own that the text defines again.
+/// Whether a driver's message is about what the site takes: a parameter without a name, or a function of
+/// GLSL's own that the text defines again.
 bool is_taken_by_the_site(const PassReading& reading, std::string_view message);
 
 } // namespace tidemark::glsl

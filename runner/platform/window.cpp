@@ -207,7 +207,8 @@ std::vector<InputEvent> Window::wait(double seconds) {
         glfwWaitEventsTimeout(std::max(seconds, 0.0));
     else
         glfwWaitEvents();
-    if (seconds > 0) { // a window that sleeps has nothing to do with the display: whether there still is one is asked
+    if (seconds >
+        0) { // a window that sleeps has nothing to do with the display: whether there still is one is asked
         int width = 0, height = 0;
         glfwGetFramebufferSize(state_->window.get(), &width, &height);
     }

@@ -55,8 +55,10 @@ WhenDisplayIsLost::WhenDisplayIsLost(std::function<void(std::string_view what)> 
     if (!xlib)
         return;
     at_the_end = std::move(act);
-    const auto set_loss_handler = reinterpret_cast<LossHandler (*)(LossHandler)>(::dlsym(xlib, "XSetIOErrorHandler"));
-    const auto set_error_handler = reinterpret_cast<ErrorHandler (*)(ErrorHandler)>(::dlsym(xlib, "XSetErrorHandler"));
+    const auto set_loss_handler =
+        reinterpret_cast<LossHandler (*)(LossHandler)>(::dlsym(xlib, "XSetIOErrorHandler"));
+    const auto set_error_handler =
+        reinterpret_cast<ErrorHandler (*)(ErrorHandler)>(::dlsym(xlib, "XSetErrorHandler"));
     if (set_loss_handler)
         set_loss_handler(handle_loss);
     if (set_error_handler)

@@ -7,8 +7,9 @@
 
 namespace tidemark::platform {
 
-/// While it lives `act` is called when that happens, once, on whichever thread notices, with what has happened
-/// in words; the process ends when it returns. There must be a Window. Wayland asks the window to close instead.
+/// While it lives `act` is called when that happens, once, on whichever thread notices, with what has
+/// happened in words; the process ends when it returns. There must be a Window. Wayland asks the window to
+/// close instead.
 class WhenDisplayIsLost {
 public:
     explicit WhenDisplayIsLost(std::function<void(std::string_view what)> act);

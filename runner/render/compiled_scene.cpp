@@ -114,7 +114,8 @@ Result<void> CompiledScene::compile() {
         reflections[i] = linked.program.reflection();
         if (linked.discards)
             discarding.push_back(i);
-        UniformTable uniforms(linked.program.reflection(), names_of(i, linked.dialect), options_.extras.uniforms);
+        UniformTable uniforms(linked.program.reflection(), names_of(i, linked.dialect),
+                              options_.extras.uniforms);
         passes_[i] = CompiledPass{std::move(linked), std::move(uniforms)};
     }
     plan_ = plan_frame(scene_, reflections, shown_, options_.extras, discarding);

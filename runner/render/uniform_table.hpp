@@ -19,8 +19,8 @@ namespace tidemark::render {
 class UniformTable {
 public:
     UniformTable() = default;
-    /// Of a scene, and whose names it goes by beside ours: a text of ShaderToy's that declares `time` has a zero
-    /// there on the site, and has one here.
+    /// Of a scene, and whose names it goes by beside ours: a text of ShaderToy's that declares `time` has a
+    /// zero there on the site, and has one here.
     struct Names {
         const std::vector<scene::Knob>& knobs;
         bool other_hosts = false; ///< those of the VS Code extension, glslsandbox.com and glslViewer

@@ -1,6 +1,7 @@
 """Capture that is stopped: by Ctrl-C, which finishes the frame in hand, and by force."""
 import contextlib
 import fcntl
+import os
 import re
 import shutil
 import signal
@@ -9,6 +10,7 @@ import time
 import unittest
 
 from support import png
+from support.lsp_client import Client
 from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
 
 SHADER = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(sin(dot(p, vec2(91.7, 3.1))) * 4311.3)); }\n"
@@ -80,6 +82,23 @@ class Interrupted(ProgramTest):
                 self.assertEqual(self.files(), {"wave.glsl", *self.expect_whole_pictures()})
                 for name in self.files():
                     (self.folder / name).unlink()
+
+    def test_a_child_that_somebody_has_stopped_follows_too(self):
+        running = self.start()
+        with open(f"/proc/{running.pid}/task/{running.pid}/children", encoding="ascii") as file:
+            child = int(file.read().split()[0])
+        os.kill(child, signal.SIGSTOP)
+        running.send_signal(signal.SIGTERM)
+        running.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(running.returncode, 130)
+        self.expect_whole_pictures()
+
+    def test_the_language_server_ends_as_every_command(self):
+        for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(stop=stop.name):
+                client = Client()  # it has answered
+                client.process.send_signal(stop)
+                self.assertEqual(client.process.wait(timeout=TIME_LIMIT), 130)
 
     def test_ignored_hang_up_is_ignored(self):
         self.write("wave.glsl", SHADER)

@@ -83,7 +83,8 @@ private:
     image::PictureFormat format_of_sheet() const;
     Result<void> open_output();
     Result<void> close_output();
-    Result<void> encode(std::string what, std::optional<double> limit, const std::function<Result<void>()>& work);
+    Result<void> encode(std::string what, std::optional<double> limit,
+                        const std::function<Result<void>()>& work);
     void rescue_output();
 
     const CapturePlan& plan_;
@@ -101,7 +102,7 @@ private:
     std::optional<SegmentedVideo> video_;
     std::atomic<bool> in_encoder_ = false; ///< the main thread is at `video_`
     const Interrupt* interrupt_ = nullptr; ///< during `run`
-    std::optional<Sheet> sheet_; ///< none of these: frames go to standard output
+    std::optional<Sheet> sheet_;           ///< none of these: frames go to standard output
     LoopCheck loop_;
     FrameRecords records_;
     Watchdog watchdog_; ///< its thread may use all that stands before it

@@ -38,7 +38,8 @@ DrawnFrame FramesAhead::take() {
     waiting_.pop_front();
     std::optional<Watchdog::Watch> watch;
     if (!ring_.ready())
-        watch.emplace(dog_, Watchdog::frame_task(oldest.record.frame, limit_, std::max(oldest.begun, last_taken_)));
+        watch.emplace(dog_,
+                      Watchdog::frame_task(oldest.record.frame, limit_, std::max(oldest.begun, last_taken_)));
     DrawnFrame frame{std::move(oldest.record), renderer_.take(ring_)};
     last_taken_ = Watchdog::Clock::now();
     return frame;

@@ -109,8 +109,10 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
     Moment moment = TRY(read_moment(options.like, *metadata));
     const Extent size = moment.sequence.state.extent;
     if (!options.frames.size && std::max(size.width, size.height) > scene::k_largest_stated_side)
-        return refuse(options.like, fmt::format("it says that it has {}x{} pixels; a file may ask for {} on a side: give --size",
-                                                size.width, size.height, scene::k_largest_stated_side));
+        return refuse(
+            options.like,
+            fmt::format("it says that it has {}x{} pixels; a file may ask for {} on a side: give --size",
+                        size.width, size.height, scene::k_largest_stated_side));
     std::error_code ignored;
     if (scene.path.empty() && !fs::exists(moment.scene.path, ignored))
         return refuse(options.like,

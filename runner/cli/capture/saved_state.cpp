@@ -22,7 +22,7 @@ constexpr std::string_view k_ending = ".state";
 constexpr int k_version_of_format = 1;
 constexpr size_t k_checksum = 64;
 constexpr uint64_t k_most_floats = uint64_t{1} << 40; ///< more than any disk holds
-constexpr size_t k_longest_header = size_t{1} << 20; ///< bytes
+constexpr size_t k_longest_header = size_t{1} << 20;  ///< bytes
 
 std::span<const std::byte> bytes_of(std::string_view text) {
     return std::as_bytes(std::span(text));
@@ -148,12 +148,13 @@ std::optional<SavedState> read_state(const fs::path& file,
         const Json header = parse_json(line);
         const auto size = size_of(header, line.size() + 1);
         if (header.at("tidemark_state") != k_version_of_format ||
-            header.at("fingerprint") != fingerprint_of(header.at("frame").get<int>()).text() || size > most_bytes ||
-            size != fs::file_size(file))
+            header.at("fingerprint") != fingerprint_of(header.at("frame").get<int>()).text() ||
+            size > most_bytes || size != fs::file_size(file))
             return std::nullopt;
         const auto bytes = read_file(file, size);
         const auto content = bytes ? without_checksum(*bytes) : std::nullopt;
-        return content && content->starts_with(line) ? parse(header, content->substr(line.size() + 1)) : std::nullopt;
+        return content && content->starts_with(line) ? parse(header, content->substr(line.size() + 1))
+                                                     : std::nullopt;
     } catch (const Json::exception&) { // a stranger's
         return std::nullopt;
     } catch (const fs::filesystem_error&) { // it has gone

@@ -37,8 +37,8 @@ void remove_states(const OutputName& output);
 /// On disk, when it comes back (ErrorCode::write).
 Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint);
 
-/// What is in the file, if it is whole, no larger than `most_bytes`, and `fingerprint_of` its frame is the one
-/// it was written with. No more is read of another than its first line.
+/// What is in the file, if it is whole, no larger than `most_bytes`, and `fingerprint_of` its frame is the
+/// one it was written with. No more is read of another than its first line.
 std::optional<SavedState> read_state(const std::filesystem::path& file,
                                      const std::function<Fingerprint(int frame)>& fingerprint_of,
                                      uint64_t most_bytes);

@@ -3,7 +3,6 @@
 #include "base/try.hpp"
 
 #include <fmt/format.h>
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,9 +63,11 @@ Result<void> SegmentedVideo::claim() {
     const OutputPath mark = plan_.output.of_frame(0).beside(
         plan_.shard ? fmt::format(".shard-{}", plan_.shard->index) : ".capture");
     const auto refuse = [&](pid_t other) {
-        return fail(ErrorCode::write, fmt::format("cannot write '{}': process {} is making it: wait for its end, or give another "
-                                                  "name (-o)",
-                                                  plan_.output.pattern().string(), other));
+        return fail(
+            ErrorCode::write,
+            fmt::format("cannot write '{}': process {} is making it: wait for its end, or give another "
+                        "name (-o)",
+                        plan_.output.pattern().string(), other));
     };
     pid_t other = StagedFile::other_maker_of(mark);
     for (auto waited = k_pause; other != 0 && waited < k_patience; waited += k_pause) {

@@ -2,8 +2,8 @@
 // it one segment at most.
 #pragma once
 
-#include "cli/capture/capture_plan.hpp"
 #include "base/file.hpp"
+#include "cli/capture/capture_plan.hpp"
 #include "cli/fingerprint.hpp"
 #include "image/files/video_writer.hpp"
 

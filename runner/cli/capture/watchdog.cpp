@@ -94,7 +94,8 @@ void Watchdog::speak_or_end() {
         end(fmt::format("gave up {} after {:.3g} s (--timeout)", work_->task.what, seconds),
             exit_code(ErrorCode::timed_out));
     if (work_->is_unwanted_for_long(now))
-        end(fmt::format("gave up {} after {:.3g} s: interrupted", work_->task.what, seconds), Interrupt::k_exit_code);
+        end(fmt::format("gave up {} after {:.3g} s: interrupted", work_->task.what, seconds),
+            Interrupt::k_exit_code);
     if (now >= work_->next_word) {
         say(fmt::format("still {} after {:.0f} s; {}", work_->task.what, seconds, work_->task.how_to_end));
         work_->next_word = now + k_next_word;

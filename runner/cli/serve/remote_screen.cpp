@@ -53,8 +53,9 @@ Result<std::unique_ptr<RemoteScreen>> RemoteScreen::open(Settings settings) {
     auto context = TRY(platform::HeadlessContext::create());
     const int limit = gl::query_capabilities().largest_target;
     if (const Extent size = settings.extent; std::max(size.width, size.height) > limit)
-        return fail(ErrorCode::usage, fmt::format("--size {}x{}: this driver draws at most {} pixels on a side", size.width,
-                                                  size.height, limit));
+        return fail(ErrorCode::usage,
+                    fmt::format("--size {}x{}: this driver draws at most {} pixels on a side", size.width,
+                                size.height, limit));
     std::unique_ptr<RemoteScreen> screen(new RemoteScreen(std::move(settings), std::move(context)));
     TRY(screen->listen());
     return screen;

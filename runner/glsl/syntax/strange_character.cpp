@@ -16,15 +16,16 @@ struct Lookalike {
 };
 
 constexpr Lookalike k_lookalikes[] = {
-    {0x00b7, "*"}, {0x00d7, "*"}, {0x00f7, "/"},  {0x2010, "-"},  {0x2011, "-"},  {0x2013, "-"}, {0x2014, "-"},
-    {0x2044, "/"}, {0x2212, "-"}, {0x2215, "/"},  {0x2217, "*"},  {0x2260, "!="}, {0x2264, "<="}, {0x2265, ">="},
-    {0xff08, "("}, {0xff09, ")"}, {0xff0b, "+"},  {0xff0c, ","},  {0xff0d, "-"},  {0xff0e, "."}, {0xff1b, ";"},
-    {0xff1d, "="}, {0xff5b, "{"}, {0xff5d, "}"}};
+    {0x00b7, "*"},  {0x00d7, "*"},  {0x00f7, "/"}, {0x2010, "-"}, {0x2011, "-"}, {0x2013, "-"},
+    {0x2014, "-"},  {0x2044, "/"},  {0x2212, "-"}, {0x2215, "/"}, {0x2217, "*"}, {0x2260, "!="},
+    {0x2264, "<="}, {0x2265, ">="}, {0xff08, "("}, {0xff09, ")"}, {0xff0b, "+"}, {0xff0c, ","},
+    {0xff0d, "-"},  {0xff0e, "."},  {0xff1b, ";"}, {0xff1d, "="}, {0xff5b, "{"}, {0xff5d, "}"}};
 
 /// Spaces of other widths, marks that steer the direction of writing, and the mark of byte order.
 bool is_blank(int code) {
-    return code == 0x85 || code == 0xa0 || code == 0xad || code == 0x1680 || (code >= 0x2000 && code <= 0x200f) ||
-           (code >= 0x2028 && code <= 0x202f) || (code >= 0x205f && code <= 0x2064) || code == 0x3000 || code == 0xfeff;
+    return code == 0x85 || code == 0xa0 || code == 0xad || code == 0x1680 ||
+           (code >= 0x2000 && code <= 0x200f) || (code >= 0x2028 && code <= 0x202f) ||
+           (code >= 0x205f && code <= 0x2064) || code == 0x3000 || code == 0xfeff;
 }
 
 } // namespace

@@ -183,7 +183,8 @@ bool is_video_of(const std::filesystem::path& path, std::string_view muxer) {
     const FileBytes file(path);
     const std::string head = file.at(0, 12);
     if (muxer == "mp4" || muxer == "mov")
-        return head.substr(std::min<size_t>(4, head.size())).starts_with("ftyp") && has_all_boxes(file, "moov");
+        return head.substr(std::min<size_t>(4, head.size())).starts_with("ftyp") &&
+               has_all_boxes(file, "moov");
     const bool of_its_kind = muxer == "gif"    ? head.starts_with("GIF8")
                              : muxer == "webp" ? head.starts_with("RIFF") && head.ends_with("WEBP")
                                                : head.starts_with("\x1a\x45\xdf\xa3"sv);

@@ -102,10 +102,12 @@ tl::unexpected<Error> failure(const fs::path& video, const std::string& words) {
 
 /// What is called ffmpeg in PATH may be something else, or broken.
 tl::unexpected<Error> no_video(const fs::path& video) {
-    return fail(ErrorCode::write,
-                fmt::format("cannot write '{}': ffmpeg said that it is done, and what it wrote is no such video: look at "
-                            "the ffmpeg in PATH",
-                            video.string()));
+    return fail(
+        ErrorCode::write,
+        fmt::format(
+            "cannot write '{}': ffmpeg said that it is done, and what it wrote is no such video: look at "
+            "the ffmpeg in PATH",
+            video.string()));
 }
 
 Result<ChildProcess> start(const Words& words, const fs::path& video) {

@@ -41,8 +41,9 @@ TEST(CuredFiles, AFileThatChangedMeanwhileIsLeft) {
     ASSERT_TRUE(write_file(OutputPath::typed(file), "x = z;\n"));
     const auto written = write_files(*changed);
     ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().message, "'" + file + "' was changed meanwhile: nothing is written; what it would have been is in '" +
-                                           file + ".diff'");
+    EXPECT_EQ(written.error().message,
+              "'" + file + "' was changed meanwhile: nothing is written; what it would have been is in '" +
+                  file + ".diff'");
     EXPECT_EQ(read_text_file(file).value_or(""), "x = z;\n");
     const std::string difference = fmt::format("--- {0}\n+++ {0}\n@@ -1 +1 @@\n-x = y;\n+x = (y);\n", file);
     EXPECT_EQ(read_text_file(file + ".diff").value_or(""), difference);

@@ -39,10 +39,12 @@ TEST(Watchdog, work_that_nobody_wants_any_more_has_a_moment_to_end) {
         {
             Watchdog dog;
             { // it ends by itself
-                const Watchdog::Watch watch(dog, {.what = "encoding", .limit_seconds = {}, .unwanted = [] { return true; }});
+                const Watchdog::Watch watch(
+                    dog, {.what = "encoding", .limit_seconds = {}, .unwanted = [] { return true; }});
                 std::this_thread::sleep_for(500ms);
             }
-            const Watchdog::Watch watch(dog, {.what = "encoding", .limit_seconds = {}, .unwanted = [] { return true; }});
+            const Watchdog::Watch watch(
+                dog, {.what = "encoding", .limit_seconds = {}, .unwanted = [] { return true; }});
             std::this_thread::sleep_for(60s);
             ::_exit(1);
         },

@@ -132,7 +132,8 @@ TEST_F(AudienceTest, those_who_wrestle_for_the_helm_drown_nobody) {
     sent.clear();
     for (int i = 0; i < 10000; ++i)
         EXPECT_TRUE(audience.said(ViewerId(1 + i % 2), R"({"do":"steer"})"));
-    EXPECT_THAT(sent[3].size(), testing::AllOf(testing::Ge(1u), testing::Lt(256u))) << "what a connection holds";
+    EXPECT_THAT(sent[3].size(), testing::AllOf(testing::Ge(1u), testing::Lt(256u)))
+        << "what a connection holds";
 }
 
 TEST_F(AudienceTest, waits_while_somebody_is_ready) {
