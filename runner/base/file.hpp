@@ -50,7 +50,7 @@ public:
     ~StagedFile();
 
     const std::filesystem::path& path() const { return temporary_; }
-    /// Fails (ErrorCode::write) where somebody has taken it, or its folder, away.
+    /// Fails (ErrorCode::write) where the file or its folder was removed or renamed.
     Result<void> check_is_there() const;
     /// Open for reading and writing, until `commit`.
     int descriptor() const { return descriptor_; }

@@ -296,15 +296,12 @@ private:
                 parameters += std::string(peek(i).text) + " ";
         if (!peek(i).is(")") || !peek(i + 1).is("{"))
             return; // announced, or something else
-        const auto matches = [&](std::string_view qualifiers, std::string_view rest) {
-            return rest.starts_with(qualifiers);
-        };
         const size_t comma = parameters.find(", ");
         const std::string_view first = std::string_view(parameters).substr(0, comma);
         const std::string_view second =
             comma == parameters.npos ? std::string_view() : std::string_view(parameters).substr(comma + 2);
-        const bool same = peek(-1).is("void") && matches("out vec4 ", first) &&
-                          (matches("in vec2 ", second) || matches("vec2 ", second));
+        const bool same = peek(-1).is("void") && first.starts_with("out vec4 ") &&
+                          (second.starts_with("in vec2 ") || second.starts_with("vec2 "));
         if (!same && !has_macro(parameters))
             say(peek(0), "mainImage: the site announces void mainImage(out vec4 fragColor, in vec2 "
                          "fragCoord), and takes no other");

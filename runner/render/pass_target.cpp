@@ -1,5 +1,6 @@
 #include "render/pass_target.hpp"
 
+#include "base/try.hpp"
 #include "gl/capabilities.hpp"
 
 #include <fmt/format.h>
@@ -10,12 +11,16 @@
 
 namespace tidemark::render {
 
-Result<PassTarget> PassTarget::create(Extent extent, GLenum internal_format, const TargetPlan& plan) {
+Result<void> check_size(Extent extent) {
     const int limit = gl::query_capabilities().largest_target;
-    if (std::max(extent.width, extent.height) > limit)
-        return fail(ErrorCode::usage,
-                    fmt::format("--size {}x{}: this driver draws at most {} pixels on a side", extent.width,
-                                extent.height, limit));
+    if (std::max(extent.width, extent.height) <= limit)
+        return {};
+    return fail(ErrorCode::usage, fmt::format("--size {}x{}: this driver draws at most {} pixels on a side",
+                                              extent.width, extent.height, limit));
+}
+
+Result<PassTarget> PassTarget::create(Extent extent, GLenum internal_format, const TargetPlan& plan) {
+    TRY(check_size(extent));
     PassTarget target;
     target.plan_ = plan;
     for (int i = 0; i < (plan.two_textures ? 2 : 1); ++i) {

@@ -17,6 +17,9 @@ namespace tidemark::render {
 inline constexpr int k_cube_side = 1024;
 
 /// One texture, or two that take turns when a pass reads itself. Both start as zeros.
+/// Fails (ErrorCode::usage) where the driver of the current context draws no picture of that size.
+Result<void> check_size(Extent extent);
+
 class PassTarget {
 public:
     PassTarget() = default;

@@ -119,6 +119,14 @@ class Record(LiveTest):
                 self.assertEqual(view.wait_for_end(), 130)
                 self.assertRegex((self.folder / f"{stop.name}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
 
+    def drag_once(self, view: View, paused: bool) -> None:
+        view.save_key = "ctrl+s"
+        if paused: # it sleeps until something happens
+            view.key("ctrl+space")
+            view.wait_for_title(" - paused at ")
+        view.drag((100, 50), (60, 70))
+        view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 60)
+
     def test_a_display_that_dies_leaves_what_was_recorded(self):
         self.write("a.glsl", SCENE)
         for paused in (False, True):
@@ -127,12 +135,7 @@ class Record(LiveTest):
                 self.addCleanup(screen.close)
                 view = View(screen, self.folder, "a.glsl", *SIZE, "--record", f"{paused}.txt")
                 self.addCleanup(view.close)
-                view.save_key = "ctrl+s"
-                if paused: # it sleeps until something happens
-                    view.key("ctrl+space")
-                    view.wait_for_title(" - paused at ")
-                view.drag((100, 50), (60, 70))
-                view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 60)
+                self.drag_once(view, paused)
                 screen.server.kill()
                 self.assertEqual(view.wait_for_end(), 77)
                 self.assertTrue(view.stderr().endswith("tidemark: error: the display is gone\n"), view.stderr())
@@ -143,12 +146,7 @@ class Record(LiveTest):
         for paused in (False, True):
             with self.subTest(paused=paused):
                 view = self.view("a.glsl", *SIZE, "--record", f"{paused}.txt")
-                view.save_key = "ctrl+s"
-                if paused: # it sleeps until something happens
-                    view.key("ctrl+space")
-                    view.wait_for_title(" - paused at ")
-                view.drag((100, 50), (60, 70))
-                view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 60)
+                self.drag_once(view, paused)
                 view.screen.xdotool("windowclose", str(view.window))
                 self.assertEqual(view.wait_for_end(), 77)
                 self.assertTrue(view.stderr().endswith("tidemark: error: another program has destroyed the window\n"), view.stderr())

@@ -377,7 +377,7 @@ void Capture::rescue_output() {
         say(words);
 }
 
-/// What encodes may hang, and is no work of ours that could be finished: Ctrl-C ends it.
+/// Waits for ffmpeg, which may hang: Ctrl-C ends the process then.
 Result<void> Capture::encode(std::string what, std::optional<double> limit,
                              const std::function<Result<void>()>& work) {
     const Watchdog::Watch watch(watchdog_, {.what = std::move(what),

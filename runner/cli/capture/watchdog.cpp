@@ -14,7 +14,7 @@ namespace {
 /// A person waits so long without a word, and hears one so often from then on.
 constexpr std::chrono::seconds k_first_word{3};
 constexpr std::chrono::seconds k_next_word{10};
-/// So often it is asked whether work is still wanted, and so long it may go on when it is not.
+/// Between two questions whether work is still wanted, and how long it may go on once it is not.
 constexpr std::chrono::milliseconds k_look{200};
 constexpr std::chrono::seconds k_unwanted{2};
 

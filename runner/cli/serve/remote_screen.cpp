@@ -2,14 +2,13 @@
 
 #include "base/try.hpp"
 #include "cli/view/wall_clock.hpp"
-#include "gl/capabilities.hpp"
+#include "render/pass_target.hpp"
 #include "serve/page.hpp"
 #include "serve/plug_in.hpp"
 #include "serve/state_text.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace tidemark::cli {
@@ -51,11 +50,7 @@ RemoteScreen::~RemoteScreen() {
 
 Result<std::unique_ptr<RemoteScreen>> RemoteScreen::open(Settings settings) {
     auto context = TRY(platform::HeadlessContext::create());
-    const int limit = gl::query_capabilities().largest_target;
-    if (const Extent size = settings.extent; std::max(size.width, size.height) > limit)
-        return fail(ErrorCode::usage,
-                    fmt::format("--size {}x{}: this driver draws at most {} pixels on a side", size.width,
-                                size.height, limit));
+    TRY(render::check_size(settings.extent));
     std::unique_ptr<RemoteScreen> screen(new RemoteScreen(std::move(settings), std::move(context)));
     TRY(screen->listen());
     return screen;

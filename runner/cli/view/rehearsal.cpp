@@ -29,7 +29,7 @@ constexpr int k_look_ms = 50;
 constexpr size_t k_longest_message = 1 << 16;
 /// How the window's question begins, what it says where it wants no answer any more, and that all is well.
 constexpr char k_try = '?', k_enough = '!', k_well = '\n';
-/// Behind a question: the texts that are held, each with a mark in front and a zero behind.
+/// A question lists the values: each is a mark, `NAME=VALUE` and a zero byte.
 constexpr char k_set = 's', k_define = 'd';
 
 std::string question(const HeldTexts& held) {

@@ -13,7 +13,7 @@
 
 namespace tidemark::cli {
 
-/// What the window's request holds against the files at the moment: `NAME=VALUE` each.
+/// Values of --set and --define at the moment, `NAME=VALUE` each.
 struct HeldTexts {
     std::vector<std::string> sets;
     std::vector<std::string> defines;
