@@ -2,6 +2,7 @@
 
 #include "base/file.hpp"
 #include "base/try.hpp"
+#include "cli/project_source.hpp"
 #include "glsl/overrides.hpp"
 #include "lab/placed_number.hpp"
 #include "scene/knob_defaults.hpp"
@@ -56,18 +57,17 @@ std::vector<glsl::Cure> in_file(std::span<const glsl::Cure> cures, const std::st
 
 } // namespace
 
-Result<void> can_be_changed(const scene::Scene& scene) {
-    if (scene.file.extension() == ".json")
-        return fail(ErrorCode::write,
-                    fmt::format("'{}' is no text of its own: `tidemark import` makes files of "
-                                "it that can be changed",
-                                scene.file.string()));
-    return {};
+Result<scene::Scene> load_editable(SceneRequest& request) {
+    if (request.path.extension() == ".json") {
+        const scene::Scene scene = TRY(load_as_written(request));
+        if (scene.file.extension() == ".json") // a folder's scene.json stands for the folder
+            request.path = TRY(import_beside(scene.file));
+    }
+    return load(request);
 }
 
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
                                                const std::vector<scene::Setting>& settings) {
-    TRY(can_be_changed(scene));
     std::vector<ChangedFile> changed;
     for (const auto& [file, changes] : TRY(changes_by_file(scene, settings))) {
         const std::string text = TRY(read_text_file(file));

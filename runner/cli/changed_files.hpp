@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "cli/requests.hpp"
 #include "glsl/cure/cure.hpp"
 #include "scene/scene.hpp"
 #include "scene/setting.hpp"
@@ -19,13 +20,14 @@ struct ChangedFile {
     std::string before, after;
 };
 
-/// Every file in which a knob or a definition would get another value. Fails (ErrorCode::write) where that
-/// is not a text of its own, as in a project's JSON.
+/// Loads a scene whose files are to be edited. A project's JSON is first imported into the folder beside it
+/// that is named like it, and `request` then names that folder; fails (ErrorCode::write) if the folder holds
+/// other files, or files that were edited since an import.
+Result<scene::Scene> load_editable(SceneRequest& request);
+
+/// Every file in which a knob or a definition would get another value.
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
                                                const std::vector<scene::Setting>& settings);
-
-/// Fails (ErrorCode::write) where a scene is no text of its own, as in a project's JSON.
-Result<void> can_be_changed(const scene::Scene& scene);
 
 /// The files of a scene with one cure after the other. Each file is read once: what is written meanwhile does
 /// not move the words that cures stand around.

@@ -81,14 +81,14 @@ Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool
     return {};
 }
 
-Result<int> import(const ImportOptions& options) {
-    const auto project = TRY(find_project(options.source));
+/// Writes the project's files into the folder and returns their names.
+Result<std::vector<std::string>> write_project(const FoundProject& project, const OutputPath& output,
+                                               bool force) {
     const auto files = TRY(scene::split_project(project.json, project.from));
-    const OutputPath output = OutputPath::typed_or(options.folder, project.name).sparing(project.read);
     TRY(make_folder(output));
     const fs::path& folder = output.path();
     const Receipt old = read_receipt(folder);
-    TRY(prepare_folder(folder, old, options.force));
+    TRY(prepare_folder(folder, old, force));
     for (const scene::ProjectFile& file : files)
         TRY((output / file.name).place());
 
@@ -105,14 +105,28 @@ Result<int> import(const ImportOptions& options) {
             fs::remove(folder / name, ignored);
     TRY(write_file(output / k_receipt, receipt));
     say(fmt::format("wrote {}: {}", folder.string(), fmt::join(names, ", ")));
+    return names;
+}
+
+Result<int> import(const ImportOptions& options) {
+    const auto project = TRY(find_project(options.source));
+    const OutputPath output = OutputPath::typed_or(options.folder, project.name).sparing(project.read);
+    const auto names = TRY(write_project(project, output, options.force));
     if (!options.json)
         return 0;
     const nlohmann::ordered_json report = {
-        {"tidemark", k_version}, {"folder", folder.string()}, {"files", names}};
+        {"tidemark", k_version}, {"folder", output.path().string()}, {"files", names}};
     return put(dump(report, 2) + "\n").map([] { return 0; });
 }
 
 } // namespace
+
+Result<fs::path> import_beside(const fs::path& json) {
+    const auto project = TRY(find_project({json.string(), {}, {}}));
+    fs::path folder = json.parent_path() / project.name;
+    TRY(write_project(project, OutputPath::typed(folder).sparing(project.read), false));
+    return folder;
+}
 
 void add_import(Command app, Action& chosen) {
     auto options = std::make_shared<ImportOptions>();

@@ -25,4 +25,9 @@ struct FoundProject {
 
 Result<FoundProject> find_project(const ProjectSource& source);
 
+/// Imports the project of a JSON file into the folder beside it that is named like it, and returns the
+/// folder. Prints what it writes. Fails (ErrorCode::write) if that folder holds other files, or files edited
+/// since an import.
+Result<std::filesystem::path> import_beside(const std::filesystem::path& json);
+
 } // namespace tidemark::cli

@@ -112,11 +112,10 @@ Result<void> show(const SimplifyOptions& options, const lab::Simplified& found) 
     return options.json ? put_json(found, offer, options.write && !offer.files.empty()) : Result<void>();
 }
 
-Result<int> simplify(const SimplifyOptions& options) {
+Result<int> simplify(SimplifyOptions options) {
     Interrupt interrupt;
-    const scene::Scene scene = TRY(load(options.scene));
+    const scene::Scene scene = TRY(load_editable(options.scene));
     lab::SimplifyRequest request = TRY(request_of(options, scene));
-    TRY(can_be_changed(scene));
     request.can_be_written = [files = CuredFiles()](const glsl::Cure& cure) mutable {
         return files.with_last(std::span(&cure, 1)).has_value();
     };

@@ -92,17 +92,11 @@ Result<std::vector<ChangedFile>> offer(const TuneOptions& options, const scene::
                                        const lab::Tuned& tuned) {
     if (tuned.chosen.empty())
         return std::vector<ChangedFile>{};
-    auto files = with_settings(scene, tuned.chosen);
-    if (!files && options.write)
-        return files;
-    if (!files) {
-        say(files.error().message);
-        return std::vector<ChangedFile>{};
-    }
-    for (const ChangedFile& file : *files)
+    auto files = TRY(with_settings(scene, tuned.chosen));
+    for (const ChangedFile& file : files)
         say(difference(file));
     if (options.write)
-        TRY(write_files(*files));
+        TRY(write_files(files));
     return files;
 }
 
@@ -119,9 +113,9 @@ Result<void> put_json(const lab::Tuned& tuned, const std::vector<ChangedFile>& f
                          {"study", parse_json(lab::to_json(tuned.findings.set))}}));
 }
 
-Result<int> tune(const TuneOptions& options) {
+Result<int> tune(TuneOptions options) {
     Interrupt interrupt;
-    const scene::Scene scene = TRY(load(options.scene));
+    const scene::Scene scene = TRY(load_editable(options.scene));
     const OutputPath folder =
         OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-tune"))
             .sparing(files_read(scene));

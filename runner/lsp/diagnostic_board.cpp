@@ -1,8 +1,10 @@
 #include "lsp/diagnostic_board.hpp"
 
+#include "lsp/json_place.hpp"
 #include "text/token_at.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace tidemark::lsp {
 namespace fs = std::filesystem;
@@ -34,7 +36,10 @@ public:
         : documents_(documents), main_(std::move(main)), encoding_(encoding) {}
 
     fs::path file_of(const SourceLocation& where) const {
-        return where.file.empty() ? main_ : canonical_name(where.file);
+        if (where.file.empty())
+            return main_;
+        const auto pass = pass_in_json(where.file);
+        return canonical_name(pass ? pass->json : where.file);
     }
 
     Json to_json(const Diagnostic& diagnostic, Level level) {
@@ -51,11 +56,26 @@ public:
     }
 
 private:
+    struct PassInJson {
+        std::string json, pass;
+    };
+
+    /// Takes the name of a project's pass apart: `waves.json:Buffer A`.
+    static std::optional<PassInJson> pass_in_json(const std::string& place) {
+        const size_t colon = place.rfind(".json:");
+        if (colon == place.npos)
+            return std::nullopt;
+        return PassInJson{place.substr(0, colon + 5), place.substr(colon + 6)};
+    }
+
     Json range(const SourceLocation& where) {
         const fs::path file = file_of(where);
         auto text = texts_.find(file);
         if (text == texts_.end())
             text = texts_.emplace(file, documents_.text_of(file).value_or("")).first;
+        if (const auto pass = pass_in_json(where.file))
+            if (const auto line = find_code_line(text->second, pass->pass, where.line))
+                return Lines(text->second, encoding_).range(line->first, line->second);
         return range_of(where, text->second, encoding_);
     }
 

@@ -48,11 +48,18 @@ bool reads(const fs::path& scene, const fs::path& file, const Documents& documen
                                          [&](const fs::path& each) { return canonical_name(each) == file; });
 }
 
+bool is_project(const fs::path& file, const Documents& documents) {
+    if (file.extension() != ".json")
+        return false;
+    const auto text = documents.text_of(file);
+    return text && text->find("\"renderpass\"") != text->npos;
+}
+
 /// By its own text alone.
 std::optional<fs::path> own_scene(const fs::path& file, const Documents& documents) {
     if (is_folder_scene(file.parent_path(), file))
         return file.parent_path();
-    if (has_entry_point(file, documents))
+    if (is_project(file, documents) || has_entry_point(file, documents))
         return file;
     return std::nullopt;
 }

@@ -85,7 +85,10 @@ Answer Session::ask(const std::string& method, const Json& params) const {
     const AnswerTo question = find_question(method);
     if (!question)
         return refuse(ErrorNumber::method_not_found, fmt::format("there is no {} here", method));
-    return workspace_of(params).and_then([&](const Workspace& workspace) {
+    return workspace_of(params).and_then([&](const Workspace& workspace) -> Answer {
+        if (workspace.files.front().path.extension() ==
+            ".json") // its text is no GLSL: it has diagnostics alone
+            return Json();
         return question({workspace, params, documents_, encoding_});
     });
 }

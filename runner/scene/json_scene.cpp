@@ -15,7 +15,9 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 
 Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) {
-    auto bytes = TRY(read_file(path));
+    const Bounds bounds(path.parent_path(), options.allow_outside, &options.unsaved);
+    const std::string* unsaved = bounds.unsaved(path);
+    const std::string bytes = unsaved ? *unsaved : TRY(read_file(path));
     const CodeIn code = path.filename() == k_project_file ? CodeIn::files : CodeIn::json;
     auto project = TRY(read_project(bytes, path.string(), code));
     // `tidemark view folder/scene.json` means the folder.
@@ -27,7 +29,6 @@ Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) 
     Scene scene;
     scene.file = path;
     scene.files.push_back(path);
-    const Bounds bounds(path.parent_path(), options.allow_outside);
     const MediaFolder media(options.media);
     auto drafts =
         TRY(draft_project(scene, {project, names, path.parent_path(), media, bounds, path.string()}));

@@ -206,12 +206,18 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         self.assertEqual(found["cures"], [])
         self.assertIn("no known cure makes it better", found["remain"][0]["why"])
 
-    def test_a_project_is_to_be_imported_first(self):
-        self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
-        self.succeed("export", "a.glsl", "-o", "a.json")
-        self.expect_failure(["check", "--fix", "a.json"], 4,
-                            "tidemark: error: 'a.json' is no text of its own: `tidemark import` makes files of it that can "
-                            "be changed")
+    def test_a_project_is_imported_beside_itself(self):
+        self.write("p/a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
+        self.succeed("export", "p/a.glsl", "-o", "p/b.json")
+        before = (self.folder / "p/b.json").read_text()
+        self.assertIn(b"p/b/image.glsl", self.succeed("check", "--fix", "p/b.json", *BUDGET).stdout)
+        self.succeed("check", "--fix", "--write", "p/b.json", *BUDGET)  # the folder is as it was written
+        self.assertIn("max(", (self.folder / "p/b/image.glsl").read_text())
+        self.assertEqual((self.folder / "p/b.json").read_text(), before)
+        self.assertEqual(self.succeed("check", "--fix", "p/b", *BUDGET).stdout, b"nothing to mend\n")
+        for command in (["check", "--fix"], ["simplify"], ["tune", "--vary", "k=1,2"]):
+            self.expect_failure_like([*command, "p/b.json"], 4,
+                                     "tidemark: error: 'p/b/image.glsl' was not written by import, or has changed since.*")
 
     def test_it_stops_at_once(self):
         """There are more faults to come when the first is told."""

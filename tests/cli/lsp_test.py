@@ -1,4 +1,5 @@
 """tidemark lsp: each capability, by a scripted editor."""
+import json
 import pathlib
 import re
 import shutil
@@ -47,6 +48,26 @@ class Lsp(ProgramTest):
     def setUp(self) -> None:
         super().setUp()
         self.folder = self.folder.resolve()
+
+    def test_a_projects_json_has_diagnostics_in_its_code(self):
+        passes = [{"name": "Common", "type": "common", "code": "float half_of(float x) { return 0.5 * x; }\n", "inputs": [],
+                   "outputs": []},
+                  {"name": "Image", "type": "image", "inputs": [], "outputs": [{"id": "37", "channel": 0}],
+                   "code": "// \"code\": é\r\nvoid mainImage(out vec4 c, vec2 p) {\r\n    c = vec4(half_of(q));\r\n}"}]
+        text = json.dumps({"ver": "0.1", "info": {"id": "1", "name": "code"}, "renderpass": passes}, indent=1)
+        scene = self.write("p.json", text)
+        client = self.client()
+        client.open(scene)
+        found = client.diagnostics(scene, lambda found: found)
+        self.assertEqual(len(found), 1)
+        self.assertIn("q' undeclared", found[0]["message"])
+        start, end = found[0]["range"]["start"], found[0]["range"]["end"]
+        self.assertEqual(text.splitlines()[start["line"]][start["character"]:end["character"]],
+                         "    c = vec4(half_of(q));")
+        self.assertIsNone(client.request("textDocument/hover", {"textDocument": {"uri": scene.as_uri()},
+                                                                "position": start})["result"])
+        client.change(scene, text.replace("half_of(q)", "half_of(p.x)"), 2)
+        client.diagnostics(scene, lambda found: not found)
 
     def client(self, *arguments: str, **options) -> Client:
         client = Client(*arguments, **options)

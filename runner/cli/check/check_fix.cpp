@@ -178,12 +178,11 @@ std::string why_cut(const ForkedResult& run, double budget) {
 
 } // namespace
 
-Result<int> check_fix(const FixOptions& options) {
+Result<int> check_fix(FixOptions options) {
     if (!(options.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
-    const scene::Scene scene = TRY(load(options.scene));
+    const scene::Scene scene = TRY(load_editable(options.scene));
     const lab::Promises promises = TRY(promises_of(options.scene, scene));
-    TRY(can_be_changed(scene));
     std::optional<OutputPath> folder;
     if (!options.output.empty()) {
         folder = OutputPath::typed(options.output).sparing(files_read(scene));

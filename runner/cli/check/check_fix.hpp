@@ -20,6 +20,6 @@ struct FixOptions {
 };
 
 /// Exit code 1 where something was found that no cure is offered for.
-Result<int> check_fix(const FixOptions& options);
+Result<int> check_fix(FixOptions options);
 
 } // namespace tidemark::cli
